@@ -13,7 +13,8 @@ fn check(tree: &BspTree, viewpoint: Viewpoint) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     assert!(tree.back_to_front(viewpoint).map(|fragment| fragment.index()).eq(order.clone()));
-    let reverse = tree.front_to_back(viewpoint).map(|fragment| fragment.index());
+    let reverse =
+        tree.order(viewpoint).front_to_back().into_iter().map(|fragment| fragment.index());
     assert!(reverse.eq(order.iter().rev().copied()));
     order.sort_unstable();
     assert!(order.into_iter().eq(0..tree.len() as u32));

@@ -211,7 +211,7 @@ impl Plot {
     fn paint(&self) -> Result<Canvas, binspace::Error> {
         let mut canvas = Canvas::new(SIZE, [0.97, 0.97, 0.95]);
         let viewpoint = Viewpoint::direction(-TOWARDS_EYE);
-        for shape in self.overlay.back_to_front(&self.tree, viewpoint)? {
+        for shape in self.overlay.order(&self.tree, viewpoint)? {
             match shape {
                 Shape::Fragment(fragment) => {
                     let outline: Vec<DVec2> = fragment.vertices().map(project).collect();

@@ -46,8 +46,8 @@ pages! {
     moving
     /// A tree a frame: [`FrameBuilder`](crate::FrameBuilder), and the module `layers`.
     frames
-    /// Orders of the visible part of a scene: [`Culling`](crate::Culling), [`Bounds`](crate::Bounds),
-    /// [`Frustum`](crate::Frustum), and the module `occlusion`.
+    /// Orders of the visible part of a scene: [`Culling`](crate::Culling), [`Frustum`](crate::Frustum),
+    /// [`Order::walk`](crate::Order::walk), and the module `occlusion`.
     culling
     /// Geometric queries: [`Ray`](crate::Ray), [`Hit`](crate::Hit), [`Location`](crate::Location).
     rays

@@ -10,7 +10,7 @@
 //! | [`FrameBuilder`] | trees built anew every frame |
 //! | [`Viewpoint`] | an eye or a direction, for which a tree is ordered |
 //! | [`Fragment`], [`Node`] | the parts of a tree; [`Part`] and [`Child`] are one of both |
-//! | [`Bounds`], [`Culling`], [`Frustum`] | what need not be drawn |
+//! | [`Order`], [`Culling`], [`Frustum`] | an order: written, iterated over or walked; whole or without what need not be drawn |
 //! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
 //! | [`Preparation`], [`Stats`] | how the input was prepared, and a tree's figures |
 //! | [`Grid`] | the grid of a tree's exact numbers |
@@ -94,7 +94,7 @@ pub use progress::Progress;
 pub use query::{Hit, Location};
 #[cfg(feature = "save")]
 pub use save::LoadError;
-pub use tree::{Bounds, BspTree, Child, Culling, Flow, Fragment, Grid, Node, Part, Sides, Stats};
+pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Part, Sides, Stats};
 pub use viewpoint::{Frustum, Ray, Viewpoint};
 
 /// Vertex and index buffers of a tree: [`BspTree::mesh`].
@@ -102,7 +102,7 @@ pub mod mesh {
     pub use crate::tree::{Mesh, MeshVertex, Triangles};
 }
 
-/// The iterators that methods of [`BspTree`], [`Node`] and [`Bounds`] return.
+/// The iterators that methods of [`BspTree`], [`Node`] and [`Order`] return.
 pub mod iter {
     pub use crate::query::{FragmentsIn, Hits};
     pub use crate::tree::{Fragments, Nodes, Ordered};

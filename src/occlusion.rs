@@ -27,13 +27,12 @@ use crate::tree::{BspTree, Fragment};
 ///
 /// // Squares one behind the other: from the front, the first hides all others.
 /// let tree = BspTree::build(scene::chain(50).polygons())?;
-/// let bounds = tree.bounds()?;
 /// let eye = DVec3::new(0.0, -9.0, 0.0);
 /// let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [64, 64])?;
 /// let mut mask = CoverageMask::new(&tree, &Rays::new(&camera, tree.faces())?, 1);
 /// let mut seen = Vec::new();
-/// let _ = tree.walk_front_to_back(camera.viewpoint(), |part| match part {
-///     Part::Subtree(node) if mask.hides(bounds.of(node)) => Flow::Skip,
+/// let _ = tree.order(camera.viewpoint()).front_to_back().walk(|part| match part {
+///     Part::Subtree(node) if mask.hides(node.bounds()) => Flow::Skip,
 ///     Part::Fragment(fragment) if mask.cover(&fragment) => {
 ///         seen.push(fragment.polygon());
 ///         Flow::<()>::Descend

@@ -107,6 +107,9 @@ pub struct Frustum {
 }
 
 impl Frustum {
+    /// No plane: the whole space.
+    pub const EVERYWHERE: Self = Self { planes: SmallVec::new_const() };
+
     /// The points on the front of all these planes.
     pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
         let mut all = Self::default();
@@ -117,7 +120,7 @@ impl Frustum {
 
     /// The box between two corners, given by its least and largest coordinates: with a
     /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it, and
-    /// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives those that do so themselves.
+    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) gives those that do so themselves.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -125,12 +128,11 @@ impl Frustum {
     ///
     /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
     /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
-    /// let bounds = tree.bounds()?;
     /// let region = Frustum::of_box([DVec3::new(0.2, 0.2, 6.5), DVec3::new(0.7, 0.4, 9.0)]);
-    /// let (mut inside, below) = (Vec::new(), Viewpoint::direction([0.0, 0.0, 1.0]));
-    /// let culling = Culling::new(&bounds).with_frustum(region);
-    /// tree.culled_front_to_back_into(below, &culling, &mut inside);
-    /// assert!(inside.iter().map(|&f| tree.fragment(f).polygon()).eq([7, 8, 9]));
+    /// let culling = Culling::NONE.with_frustum(region);
+    /// let order = tree.order(Viewpoint::direction([0.0, 0.0, 1.0])).front_to_back();
+    /// let inside = order.culled(&culling).into_iter().map(|fragment| fragment.polygon());
+    /// assert!(inside.eq([7, 8, 9]));
     /// # Ok::<(), binspace::Error>(())
     /// ```
     pub fn of_box([low, high]: [DVec3; 2]) -> Self {

@@ -4,7 +4,7 @@
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, Culling, Frustum, Sides};
+use binspace::{BspTree, Culling, Frustum, Sides};
 use binspace_evidence::culling::unhidden;
 use binspace_evidence::interior::{HEIGHT, ROOM, rooms};
 use std::time::{Duration, Instant};
@@ -38,15 +38,14 @@ pub(crate) fn run() {
         let level = rooms(side);
         let tree = BspTree::build(&level).expect("memory");
         let begin = Instant::now();
-        let bounds = tree.bounds().expect("memory");
         let making = begin.elapsed();
         let (mut share, mut times) = (0.0, [Duration::ZERO; 3]);
         for k in 0..EYES {
             let camera = camera(side, k);
             if k == 0 {
-                steps.push(what_is_left(&tree, &bounds, &camera, side));
+                steps.push(what_is_left(&tree, &camera, side));
             }
-            let (kept, measured) = measure(&tree, &bounds, &camera);
+            let (kept, measured) = measure(&tree, &camera);
             share += kept as f64 / tree.len() as f64 / EYES as f64;
             times.iter_mut().zip(measured).for_each(|(sum, time)| *sum += time / EYES as u32);
         }
@@ -78,9 +77,9 @@ const PICTURE: [u32; 2] = [320, 180];
 
 /// How many fragments are left in view, of which the front is seen, and that own a pixel, each with
 /// the time that finding them took.
-fn what_is_left(tree: &BspTree, bounds: &Bounds, camera: &Camera, side: usize) -> [String; 8] {
+fn what_is_left(tree: &BspTree, camera: &Camera, side: usize) -> [String; 8] {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
-    let culling = Culling::new(bounds).with_frustum(frustum.clone());
+    let culling = Culling::NONE.with_frustum(frustum.clone());
     let fronts = culling.clone().with_sides(Sides::Front);
     let mut lists = [vec![], vec![]];
     let mut times = [Duration::MAX; 3];
@@ -88,14 +87,14 @@ fn what_is_left(tree: &BspTree, bounds: &Bounds, camera: &Camera, side: usize) -
         for ((list, culling), shortest) in lists.iter_mut().zip([&culling, &fronts]).zip(&mut times)
         {
             let begin = Instant::now();
-            tree.culled_back_to_front_into(viewpoint, culling, list);
+            tree.order(viewpoint).culled(culling).write_into(list);
             *shortest = begin.elapsed().min(*shortest);
         }
     }
     let begin = Instant::now();
     let rays = Rays::new(camera, tree.faces()).expect("a picture");
     let mut seen = Vec::new();
-    unhidden(tree, bounds, camera, &rays, |_| true, &mut seen);
+    unhidden(tree, camera, &rays, |_| true, &mut seen);
     times[2] = begin.elapsed();
     let [in_view, of_fronts] = lists.map(|list| list.len());
     let seen = seen.len();
@@ -125,9 +124,9 @@ fn camera(side: usize, k: usize) -> Camera {
 
 /// How many fragments are in view; the shortest times of the whole order, of those in view, and of
 /// those of which the fronts are seen as well.
-fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duration; 3]) {
+fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
-    let culling = Culling::new(bounds).with_frustum(frustum.clone());
+    let culling = Culling::NONE.with_frustum(frustum.clone());
     let fronts = culling.clone().with_sides(Sides::Front);
     let (mut order, mut seen, mut shown) = (Vec::new(), Vec::new(), Vec::new());
     let mut shortest = [Duration::MAX; 3];
@@ -138,10 +137,10 @@ fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duratio
             shortest[place] = shortest[place].min(begin.elapsed());
         };
         take(0, &mut || tree.back_to_front_into(viewpoint, &mut order));
-        take(1, &mut || tree.culled_back_to_front_into(viewpoint, &culling, &mut seen));
-        take(2, &mut || tree.culled_back_to_front_into(viewpoint, &fronts, &mut shown));
+        take(1, &mut || tree.order(viewpoint).culled(&culling).write_into(&mut seen));
+        take(2, &mut || tree.order(viewpoint).culled(&fronts).write_into(&mut shown));
     }
-    check(tree, bounds, &frustum, &order, &seen);
+    check(tree, &frustum, &order, &seen);
     let is_front = |&fragment: &u32| tree.fragment(fragment).facing(viewpoint).is_gt();
     assert!(seen.iter().copied().filter(is_front).eq(shown));
     (seen.len(), shortest)
@@ -149,8 +148,8 @@ fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera) -> (usize, [Duratio
 
 /// The list is the whole order without the fragments whose vertices are all outside of one plane.
 /// What is so near to a plane that rounding decides may be in the list.
-fn check(tree: &BspTree, bounds: &Bounds, frustum: &Frustum, order: &[u32], seen: &[u32]) {
-    let [low, high] = bounds.all().expect("a level");
+fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
+    let [low, high] = tree.bounds().expect("a level");
     let margin = 1e-6 * (high - low).max_element();
     let mut seen = seen.iter().peekable();
     for &fragment in order {

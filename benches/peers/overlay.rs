@@ -131,7 +131,7 @@ fn orders(
         tree.back_to_front_into(eye, &mut alone);
         ordering[0] = ordering[0].min(start.elapsed());
         let start = Instant::now();
-        overlay.back_to_front_into(tree, eye, &mut both).expect("its own tree");
+        overlay.order(tree, eye).expect("its own tree").write_into(&mut both);
         ordering[1] = ordering[1].min(start.elapsed());
     }
     let of_tree = both.iter().copied().filter(|&number| (number as usize) < tree.len());
@@ -142,9 +142,9 @@ fn orders(
 /// Both forms of the order agree, with each piece once.
 fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     let mut order = Vec::new();
-    overlay.back_to_front_into(tree, eye, &mut order).expect("its own tree");
-    let listed = overlay.back_to_front(tree, eye).expect("its own tree");
-    assert!(listed.map(|fragment| fragment.index()).eq(order.iter().copied()));
+    overlay.order(tree, eye).expect("its own tree").write_into(&mut order);
+    let listed = overlay.order(tree, eye).expect("its own tree");
+    assert!(listed.into_iter().map(|fragment| fragment.index()).eq(order.iter().copied()));
     order.sort_unstable();
     assert!(order.into_iter().eq(0..(tree.len() + overlay.len()) as u32));
 }
@@ -202,7 +202,7 @@ fn lines_and_bodies() {
                 tree.back_to_front_into(eye, &mut alone);
                 ordering = ordering.min(start.elapsed());
                 let start = Instant::now();
-                overlay.back_to_front_into(&tree, eye, &mut both).expect("its own tree");
+                overlay.order(&tree, eye).expect("its own tree").write_into(&mut both);
                 merging = merging.min(start.elapsed());
             }
             judge(&overlay, &tree, eye);

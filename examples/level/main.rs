@@ -34,7 +34,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, Flow, Part, Ray, Viewpoint};
+use binspace::{BspTree, Flow, Part, Ray, Viewpoint};
 use canvas::Canvas;
 use door::Door;
 use picture::{paint_map, paint_view};
@@ -53,7 +53,6 @@ const MAP: f64 = 480.0;
 struct Level {
     polygons: Vec<(Kind, Quad)>,
     tree: BspTree,
-    bounds: Bounds,
     door: Door,
     overlay: Overlay,
 }
@@ -73,7 +72,7 @@ impl Level {
         let polygons = rooms::rooms(ROOMS);
         let tree = BspTree::build(polygons.iter().map(|(_, quad)| quad))?;
         let door = Door::nearest(&polygons, dvec3(4.0, 4.5, 0.0) * ROOM).ok_or("no doorway")?;
-        Ok(Self { bounds: tree.bounds()?, overlay: Overlay::new(&tree), polygons, tree, door })
+        Ok(Self { overlay: Overlay::new(&tree), polygons, tree, door })
     }
 
     /// A frame with the door opened by an angle.
@@ -81,7 +80,7 @@ impl Level {
         let (seen, visits) = self.walk(camera)?;
         self.overlay.replace(&self.tree, [self.door.leaf(angle)])?;
         let mut order = Vec::new();
-        self.overlay.back_to_front_into(&self.tree, camera.viewpoint(), &mut order)?;
+        self.overlay.order(&self.tree, camera.viewpoint())?.write_into(&mut order);
         // Of the tree what is seen, and all of the door: behind a wall, the wall is painted over it.
         let mut is_painted = vec![false; self.tree.len()];
         seen.iter().for_each(|&fragment| is_painted[fragment as usize] = true);
@@ -92,15 +91,15 @@ impl Level {
     /// The fragments of the tree that own a pixel, front to back, and how many parts were looked at.
     /// What the door hides is among them.
     fn walk(&self, camera: &Camera) -> Result<(Vec<u32>, usize), Box<dyn Error>> {
-        let Self { polygons, tree, bounds, .. } = self;
+        let Self { polygons, tree, .. } = self;
         let frustum = camera.frustum();
         let mut mask = CoverageMask::new(tree, &Rays::new(camera, tree.faces())?, 1);
         let (mut seen, mut visits) = (Vec::new(), 0);
-        let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+        let _ = tree.order(camera.viewpoint()).front_to_back().walk(|part| {
             visits += 1;
             match part {
                 Part::Subtree(node) => {
-                    let region = bounds.of(node);
+                    let region = node.bounds();
                     if !frustum.meets(region) || mask.hides(region) {
                         return Flow::Skip;
                     }
@@ -124,7 +123,7 @@ impl Level {
         let line = Ray::between(from, to);
         // All that moves goes into one such tree a frame, for all sight lines.
         let moving = BspTree::build([self.door.leaf(angle)])?;
-        Ok(!self.bounds.is_blocked(&self.tree, line) && !moving.is_blocked(line))
+        Ok(!self.tree.is_occluded(line) && !moving.is_occluded(line))
     }
 
     /// Somebody beyond the closed door, as high as a camera.
@@ -254,7 +253,7 @@ fn the_guard_sees_into_the_room_when_the_door_is_open() {
     let [hinge, end, ..] = level.door.leaf(0.0);
     let guard = level.guard();
     let room = ((hinge + end) - guard).with_z(1.7);
-    assert!(!level.tree.is_blocked(Ray::between(guard, room)), "the doorway is free of walls");
+    assert!(!level.tree.is_occluded(Ray::between(guard, room)), "the doorway is free of walls");
     assert!(!level.is_in_sight(guard, room, 0.0).unwrap());
     assert!(level.is_in_sight(guard, room, FRAC_PI_2).unwrap());
     // Through a wall, whatever the door does.

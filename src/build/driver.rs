@@ -208,10 +208,10 @@ pub(super) fn divide_all(
 impl BspTree {
     /// Adds polygons for good, with the default options. Their numbers follow those of the tree's.
     ///
-    /// The tree is built anew, of its own polygons and the others: it is the tree of all of them, on
-    /// the grid and with the tolerance that it has. Its fragments have other numbers than before, and
-    /// [overlays](crate::overlay::Overlay), [meshes](crate::mesh::Mesh) and [bounds](crate::Bounds) have to be made
-    /// anew. It takes as long as a build; what moves belongs into an overlay.
+    /// Builds the tree again from its own polygons and the others, on its grid and with its tolerance. The
+    /// numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
+    /// [meshes](crate::mesh::Mesh) have to be made again. It takes as long as a build; put moving polygons
+    /// into an overlay.
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};

@@ -75,7 +75,7 @@ impl<'t> Primitives<'t> {
         }
         let frame = Frame { rays, faces };
         let mut order = Vec::with_capacity(tree.len());
-        for fragment in each(watch, 1, tree.front_to_back(frame.rays.viewpoint())) {
+        for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {
             order.push(fragment?.index());
         }
         let mut stock = Self { tree, frame, items: vec![], views: vec![], opacities };

@@ -8,7 +8,7 @@ mod thin;
 use std::fmt;
 
 use order::InsertionTree;
-pub use order::Overlaid;
+pub use order::{Overlaid, OverlayOrder};
 use place::Placer;
 pub use replace::{Marker, Segment, Shape, Shapes};
 
@@ -37,7 +37,7 @@ use crate::tree::{BspTree, Fragment};
 /// let mut order = Vec::new();
 /// for (z, expected) in [(0.5, [0, 2, 1]), (1.5, [0, 2, 1]), (2.5, [0, 1, 2])] {
 ///     overlay.replace(&tree, [square(z)])?;
-///     overlay.back_to_front_into(&tree, from_above, &mut order)?;
+///     overlay.order(&tree, from_above)?.write_into(&mut order);
 ///     let polygons = order.iter().map(|&number| match overlay.piece(number) {
 ///         Some(piece) => piece.polygon(),
 ///         None => tree.fragment(number).polygon(),
@@ -65,7 +65,7 @@ use crate::tree::{BspTree, Fragment};
 ///
 /// let from_above = Viewpoint::direction([0.0, 0.0, -1.0]);
 /// let mut painted = Vec::new();
-/// for shape in overlay.back_to_front(&tree, from_above)? {
+/// for shape in overlay.order(&tree, from_above)? {
 ///     painted.push(match shape {
 ///         Shape::Fragment(fragment) => format!("polygon {}", fragment.polygon()),
 ///         Shape::Segment(segment) => format!("line {}.{}", segment.line(), segment.number()),
@@ -131,8 +131,7 @@ use crate::tree::{BspTree, Fragment};
 /// | | time |
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
-/// | [`back_to_front_into`](Self::back_to_front_into) | that of the tree, and a copy of its list |
-/// | [`back_to_front`](Self::back_to_front), an iterator | the same, before it is read, and a list of its own |
+/// | [`order`](Self::order), written or read | that of the tree, and a copy of its list |
 ///
 /// While many faces, as those of a body, lie on one side of a plane by their bounding box, they go
 /// there at once: such a body costs little until it meets the leaf that it is in. Give the faces of a

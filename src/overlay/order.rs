@@ -13,9 +13,10 @@ use super::Overlay;
 use super::replace::Shape;
 use crate::error::Error;
 use crate::exact::{Faces, PlaneId};
-use crate::tree::BspTree;
+use crate::tree::culling::Cull;
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
+use crate::tree::{BspTree, Culling, Sides};
 use crate::viewpoint::Viewpoint;
 
 /// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
@@ -194,8 +195,116 @@ impl InsertionTree {
     }
 }
 
-/// The fragments of a tree and the pieces of an overlay in the order of a viewpoint:
-/// [`Overlay::back_to_front`] and [`Overlay::front_to_back`].
+/// The order of a tree's fragments and an overlay's pieces for one viewpoint: [`Overlay::order`].
+///
+/// It is back to front unless you call [`front_to_back`](Self::front_to_back). Write it into a list of
+/// numbers, or iterate over its shapes.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an order is written or iterated over"]
+pub struct OverlayOrder<'a> {
+    overlay: &'a Overlay,
+    tree: &'a BspTree,
+    viewpoint: Viewpoint,
+    is_front_to_back: bool,
+    culling: Option<&'a Culling>,
+}
+
+impl Overlay {
+    /// The order of the tree's fragments and the overlay's pieces for a viewpoint.
+    ///
+    /// # Errors
+    ///
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    pub fn order<'a>(
+        &'a self,
+        tree: &'a BspTree,
+        viewpoint: Viewpoint,
+    ) -> Result<OverlayOrder<'a>, Error> {
+        self.expect(tree)?;
+        Ok(OverlayOrder { overlay: self, tree, viewpoint, is_front_to_back: false, culling: None })
+    }
+}
+
+impl<'a> OverlayOrder<'a> {
+    /// The same order, front to back: the exact reverse.
+    pub fn front_to_back(self) -> Self {
+        Self { is_front_to_back: true, ..self }
+    }
+
+    /// The same order without the fragments and pieces outside of a frustum, or without those that show
+    /// the wrong side. Lines and points have no sides. They are left out if they are outside of the
+    /// frustum.
+    pub fn culled(self, culling: &'a Culling) -> Self {
+        Self { culling: Some(culling), ..self }
+    }
+
+    /// Writes the numbers of the fragments and pieces into a buffer, and replaces its contents. Numbers
+    /// below the tree's [`len`](BspTree::len) are those of its fragments, the others those of
+    /// [shapes](Overlay::shape).
+    ///
+    /// It takes the time of [`BspTree::back_to_front_into`], of a copy of the list, and of comparing the
+    /// eye with each plane on the way to the pieces. An empty overlay adds nothing. The buffer is working
+    /// space as well; once it has grown to its size, nothing is allocated. A culled order is the whole
+    /// order first, and is filtered afterwards.
+    pub fn write_into(self, numbers: &mut Vec<u32>) {
+        let Self { overlay, tree, viewpoint, is_front_to_back, culling } = self;
+        match culling {
+            Some(culling) if overlay.is_empty() => {
+                tree.order(viewpoint).culled(culling).write_into(numbers);
+            }
+            _ => tree.back_to_front_into(viewpoint, numbers),
+        }
+        if !overlay.is_empty() {
+            overlay.insert(&View::new(tree, viewpoint), numbers);
+            if let Some(culling) = culling {
+                let cull = Cull::new(tree, viewpoint, culling);
+                numbers.retain(|&number| match overlay.shape(number) {
+                    Some(shape) => shape.is_kept(viewpoint, culling),
+                    None => cull.shows(number),
+                });
+            }
+        }
+        if is_front_to_back {
+            numbers.reverse();
+        }
+    }
+}
+
+impl Shape<'_> {
+    fn is_kept(&self, viewpoint: Viewpoint, culling: &Culling) -> bool {
+        let (bounds, is_drawn) = match self {
+            Self::Fragment(piece) => {
+                let is_drawn = match culling.sides {
+                    Sides::Both => true,
+                    Sides::Front => piece.facing(viewpoint).is_gt(),
+                    Sides::Back => piece.facing(viewpoint).is_lt(),
+                };
+                (piece.bounds(), is_drawn)
+            }
+            Self::Segment(segment) => {
+                let [a, b] = segment.ends();
+                ([a.min(b), a.max(b)], true)
+            }
+            Self::Marker(marker) => ([marker.position(); 2], true),
+        };
+        is_drawn && culling.frustum.meets(bounds)
+    }
+}
+
+impl<'a> IntoIterator for OverlayOrder<'a> {
+    type Item = Shape<'a>;
+    type IntoIter = Overlaid<'a>;
+
+    fn into_iter(self) -> Overlaid<'a> {
+        let Self { overlay, tree, .. } = self;
+        let mut numbers = vec![];
+        self.write_into(&mut numbers);
+        Overlaid { overlay, tree, numbers: numbers.into_iter() }
+    }
+}
+
+/// The fragments of a tree and the pieces of an overlay in an [`OverlayOrder`]. The whole order is
+/// written before the first item.
 #[derive(Clone, Debug)]
 pub struct Overlaid<'a> {
     overlay: &'a Overlay,
@@ -220,88 +329,10 @@ impl<'a> Iterator for Overlaid<'a> {
 impl ExactSizeIterator for Overlaid<'_> {}
 impl FusedIterator for Overlaid<'_> {}
 
-impl Overlay {
-    /// The fragments of the tree and the pieces of the overlay, back to front: none hides one that
-    /// comes later. What has a number below the tree's [`len`](BspTree::len) is a fragment of the
-    /// tree.
-    ///
-    /// Computes the whole order before the first item.
-    ///
-    /// # Errors
-    ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
-    pub fn back_to_front<'a>(
-        &'a self,
-        tree: &'a BspTree,
-        viewpoint: Viewpoint,
-    ) -> Result<Overlaid<'a>, Error> {
-        let mut order = vec![];
-        self.back_to_front_into(tree, viewpoint, &mut order)?;
-        Ok(Overlaid { overlay: self, tree, numbers: order.into_iter() })
-    }
-
-    /// The same, front to back: the reverse of [`back_to_front`](Self::back_to_front).
-    ///
-    /// # Errors
-    ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
-    pub fn front_to_back<'a>(
-        &'a self,
-        tree: &'a BspTree,
-        viewpoint: Viewpoint,
-    ) -> Result<Overlaid<'a>, Error> {
-        let mut order = vec![];
-        self.front_to_back_into(tree, viewpoint, &mut order)?;
-        Ok(Overlaid { overlay: self, tree, numbers: order.into_iter() })
-    }
-}
-
 /// How many places of an order are in a word of marks.
 const WORD: usize = u32::BITS as usize;
 
 impl Overlay {
-    /// Writes the numbers of all fragments and pieces, back to front, into a buffer, and replaces its
-    /// contents. Numbers below the tree's [`len`](BspTree::len) are those of its fragments, the others
-    /// those of [pieces](Self::piece).
-    ///
-    /// It takes the time of [`BspTree::back_to_front_into`], of a copy of the list, and of a look at
-    /// each plane on the way to the pieces. An empty overlay adds nothing. The buffer is working space
-    /// as well; once it has grown to its size, nothing is allocated.
-    ///
-    /// # Errors
-    ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
-    pub fn back_to_front_into(
-        &self,
-        tree: &BspTree,
-        viewpoint: Viewpoint,
-        order: &mut Vec<u32>,
-    ) -> Result<(), Error> {
-        self.expect(tree)?;
-        tree.back_to_front_into(viewpoint, order);
-        if !self.is_empty() {
-            self.insert(&View::new(tree, viewpoint), order);
-        }
-        Ok(())
-    }
-
-    /// Writes the numbers of all fragments and pieces, front to back: the reverse of
-    /// [`back_to_front_into`](Self::back_to_front_into).
-    ///
-    /// # Errors
-    ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
-    pub fn front_to_back_into(
-        &self,
-        tree: &BspTree,
-        viewpoint: Viewpoint,
-        order: &mut Vec<u32>,
-    ) -> Result<(), Error> {
-        self.back_to_front_into(tree, viewpoint, order)?;
-        order.reverse();
-        Ok(())
-    }
-
     /// Inserts the pieces into the tree's order.
     ///
     /// Every side of a branch knows how many fragments and pieces it has. So where a side begins is known

@@ -170,7 +170,7 @@ pub enum Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// Its number, as in [`Overlay::back_to_front_into`].
+    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         match self {
             Self::Fragment(fragment) => fragment.index(),
@@ -197,7 +197,7 @@ pub struct Segment<'a> {
 }
 
 impl Segment<'_> {
-    /// Its number, as in [`Overlay::back_to_front_into`].
+    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         self.piece.index()
     }
@@ -246,7 +246,7 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// Its number, as in [`Overlay::back_to_front_into`].
+    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         self.index
     }

@@ -11,7 +11,7 @@ use super::ray::{Depth, Interval, RayQuery, Spot};
 use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
-use crate::tree::{Bounds, BspTree, Fragment};
+use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Ray;
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
@@ -76,9 +76,9 @@ impl Search<'_> {
 }
 
 impl<'t> Hits<'t> {
-    fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, ray: Ray) -> Self {
+    fn new(tree: &'t BspTree, ray: Ray) -> Self {
         let search = RayQuery::new(ray, tree.faces.lattice()).map(|query| Search {
-            walk: Walk::new(tree, bounds, &query),
+            walk: Walk::new(tree, &query),
             query,
             found: HitQueue::default(),
             last: None,
@@ -144,40 +144,12 @@ impl BspTree {
     /// Hits at the same point come in input order. All of this is exact: which polygons are hit, in which
     /// order, and from which side. So hits do not depend on how a tree was built.
     ///
-    /// It takes time for the nodes whose regions the ray crosses, as far as it is read, and for the fragments
-    /// on the planes where it crosses them. These regions extend into empty space: for many rays in
-    /// a large scene, make [`Bounds`] once and ask [`Bounds::hits`]. Where k fragments are met at one place,
-    /// as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
+    /// Time is proportional to the number of boxes that the ray crosses, as far as it is read; the first
+    /// call makes the boxes, in O(n) time ([`bounds`](Self::bounds)). Where k fragments are met at one
+    /// place, as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
     /// there after O(k log k) in the worst case, O(k) if they are met in input order.
     pub fn hits(&self, ray: Ray) -> Hits<'_> {
-        Hits::new(self, None, ray)
-    }
-}
-
-impl Bounds {
-    /// What a ray or a segment hits, the nearest first: the same as [`BspTree::hits`], with the boxes of
-    /// the tree, so that what the ray passes by is left out as a whole. In scenes of thousands of polygons
-    /// that is several times as fast.
-    ///
-    /// ```
-    /// use binspace::{BspTree, Ray, scene};
-    ///
-    /// let tree = BspTree::build(scene::terrain(5000, 1).polygons())?;
-    /// // Once.
-    /// let bounds = tree.bounds()?;
-    /// // For each ray.
-    /// let ray = Ray::new([20.3, 30.1, 90.0], [0.01, 0.02, -1.0]);
-    /// let nearest = bounds.hits(&tree, ray).next().expect("a hit");
-    /// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(nearest.polygon()));
-    /// # Ok::<(), binspace::Error>(())
-    /// ```
-    ///
-    /// # Panics
-    ///
-    /// If the bounds are those of another tree.
-    pub fn hits<'t>(&'t self, tree: &'t BspTree, ray: Ray) -> Hits<'t> {
-        self.expect(tree);
-        Hits::new(tree, Some(self), ray)
+        Hits::new(self, ray)
     }
 }
 
@@ -346,10 +318,10 @@ impl BspTree {
     /// let tree = BspTree::build([wall])?;
     ///
     /// let eye = [1.0, -2.0, 1.5];
-    /// assert!(tree.is_blocked(Ray::between(eye, [1.0, 2.0, 1.5])));
-    /// assert!(!tree.is_blocked(Ray::between(eye, [9.0, 2.0, 1.5])));
+    /// assert!(tree.is_occluded(Ray::between(eye, [1.0, 2.0, 1.5])));
+    /// assert!(!tree.is_occluded(Ray::between(eye, [9.0, 2.0, 1.5])));
     /// // What is on the wall is seen.
-    /// assert!(!tree.is_blocked(Ray::between(eye, [1.0, 0.0, 1.5])));
+    /// assert!(!tree.is_occluded(Ray::between(eye, [1.0, 0.0, 1.5])));
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
@@ -358,35 +330,18 @@ impl BspTree {
     /// along a floor should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
     /// `Equal`.
     ///
-    /// It stops at the first polygon that it finds, which need not be the nearest. Until then it takes time
-    /// for the nodes whose regions the segment crosses and for the fragments on their planes where it does,
-    /// however many lie at one place. Nothing is allocated unless dozens of parts of the tree are pending at
-    /// once.
-    pub fn is_blocked(&self, ray: Ray) -> bool {
-        is_blocked(self, None, ray)
+    /// It stops at the first polygon that it finds, which need not be the nearest. Until then its time is
+    /// proportional to the number of boxes that the segment crosses; the first call makes the boxes, in
+    /// O(n) time ([`bounds`](Self::bounds)). After that nothing is allocated unless dozens of parts of the
+    /// tree are pending at once.
+    pub fn is_occluded(&self, ray: Ray) -> bool {
+        let faces = &self.faces;
+        let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
+        let mut walk = Walk::new(self, &query);
+        let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
+        fragments.any(|fragment| {
+            Interval::new(&query, &self.fragment(fragment), faces)
+                .is_some_and(|interval| interval.has_inner_point(&query, faces))
+        })
     }
-}
-
-impl Bounds {
-    /// Whether a polygon lies between two points: the same as [`BspTree::is_blocked`], with the boxes of
-    /// the tree, and several times as fast in scenes of thousands of polygons.
-    ///
-    /// # Panics
-    ///
-    /// If the bounds are those of another tree.
-    pub fn is_blocked(&self, tree: &BspTree, ray: Ray) -> bool {
-        self.expect(tree);
-        is_blocked(tree, Some(self), ray)
-    }
-}
-
-fn is_blocked(tree: &BspTree, bounds: Option<&Bounds>, ray: Ray) -> bool {
-    let faces = &tree.faces;
-    let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
-    let mut walk = Walk::new(tree, bounds, &query);
-    let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
-    fragments.any(|fragment| {
-        Interval::new(&query, &tree.fragment(fragment), faces)
-            .is_some_and(|interval| interval.has_inner_point(&query, faces))
-    })
 }

@@ -6,8 +6,6 @@ use std::ops::Range;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::ray::RayQuery;
-use crate::exact::PlaneId;
 use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
 use crate::viewpoint::Ray;
@@ -18,7 +16,6 @@ use crate::viewpoint::Ray;
 #[derive(Clone, Debug)]
 pub struct Location<'t> {
     tree: &'t BspTree,
-    point: DVec3,
     node: Option<Node<'t>>,
     is_in_front: bool,
     fragments: Range<u32>,
@@ -36,8 +33,7 @@ impl<'t> Location<'t> {
         self.is_in_front
     }
 
-    /// The numbers of the fragments of the leaf: one, or none. See [`coplanar`](Self::coplanar) for
-    /// whether the point is in its plane.
+    /// The numbers of the fragments of the leaf: one, or none.
     pub fn fragments(&self) -> Range<u32> {
         self.fragments.clone()
     }
@@ -46,36 +42,6 @@ impl<'t> Location<'t> {
     /// lies [`on`](Node::on) them is in the same plane as the point, or within the tolerance.
     pub fn planes(&self) -> &[Node<'t>] {
         &self.planes
-    }
-
-    /// The numbers of all fragments in whose planes the point lies, exactly, in ascending order: wherever
-    /// in the tree they are, in leaves as well, and whether or not they contain the point. It does not
-    /// depend on how the tree was built. O(fragments): a test by floats for each, and an exact one for
-    /// those that are near the point.
-    ///
-    /// Those that contain the point are what a ray of no length [hits](BspTree::hits).
-    ///
-    /// ```
-    /// use binspace::BspTree;
-    ///
-    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
-    /// let tree = BspTree::build([square(0.0), square(2.0), square(1.0)])?;
-    /// let location = tree.locate([7.0, 3.0, 2.0]).expect("a number");
-    /// let polygon = |fragment| tree.fragment(fragment).polygon();
-    /// assert!(location.coplanar().map(polygon).eq([1]));
-    /// # Ok::<(), binspace::Error>(())
-    /// ```
-    pub fn coplanar(&self) -> impl Iterator<Item = u32> + Clone + use<'t> {
-        let (tree, faces) = (self.tree, &self.tree.faces);
-        let query = RayQuery::new(Ray::between(self.point, self.point), faces.lattice());
-        query.into_iter().flat_map(move |query| {
-            tree.fragments().filter_map(move |fragment| {
-                let face = fragment.face();
-                let is_on = !query.is_off_plane(faces, face)
-                    && query.exact.at(&faces.plane(PlaneId::face(face))).start().is_eq();
-                is_on.then_some(fragment.index())
-            })
-        })
     }
 }
 
@@ -114,7 +80,6 @@ impl BspTree {
         let exact = ExactRay::new(Ray::between(point, point), self.faces.lattice())?;
         let mut location = Location {
             tree: self,
-            point,
             node: None,
             is_in_front: false,
             fragments: 0..self.len() as u32,

@@ -82,12 +82,6 @@ impl RayQuery {
             is_precise: speed >= least,
         })
     }
-
-    /// Whether the beginning of the ray certainly is off the plane of a face.
-    pub(super) fn is_off_plane(&self, faces: &Faces, face: u32) -> bool {
-        let (own, _) = RoundedAtRay::face(self, faces, face);
-        own.start.abs() > START_ERROR * own.size * self.reach
-    }
 }
 
 /// A plane along a ray: `start` + t · `slope`.

@@ -9,10 +9,11 @@ use super::ray::upright;
 use super::walk::next_block;
 use crate::exact::half_space::{self, ExactHalfSpace, LineValues};
 use crate::exact::{EdgeLine, Faces, VertexKind};
-use crate::tree::{Bounds, BspTree, Flat, Fragment, HalfSpace, rounding};
+use crate::tree::bounds::Bounds;
+use crate::tree::{BspTree, Flat, Fragment, HalfSpace, rounding};
 use crate::viewpoint::Frustum;
 
-/// The numbers of the fragments that have points in a region: [`Bounds::fragments_in`].
+/// The numbers of the fragments that have points in a region: [`BspTree::fragments_in`].
 #[derive(Clone, Debug)]
 pub struct FragmentsIn<'t> {
     tree: &'t BspTree,
@@ -34,7 +35,7 @@ struct RegionPlane {
 }
 
 impl<'t> FragmentsIn<'t> {
-    fn new(tree: &'t BspTree, bounds: &'t Bounds, region: &Frustum) -> Self {
+    fn new(tree: &'t BspTree, region: &Frustum) -> Self {
         let lattice = tree.faces.lattice();
         let side = |&(normal, offset): &(glam::DVec3, f64)| {
             let of = |plane| HalfSpace::new(plane, lattice);
@@ -42,7 +43,7 @@ impl<'t> FragmentsIn<'t> {
             Some(RegionPlane { exact, outer: of((normal, offset)), inner: of((-normal, -offset)) })
         };
         let sides = region.planes().iter().filter_map(side).collect();
-        Self { tree, bounds, sides, rest: 0..tree.len() as u32, inside: 0..0 }
+        Self { tree, bounds: tree.boxes(), sides, rest: 0..tree.len() as u32, inside: 0..0 }
     }
 
     /// Whether a fragment has a point in the region: exact.
@@ -122,7 +123,7 @@ impl Iterator for FragmentsIn<'_> {
 
 impl FusedIterator for FragmentsIn<'_> {}
 
-impl Bounds {
+impl BspTree {
     /// The numbers of the fragments that have a point in a region, in ascending order: what is in a box, or
     /// in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon meets
     /// the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
@@ -133,10 +134,9 @@ impl Bounds {
     ///
     /// let slanted = |x: f64| [[x, 0.0, 0.0], [x + 8.0, 0.0, 8.0], [x, 1.0, 0.0]];
     /// let tree = BspTree::build([slanted(0.0), slanted(4.0)])?;
-    /// let bounds = tree.bounds()?;
     /// // It is in the bounding boxes of both, but only one of them goes through it.
     /// let region = Frustum::of_box([DVec3::new(6.0, 0.0, 1.0), DVec3::new(7.0, 1.0, 2.5)]);
-    /// let inside: Vec<u32> = bounds.fragments_in(&tree, &region).collect();
+    /// let inside: Vec<u32> = tree.fragments_in(&region).collect();
     /// assert_eq!(inside.len(), 1);
     /// assert_eq!(tree.fragment(inside[0]).polygon(), 1);
     /// # Ok::<(), binspace::Error>(())
@@ -148,13 +148,9 @@ impl Bounds {
     /// those with a number that is infinite or NaN, which keep everything.
     ///
     /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes
-    /// mostly with the fragments that are found or lie at the region's sides.
-    ///
-    /// # Panics
-    ///
-    /// If the bounds are those of another tree.
-    pub fn fragments_in<'t>(&'t self, tree: &'t BspTree, region: &Frustum) -> FragmentsIn<'t> {
-        self.expect(tree);
-        FragmentsIn::new(tree, self, region)
+    /// mostly with the fragments that are found or lie at the region's sides. The first call makes the
+    /// boxes, in O(n) time ([`bounds`](Self::bounds)).
+    pub fn fragments_in(&self, region: &Frustum) -> FragmentsIn<'_> {
+        FragmentsIn::new(self, region)
     }
 }

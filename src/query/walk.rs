@@ -13,8 +13,9 @@ use smallvec::SmallVec;
 use super::ray::RayQuery;
 use crate::exact::LATTICE_LIMIT;
 use crate::exact::lattice::MAX_CORNER;
+use crate::tree::bounds::Bounds;
 use crate::tree::node::Ranges;
-use crate::tree::{BLOCK, Bounds, BspTree, Flat};
+use crate::tree::{BLOCK, BspTree, Flat};
 
 /// The parts of a tree that a ray has not come to.
 #[derive(Clone, Debug)]
@@ -57,13 +58,13 @@ const PLANE_ERROR: f64 = 2.2e-7;
 const REACH_ERROR: f64 = 16.0 * f64::EPSILON;
 
 impl<'t> Walk<'t> {
-    /// The whole tree. With boxes, what the ray passes by is left out.
-    pub(super) fn new(tree: &'t BspTree, bounds: Option<&'t Bounds>, query: &RayQuery) -> Self {
+    /// The whole tree.
+    pub(super) fn new(tree: &'t BspTree, query: &RayQuery) -> Self {
         let unit = 1.0 / LATTICE_LIMIT;
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
         let mut walk = Self {
             tree,
-            boxes: bounds.and_then(|bounds| Boxes::new(query, bounds)),
+            boxes: Boxes::new(query, tree),
             pending: SmallVec::new(),
             origin: query.origin.map(|c| c * unit),
             direction: query.direction.map(|c| c * unit),
@@ -212,7 +213,7 @@ const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
     /// `None` if boxes cannot be trusted with a ray.
-    fn new(query: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
+    fn new(query: &RayQuery, tree: &'t BspTree) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [reach, speed] = [query.reach * unit, query.speed * unit];
         if ![reach, speed].iter().all(|size| SIZES.contains(size)) {
@@ -220,7 +221,7 @@ impl<'t> Boxes<'t> {
         }
         let slack = PARAMETER_ERROR * reach;
         Some(Self {
-            bounds,
+            bounds: tree.boxes(),
             origins: query.origin.map(|c| [c * unit + slack, c * unit - slack]),
             inverses: query.direction.map(|c| {
                 let inverse = 1.0 / (c * unit);

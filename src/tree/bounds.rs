@@ -1,6 +1,7 @@
 //! Bounding boxes of a tree's subtrees and fragments, their normals, and half-spaces held against boxes.
 
 use std::cmp::Ordering;
+use std::convert::Infallible;
 use std::ops::Range;
 
 use glam::{DVec3, Vec3, Vec4};
@@ -9,27 +10,16 @@ use super::order::eye::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
-use crate::memory::collect;
+use crate::parallel_map;
 use crate::viewpoint::Viewpoint;
-use crate::{Error, parallel_map};
 
-/// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common:
-/// [`BspTree::bounds`].
+/// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common. They take
+/// about 90 bytes a fragment.
 ///
-/// A tree has none of its own: make them once if you need them, and keep them beside the tree. They
-/// take about 90 bytes a fragment. Once the tree is built anew or [extended](BspTree::extend) they are
-/// stale: make them again too. Bounds of another tree than the one that they are used with are refused by
-/// a panic; a [clone](Clone) of a tree is the same tree.
-///
-/// Boxes are `[low, high]` in the polygons' unit, rounded outwards: each contains the exact vertices
-/// of its fragments, and those that [`Fragment::vertices`] gives. They are stored in `f32`, from the
-/// scene's middle, so one is larger than needed by at most 2⁻²³ of the scene's extent, and three steps of
-/// `f64`, on each side.
+/// Boxes are stored in `f32`, from the scene's middle, and rounded outwards: each contains the exact
+/// vertices of its fragments, and those that [`Fragment::vertices`] gives.
 #[derive(Clone, Debug)]
-pub struct Bounds {
-    /// That of their tree.
-    generation: u64,
-    lattice: Lattice,
+pub(crate) struct Bounds {
     fragments: u32,
     /// Of each node's subtree.
     pub(crate) nodes: Vec<Flat>,
@@ -52,74 +42,56 @@ const STEP: f64 = 1.0 / 64.0;
 const MOVED: f64 = 0.5;
 
 impl BspTree {
-    /// The bounding boxes of all subtrees and fragments. O(n).
+    /// The bounding box `[low, high]` of all fragments, rounded outwards; `None` if there are none.
     ///
-    /// # Errors
-    ///
-    /// If there is not enough memory.
-    pub fn bounds(&self) -> Result<Bounds, Error> {
-        let blocks = self.fragment_bounds()?;
-        let mut nodes = Vec::with_capacity(self.nodes.len());
-        nodes.resize(self.nodes.len(), NOTHING);
-        let mut normals = Vec::with_capacity(self.nodes.len());
-        normals.resize(self.nodes.len(), Normals::NONE);
-        let mut faces = Vec::with_capacity(self.faces.len());
-        faces.extend(
-            (0..self.faces.len() as u32).map(|face| rounded(&self.faces, PlaneId::face(face))),
-        );
-        let planes = Planes::of(self.records.iter().map(|record| faces[record.face as usize]))?;
-        // Children come after their parents, so they are summed up before them from the last on.
-        for node in self.nodes().rev() {
-            let index = node.index();
-            let parts = [node.front(), Child::Leaf(node.on()), node.back()];
-            for part in parts {
-                match part {
-                    Child::Node(child) => {
-                        nodes[index] = union(nodes[index], nodes[child.index()]);
-                        normals[index] = normals[index].union(normals[child.index()]);
-                    }
-                    Child::Leaf(run) => {
-                        for fragment in run.start as usize..run.end as usize {
-                            let bounds = blocks[fragment / BLOCK].get(fragment % BLOCK);
-                            let normal = faces[self.records[fragment].face as usize].truncate();
-                            nodes[index] = union(nodes[index], bounds);
-                            normals[index] = normals[index].union(Normals::of(normal));
-                        }
-                    }
-                }
-            }
-        }
-        let (mut levels, mut len) = (vec![blocks], self.len());
-        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let mut next = Vec::with_capacity(last.len().div_ceil(BLOCK));
-            next.extend((0..last.len()).step_by(BLOCK).map(|first| {
-                let blocks = last.iter().zip((0..len).step_by(BLOCK)).skip(first);
-                Block::new(blocks.map(|(block, first)| block.all(len - first)))
-            }));
-            len = last.len();
-            levels.push(next);
-        }
-        let (lattice, fragments) = (*self.faces.lattice(), self.len() as u32);
-        let generation = self.generation;
-        Ok(Bounds { generation, lattice, fragments, nodes, normals, levels, planes })
+    /// The first call makes boxes of all subtrees and fragments, in O(n) time, and keeps them with the
+    /// tree: about 90 bytes a fragment. So does the first call of [`Node::bounds`],
+    /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
+    /// [`fragments_in`](Self::fragments_in), or the first [culled](crate::Order::culled) order. Call it
+    /// after building to spend that time then.
+    pub fn bounds(&self) -> Option<[DVec3; 2]> {
+        let bounds = self.boxes();
+        let top = bounds.levels.len() - 1;
+        let block = bounds.levels[top].first()?;
+        Some(in_world(self.faces.lattice(), &block.all(bounds.len_of(top))))
     }
 
-    fn fragment_bounds(&self) -> Result<Vec<Block>, Error> {
-        let mut blocks = Vec::with_capacity(self.len().div_ceil(BLOCK));
-        let starts = (0..self.len()).step_by(FRAGMENTS_A_THREAD);
-        let parts = parallel_map::map(starts.collect(), |start| {
-            let end = (start + FRAGMENTS_A_THREAD).min(self.len());
-            let boxes =
-                |first: usize| (first..end).map(|number| self.fragment(number as u32).bounds());
-            collect((start..end).step_by(BLOCK).map(|first| Block::new(boxes(first))))
-        })?;
-        parts.into_iter().for_each(|part| blocks.extend(part));
-        Ok(blocks)
+    /// The boxes, made if they are not there.
+    pub(crate) fn boxes(&self) -> &Bounds {
+        self.bounds.get_or_init(|| Bounds::new(self))
     }
 }
 
+impl Node<'_> {
+    /// The bounding box `[low, high]` of all fragments on the node's plane and on its sides, in the
+    /// polygons' unit. It is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of
+    /// `f64` on each side. O(1), but see [`BspTree::bounds`].
+    pub fn bounds(&self) -> [DVec3; 2] {
+        in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
+    }
+
+    /// The side that all fragments of the subtree show to a viewpoint, where their normals and their
+    /// box tell at once. It is the exact [`Fragment::facing`] of each of them. O(1), but see
+    /// [`BspTree::bounds`].
+    pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Ordering> {
+        let lattice = self.tree.faces.lattice();
+        self.tree.boxes().seen(self.index(), &Arms::new(&Eye::new(viewpoint, lattice)))
+    }
+}
+
+fn in_world(lattice: &Lattice, bounds: &Flat) -> [DVec3; 2] {
+    let [low, high] = in_lattice(bounds);
+    lattice.enclose(low, high)
+}
+
 impl Fragment<'_> {
-    fn bounds(&self) -> Flat {
+    /// The bounding box `[low, high]`, in the polygons' unit. It is rounded outwards, as
+    /// [`Node::bounds`] is. O(vertices).
+    pub fn bounds(&self) -> [DVec3; 2] {
+        in_world(self.faces.lattice(), &self.flat_bounds())
+    }
+
+    pub(crate) fn flat_bounds(&self) -> Flat {
         let faces = self.faces;
         let moved = faces.dominant_axis(self.face);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -146,68 +118,45 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
     })
 }
 
-/// Bounds of two trees are equal if their boxes are.
-impl PartialEq for Bounds {
-    fn eq(&self, other: &Self) -> bool {
-        let Self { generation: _, lattice, fragments, nodes, normals, levels, planes } = self;
-        (lattice, fragments, nodes) == (&other.lattice, &other.fragments, &other.nodes)
-            && (normals, levels, planes) == (&other.normals, &other.levels, &other.planes)
-    }
-}
-
 impl Bounds {
-    /// Panics if the bounds belong to another tree: stale boxes would leave out fragments that are visible
-    /// or hit.
-    pub(crate) fn expect(&self, tree: &BspTree) {
-        assert!(
-            self.generation == tree.generation,
-            "the bounds are not those of the tree: make them again by BspTree::bounds"
-        );
-    }
-
-    /// The box of a subtree: of all fragments on a node's plane and on its sides. O(1).
-    ///
-    /// # Panics
-    ///
-    /// If the node is of another tree.
-    pub fn of(&self, node: Node<'_>) -> [DVec3; 2] {
-        self.expect(node.tree);
-        self.in_world(&self.nodes[node.index()])
-    }
-
-    /// The box of a fragment, by its number. O(1).
-    ///
-    /// # Panics
-    ///
-    /// If there is no such fragment.
-    pub fn of_fragment(&self, fragment: u32) -> [DVec3; 2] {
-        assert!(fragment < self.fragments, "there is no fragment {fragment}");
-        self.in_world(&self.get(0, fragment))
-    }
-
-    /// The box of all fragments; `None` if there are none.
-    pub fn all(&self) -> Option<[DVec3; 2]> {
-        let top = self.levels.len() - 1;
-        let block = self.levels[top].first()?;
-        Some(self.in_world(&block.all(self.len_of(top))))
-    }
-
-    fn in_world(&self, bounds: &Flat) -> [DVec3; 2] {
-        let [low, high] = in_lattice(bounds);
-        self.lattice.enclose(low, high)
-    }
-
-    /// Which side all fragments of a subtree show to a viewpoint, if their normals and their box
-    /// tell at once: `Greater` is the front. It is the exact [`Fragment::facing`] of each of them.
-    /// O(1).
-    ///
-    /// # Panics
-    ///
-    /// If the node is of another tree.
-    pub fn facing(&self, node: Node<'_>, viewpoint: Viewpoint) -> Option<Ordering> {
-        self.expect(node.tree);
-        let lattice = node.tree.faces.lattice();
-        self.seen(node.index(), &Arms::new(&Eye::new(viewpoint, lattice)))
+    fn new(tree: &BspTree) -> Self {
+        let blocks = fragment_blocks(tree);
+        let mut nodes = vec![NOTHING; tree.nodes.len()];
+        let mut normals = vec![Normals::NONE; tree.nodes.len()];
+        let faces: Vec<Vec4> = (0..tree.faces.len() as u32)
+            .map(|face| rounded(&tree.faces, PlaneId::face(face)))
+            .collect();
+        let planes = Planes::of(tree.records.iter().map(|record| faces[record.face as usize]));
+        // Children come after their parents, so they are summed up before them from the last on.
+        for node in tree.nodes().rev() {
+            let index = node.index();
+            let parts = [node.front(), Child::Leaf(node.on()), node.back()];
+            for part in parts {
+                match part {
+                    Child::Node(child) => {
+                        nodes[index] = union(nodes[index], nodes[child.index()]);
+                        normals[index] = normals[index].union(normals[child.index()]);
+                    }
+                    Child::Leaf(run) => {
+                        for fragment in run.start as usize..run.end as usize {
+                            let bounds = blocks[fragment / BLOCK].get(fragment % BLOCK);
+                            let normal = faces[tree.records[fragment].face as usize].truncate();
+                            nodes[index] = union(nodes[index], bounds);
+                            normals[index] = normals[index].union(Normals::of(normal));
+                        }
+                    }
+                }
+            }
+        }
+        let (mut levels, mut len) = (vec![blocks], tree.len());
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+            let blocks = |first| last.iter().zip((0..len).step_by(BLOCK)).skip(first);
+            let of = |first| Block::new(blocks(first).map(|(block, first)| block.all(len - first)));
+            let next = (0..last.len()).step_by(BLOCK).map(of).collect();
+            len = last.len();
+            levels.push(next);
+        }
+        Self { fragments: tree.len() as u32, nodes, normals, levels, planes }
     }
 
     pub(super) fn seen(&self, node: usize, arms: &Arms) -> Option<Ordering> {
@@ -239,14 +188,25 @@ impl Bounds {
         (level, len)
     }
 
-    /// The size in bytes, heap included.
-    pub fn bytes(&self) -> usize {
-        size_of::<Self>()
-            + size_of_val(&*self.nodes)
+    /// The size on the heap in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes)
             + size_of_val(&*self.normals)
             + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
             + self.planes.bytes()
     }
+}
+
+/// The boxes of the fragments.
+fn fragment_blocks(tree: &BspTree) -> Vec<Block> {
+    let starts = (0..tree.len()).step_by(FRAGMENTS_A_THREAD);
+    let Ok(parts) = parallel_map::map(starts.collect(), |start| {
+        let end = (start + FRAGMENTS_A_THREAD).min(tree.len());
+        let boxes = |first| (first..end).map(|number| tree.fragment(number as u32).flat_bounds());
+        let blocks = (start..end).step_by(BLOCK).map(|first| Block::new(boxes(first)));
+        Ok::<Vec<Block>, Infallible>(blocks.collect())
+    });
+    parts.concat()
 }
 
 /// The least coordinates of a box, then the largest.

@@ -1,8 +1,10 @@
 //! The tree, and its figures.
 
 use std::fmt;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::bounds::Bounds;
 use super::node::{NodeRecord, Sizes, Walk, finish, make_room};
 use super::order::eye::Planes;
 use super::order::layout::OrderLayout;
@@ -57,12 +59,14 @@ use crate::faces::Preparation;
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
-/// | [`back_to_front_into`](Self::back_to_front_into), a list of numbers | O(n) | your buffer |
+/// | [`order`](Self::order), written as a list of numbers: [`write_into`](crate::Order::write_into) | O(n) | your buffer |
 /// | [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
-/// | [`back_to_front`](Self::back_to_front), an iterator, from both ends | O(n) if read to its end | O(depth) |
-/// | [`visit_front_to_back`](Self::visit_front_to_back), stops when you break | O(n) at most | O(depth) |
+/// | iterated over, from both ends | O(n) if read to its end | O(depth) |
+/// | walked by subtrees, some skipped: [`walk`](crate::Order::walk) | O(subtrees and fragments visited) | O(depth) |
 ///
 /// The list takes 1.4 to 4 ns a fragment on one thread, and is the fastest.
+/// [`back_to_front`](Self::back_to_front) and [`back_to_front_into`](Self::back_to_front_into) are short
+/// for the iterator and the list.
 /// [`same_order`](Self::same_order) tells whether an order is needed at all when the eye has moved.
 ///
 /// # Drawing a frame
@@ -101,19 +105,18 @@ use crate::faces::Preparation;
 ///
 /// # What need not be drawn
 ///
-/// A tree can be walked: [`root`](Self::root) and [`nodes`](Self::nodes) show its planes, and
-/// [`walk_front_to_back`](Self::walk_front_to_back) visits subtrees and fragments in order and skips
-/// what you say. [`bounds`](Self::bounds) makes boxes of all subtrees, once, for those who need them.
-/// With these, [`culled_back_to_front_into`](Self::culled_back_to_front_into) writes an order without
-/// what is outside of a camera's [`Frustum`](crate::Frustum) or seen from the wrong side, in a time that
-/// follows what is left. The feature `raster` has a mask that leaves out what is hidden.
+/// A [culled](crate::Order::culled) order leaves out fragments outside of a camera's
+/// [`Frustum`](crate::Frustum), or seen from the wrong side, in time proportional to the rest. A
+/// [walk](crate::Order::walk) skips the subtrees that you choose, by their [boxes](crate::Node::bounds)
+/// for instance; the feature `raster` has a mask that tells which of them are hidden. The first use of
+/// boxes makes those of the whole tree, once.
 ///
 /// # Rays, lines of sight and points
 ///
 /// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
-/// [`is_blocked`](Self::is_blocked) tells whether anything lies between two points, and
+/// [`is_occluded`](Self::is_occluded) tells whether anything lies between two points, and
 /// [`locate`](Self::locate) in which leaf a point is, and in which polygons' planes.
-/// [`Bounds::fragments_in`](crate::Bounds::fragments_in) gives what is in a box or in front of planes. All of
+/// [`fragments_in`](Self::fragments_in) gives what is in a box or in front of planes. All of
 /// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips
 /// between two polygons that share it (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
 ///
@@ -126,7 +129,7 @@ use crate::faces::Preparation;
 /// let ray = Ray::new([0.25, 0.25, 9.0], [0.0, 0.0, -1.0]);
 /// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(0));
 /// // Whether one point is seen from another.
-/// assert!(tree.is_blocked(Ray::between([0.5, 0.5, 3.0], [0.5, 0.5, 1.5])));
+/// assert!(tree.is_occluded(Ray::between([0.5, 0.5, 3.0], [0.5, 0.5, 1.5])));
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
@@ -250,8 +253,10 @@ pub struct BspTree {
     pub(super) positions: Vec<[f64; 3]>,
     /// How many times the builder cut a piece in two.
     pub(super) cuts: usize,
-    /// Identifies the tree, so that overlays, bounds and meshes of other trees are refused. Clones share it.
+    /// Identifies the tree, so that overlays and meshes of other trees are refused. Clones share it.
     pub(crate) generation: u64,
+    /// Made by the first query that needs them.
+    pub(super) bounds: OnceLock<Bounds>,
 }
 
 /// A number that no tree of this process has had.
@@ -274,6 +279,7 @@ impl BspTree {
             positions: vec![],
             cuts: 0,
             generation: next_generation(),
+            bounds: OnceLock::new(),
         }
     }
 
@@ -305,6 +311,7 @@ impl BspTree {
             return Err(error);
         }
         (self.faces, self.preparation) = (faces, preparation);
+        self.bounds = OnceLock::new();
         let Parts { nodes, records, vertices, positions, cuts } = parts;
         (self.records, self.vertices, self.positions) = (records, vertices, positions);
         self.cuts = cuts;
@@ -468,5 +475,6 @@ impl BspTree {
             + size_of_val(&*self.records)
             + size_of_val(&*self.vertices)
             + size_of_val(&*self.positions)
+            + self.bounds.get().map_or(0, |bounds| bounds.bytes())
     }
 }

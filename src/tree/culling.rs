@@ -5,16 +5,16 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::BspTree;
 use super::bounds::{Arms, BLOCK, Bounds, HalfSpace};
 use super::node::Ranges;
 use super::order::eye::View;
 use super::order::write_from_nodes;
+use super::{BspTree, Node};
 use crate::bits::bits;
 use crate::exact::{Eye, Lattice, PlaneId};
 use crate::viewpoint::{Frustum, Viewpoint};
 
-/// What is left out of an order: [`BspTree::culled_back_to_front_into`].
+/// What an order leaves out: [`Order::culled`](crate::Order::culled).
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -22,23 +22,17 @@ use crate::viewpoint::{Frustum, Viewpoint};
 ///
 /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
 /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
-/// // Once.
-/// let bounds = tree.bounds()?;
-/// // Every frame.
 /// let below_ten = Frustum::new([(DVec3::NEG_Z, -10.0)]);
-/// let culling = Culling::new(&bounds).with_frustum(below_ten).with_sides(Sides::Front);
-/// let mut order = Vec::new();
-/// tree.culled_back_to_front_into(Viewpoint::eye([0.5, 0.5, 5.5]), &culling, &mut order);
+/// let culling = Culling::NONE.with_frustum(below_ten).with_sides(Sides::Front);
+/// let order = tree.order(Viewpoint::eye([0.5, 0.5, 5.5])).culled(&culling);
 /// // The eye sees the fronts of those below it.
-/// let polygons: Vec<usize> = order.iter().map(|&f| tree.fragment(f).polygon()).collect();
-/// assert_eq!(polygons, [0, 1, 2, 3, 4, 5]);
+/// assert!(order.into_iter().map(|fragment| fragment.polygon()).eq([0, 1, 2, 3, 4, 5]));
 /// # Ok::<(), binspace::Error>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct Culling<'b> {
-    bounds: &'b Bounds,
-    frustum: Frustum,
-    sides: Sides,
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Culling {
+    pub(crate) frustum: Frustum,
+    pub(crate) sides: Sides,
 }
 
 /// From which sides polygons are drawn.
@@ -53,69 +47,36 @@ pub enum Sides {
     Back,
 }
 
-impl<'b> Culling<'b> {
+impl Culling {
     /// Nothing is left out.
-    pub fn new(bounds: &'b Bounds) -> Self {
-        Self { bounds, frustum: Frustum::default(), sides: Sides::Both }
-    }
+    pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, sides: Sides::Both };
 
-    /// Leaves out what is outside of a region: fragments whose boxes
-    /// ([`Bounds::of_fragment`]) lie behind one of its planes. At most 32 planes are used. For speed it goes
-    /// by boxes: [`Bounds::fragments_in`] is exact.
+    /// Leaves out the fragments outside of a frustum: those whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind
+    /// one of its planes. At most 32 planes are used. For speed it goes by boxes:
+    /// [`BspTree::fragments_in`] is exact.
     ///
-    /// Boxes count as larger by some 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate:
-    /// more than the rounding of the test, and of an eye in the apex of the region.
+    /// Boxes are treated as larger by some 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate:
+    /// more than the rounding of the test, and of an eye in the apex of the frustum.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }
     }
 
-    /// Leaves out what shows the other side to the viewpoint, or is seen edge-on. This is exact, as
-    /// [`Fragment::facing`](crate::Fragment::facing) is.
+    /// Leaves out the fragments that show the other side to the viewpoint, or are seen edge-on. This is
+    /// exact, as [`Fragment::facing`](crate::Fragment::facing) is.
     #[must_use]
     pub fn with_sides(self, sides: Sides) -> Self {
         Self { sides, ..self }
     }
 }
 
-impl BspTree {
-    /// Writes the numbers of the fragments that are not left out, back to front, into a buffer, and
-    /// replaces its contents: [`back_to_front_into`](Self::back_to_front_into) without the rest.
-    ///
-    /// Subtrees outside of the region, and those of which only the wrong side is seen, are left out
-    /// as a whole. So the time follows what is left and what surrounds it, not the size of the tree.
-    /// Takes O(depth) memory, and a bit for each fragment and each block of 16.
-    ///
-    /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) turns the list into indices of
-    /// triangles.
-    ///
-    /// # Panics
-    ///
-    /// If the bounds are those of another tree.
-    pub fn culled_back_to_front_into(
-        &self,
-        viewpoint: Viewpoint,
-        culling: &Culling<'_>,
-        order: &mut Vec<u32>,
-    ) {
-        order.clear();
-        Cull::new(self, viewpoint, culling).write(order);
-    }
-
-    /// Writes the numbers of the fragments that are not left out, front to back: the reverse of
-    /// [`culled_back_to_front_into`](Self::culled_back_to_front_into).
-    ///
-    /// # Panics
-    ///
-    /// If the bounds are those of another tree.
-    pub fn culled_front_to_back_into(
-        &self,
-        viewpoint: Viewpoint,
-        culling: &Culling<'_>,
-        order: &mut Vec<u32>,
-    ) {
-        self.culled_back_to_front_into(viewpoint, culling, order);
-        order.reverse();
+impl Sides {
+    fn drawn(self) -> Option<Ordering> {
+        match self {
+            Self::Both => None,
+            Self::Front => Some(Ordering::Greater),
+            Self::Back => Some(Ordering::Less),
+        }
     }
 }
 
@@ -139,7 +100,7 @@ struct Listed {
 }
 
 /// A tree, a viewpoint, and what is left out.
-struct Cull<'t> {
+pub(crate) struct Cull<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
     view: View,
@@ -151,9 +112,8 @@ struct Cull<'t> {
 }
 
 impl<'t> Cull<'t> {
-    fn new(tree: &'t BspTree, viewpoint: Viewpoint, culling: &Culling<'t>) -> Self {
-        let (bounds, lattice) = (culling.bounds, tree.faces.lattice());
-        bounds.expect(tree);
+    pub(crate) fn new(tree: &'t BspTree, viewpoint: Viewpoint, culling: &Culling) -> Self {
+        let (bounds, lattice) = (tree.boxes(), tree.faces.lattice());
         let eye = Eye::new(viewpoint, lattice);
         Self {
             tree,
@@ -162,15 +122,27 @@ impl<'t> Cull<'t> {
             eye,
             arms: Arms::new(&eye),
             marks: Marks::new(bounds, &culling.frustum, lattice),
-            side: match culling.sides {
-                Sides::Both => None,
-                Sides::Front => Some(Ordering::Greater),
-                Sides::Back => Some(Ordering::Less),
-            },
+            side: culling.sides.drawn(),
         }
     }
 
-    fn write(&self, order: &mut Vec<u32>) {
+    /// Whether a subtree may have a fragment that is not left out.
+    pub(super) fn shows_some(&self, node: &Node<'_>) -> bool {
+        let seen = self.side.zip(self.bounds.seen(node.index(), &self.arms));
+        self.marks.any(&node.fragments()) && seen.is_none_or(|(side, seen)| seen == side)
+    }
+
+    /// Whether a fragment is not left out.
+    pub(crate) fn shows(&self, fragment: u32) -> bool {
+        let run = fragment..fragment + 1;
+        let mut shown = self.marks.of_few(&run);
+        if shown != 0 && self.side.is_some() {
+            shown = self.show_side(run, shown);
+        }
+        shown != 0
+    }
+
+    pub(super) fn write(&self, order: &mut Vec<u32>) {
         let nodes = 0..self.tree.nodes.len() as u32;
         let fragments = 0..self.tree.len() as u32;
         let mut pending = vec![Listed { nodes, fragments, is_mixed: self.side.is_some() }];

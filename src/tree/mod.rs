@@ -1,8 +1,8 @@
 //! The finished tree.
 
-mod bounds;
+pub(crate) mod bounds;
 pub(crate) mod bsp_tree;
-mod culling;
+pub(crate) mod culling;
 pub(crate) mod fragment;
 mod mesh;
 pub(crate) mod node;
@@ -15,11 +15,10 @@ mod tests;
 #[cfg(feature = "validate")]
 mod validate;
 
-pub use bounds::Bounds;
 pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::{Culling, Sides};
 pub use fragment::{Fragment, Fragments, Grid};
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node, Nodes};
-pub use order::{Flow, Ordered, Part};
+pub use order::{Flow, Order, Ordered, Part};

@@ -18,7 +18,7 @@ use crate::viewpoint::Viewpoint;
 /// A node of a tree: a partition plane, the fragments on it, and what is on its sides.
 ///
 /// [`BspTree::root`] and [`children`](Self::front) give nodes one by one, [`BspTree::nodes`] all of
-/// them, and [`BspTree::walk_front_to_back`] those that a viewpoint needs, in its order. A node is
+/// them, and [`Order::walk`](crate::Order::walk) those that a viewpoint needs, in its order. A node is
 /// as cheap to copy as a reference.
 ///
 /// The plane holds the points p with `normal().dot(p) == offset()`; its front is where the left side

@@ -4,6 +4,7 @@ mod replay;
 
 use std::io::{self, Read, Write};
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::BspTree;
 use super::bsp_tree::next_generation;
@@ -154,6 +155,7 @@ impl BspTree {
             positions,
             cuts,
             generation,
+            bounds: OnceLock::new(),
         })
     }
 

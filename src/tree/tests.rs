@@ -29,23 +29,22 @@ fn a_list_of_100_000_nodes_is_walked_on_a_small_stack() {
     let work = || {
         let tree = list(COUNT);
         assert_eq!(tree.stats().depth_max, COUNT as usize);
-        let bounds = tree.bounds().unwrap();
         let viewpoint = Viewpoint::eye([0.0, 50_000.5, 0.0]);
         let (mut order, mut found) = (Vec::new(), Vec::new());
         tree.back_to_front_into(viewpoint, &mut order);
-        let _ = tree.walk_back_to_front(viewpoint, |part| {
+        let _ = tree.order(viewpoint).walk(|part| {
             if let Part::Fragment(fragment) = part {
                 found.push(fragment.index());
             }
             Flow::<()>::Descend
         });
         assert_eq!(found, order);
-        tree.culled_back_to_front_into(viewpoint, &Culling::new(&bounds), &mut found);
+        tree.order(viewpoint).culled(&Culling::NONE).write_into(&mut found);
         assert_eq!(found, order);
         // Fronts face −y, so an eye sees those of squares that are further along y.
         let ahead = Frustum::new([(DVec3::Y, 60_000.0), (DVec3::NEG_Y, -60_002.5)]);
-        let culling = Culling::new(&bounds).with_frustum(ahead).with_sides(Sides::Front);
-        tree.culled_back_to_front_into(viewpoint, &culling, &mut found);
+        let culling = Culling::NONE.with_frustum(ahead).with_sides(Sides::Front);
+        tree.order(viewpoint).culled(&culling).write_into(&mut found);
         assert_eq!(found, [60_002, 60_001, 60_000]);
 
         let (mut node, mut depth) = (tree.root().unwrap(), 1);

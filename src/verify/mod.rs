@@ -2,7 +2,6 @@
 //! other: the only module that knows both the tree and the judge.
 
 use std::fmt;
-use std::ops::ControlFlow;
 
 use crate::paint::{Pieces, paint_list};
 use crate::raster::{
@@ -144,16 +143,9 @@ fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image
 }
 
 /// The forms in which a tree returns an order: back to front, then front to back.
-const FORMS: [&str; 6] = [
-    "back_to_front_into",
-    "back_to_front",
-    "visit_back_to_front",
-    "front_to_back",
-    "front_to_back_into",
-    "visit_front_to_back",
-];
+const FORMS: [&str; 4] = ["write_into", "order", "front_to_back", "front_to_back().write_into"];
 /// Where the forms of front-to-back orders begin among these.
-const FIRST_NEAR: usize = 3;
+const FIRST_NEAR: usize = 2;
 
 /// What is wrong with an order; see [`check_orders`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -171,7 +163,7 @@ impl fmt::Display for OrderFault {
 impl std::error::Error for OrderFault {}
 
 /// Checks that the orders of a viewpoint list every fragment once, are the same as a list of
-/// numbers, by iterator and by visitor, and that front to back is the reverse of back to front.
+/// numbers and by iterator, and that front to back is the reverse of back to front.
 ///
 /// This compares the orders only with each other; [`verify`] also compares their
 /// pictures with a depth buffer's.
@@ -185,7 +177,7 @@ pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), OrderFau
 
 /// The orders of one viewpoint, a list of fragments for each of [`FORMS`].
 #[derive(Clone, Debug)]
-struct Orders([Vec<u32>; 6]);
+struct Orders([Vec<u32>; 4]);
 
 impl Orders {
     /// The orders of a tree. An order that does not end is cut off once it is certainly too long.
@@ -193,22 +185,14 @@ impl Orders {
         let most = tree.len() + 1;
         let (mut far_first, mut near_first) = (Vec::new(), Vec::new());
         tree.back_to_front_into(viewpoint, &mut far_first);
-        tree.front_to_back_into(viewpoint, &mut near_first);
+        let near = tree.order(viewpoint).front_to_back();
+        near.write_into(&mut near_first);
         let number = |fragment: Fragment<'_>| fragment.index();
-        let (mut visited, mut visited_near) = (Vec::new(), Vec::new());
-        let note = |list: &mut Vec<u32>, fragment: Fragment<'_>| {
-            list.push(fragment.index());
-            if list.len() < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        let _ = tree.visit_back_to_front(viewpoint, |fragment| note(&mut visited, fragment));
-        let _ = tree.visit_front_to_back(viewpoint, |fragment| note(&mut visited_near, fragment));
         Self([
             far_first,
             tree.back_to_front(viewpoint).map(number).take(most).collect(),
-            visited,
-            tree.front_to_back(viewpoint).map(number).take(most).collect(),
+            near.into_iter().map(number).take(most).collect(),
             near_first,
-            visited_near,
         ])
     }
 

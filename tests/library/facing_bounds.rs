@@ -19,7 +19,7 @@ fn bounds_of_normals_hold_the_exact_normals() {
         let options =
             BuildOptions::DEFAULT.with_bounds(DVec3::splat(-2000.0), DVec3::splat(2000.0));
         let tree: BspTree = options.build([[at, at + u, at + v]]).unwrap();
-        let (bounds, root) = (tree.bounds().unwrap(), tree.root().unwrap());
+        let root = tree.root().unwrap();
         let fragment = tree.fragment(0);
         let steps = [0.0, 1.0, 3.0, 1e3, 1e6, 3e8];
         for (i, j) in (0..36).map(|k| (steps[k / 6], -steps[k % 6])) {
@@ -30,17 +30,17 @@ fn bounds_of_normals_hold_the_exact_normals() {
                 let viewpoint = Viewpoint::eye(on + normal * off);
                 let exact = fragment.facing(viewpoint);
                 assert_eq!(exact, side, "{seed}: the case is another");
-                match bounds.facing(root, viewpoint) {
+                match root.facing_all(viewpoint) {
                     Some(told) => assert_eq!(told, exact, "{seed}: {i} {j} {off}"),
                     None => undecided += 1,
                 }
             }
             let along = Viewpoint::direction(u * (i + 1.0) + v * j);
-            assert_eq!(bounds.facing(root, along), None, "{seed}: {i} {j}, along the plane");
+            assert_eq!(root.facing_all(along), None, "{seed}: {i} {j}, along the plane");
         }
         // And it does tell where the eye is clearly off.
         let eye = Viewpoint::eye(at + normal * 1e4);
-        decided += usize::from(bounds.facing(root, eye) == Some(Ordering::Greater));
+        decided += usize::from(root.facing_all(eye) == Some(Ordering::Greater));
     }
     enough!(undecided > 50_000, decided > 1500; "{undecided} undecided, {decided} decided");
 }

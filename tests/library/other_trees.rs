@@ -4,7 +4,7 @@ use binspace::drawing::Drawing;
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
 use binspace::raster::{Order, Painter, compare, picture, zbuffer};
-use binspace::{Culling, Frustum, Ray, paint, raster};
+use binspace::{Ray, paint, raster};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::prelude::*;
 use testkit::shapes::sheet;
@@ -63,57 +63,39 @@ fn an_overlay_of_another_frame_is_refused() {
     for [one, other, _] in &frames() {
         let mut overlay = Overlay::new(one);
         overlay.replace(one, [square(2.5)]).expect("on the grid");
-        let mut order = vec![7];
-        assert!(overlay.back_to_front_into(other, ABOVE, &mut order).is_err());
-        assert!(overlay.front_to_back_into(other, ABOVE, &mut order).is_err());
-        assert!(overlay.back_to_front(other, ABOVE).is_err());
-        assert_eq!(order, [7], "nothing is written");
+        let mut order = Vec::new();
+        assert!(overlay.order(other, ABOVE).is_err());
         let error = overlay.replace(other, [square(2.5)]).expect_err("another frame");
         assert!(error.to_string().contains("make an overlay for it"), "{error}");
         overlay.replace(&one.clone(), [square(2.5)]).expect("a copy is the same");
-        overlay.back_to_front_into(one, ABOVE, &mut order).expect("its own");
+        overlay.order(one, ABOVE).expect("its own").write_into(&mut order);
         assert_eq!(order.len(), CARDS + 1);
         // One that was given nothing so far.
-        assert!(Overlay::new(one).back_to_front(other, ABOVE).is_err());
+        assert!(Overlay::new(one).order(other, ABOVE).is_err());
     }
 }
 
+/// Boxes belong to a tree and follow it: through copies, extensions and frames.
 #[test]
-fn bounds_of_another_frame_are_refused() {
-    let ray = Ray::new([1.0, 1.0, 9.0], [0.0, 0.0, -1.0]);
-    // Trees of other sizes as well.
-    let cities = [30, 300].map(|n| BspTree::build(scene::city(n, 1).polygons()).expect("built"));
-    let [few, many] = cities.each_ref();
-    let sized = [[few, many], [many, few]].map(|[one, other]| [one, other, one].map(Clone::clone));
-    for [one, other, again] in frames().iter().chain(&sized) {
-        let bounds = one.bounds().expect("memory");
-        let mut order = Vec::new();
-        let root = other.root().expect("a node");
-        let calls: [&mut dyn FnMut(); 7] = [
-            &mut || ignore(bounds.hits(other, ray).count()),
-            &mut || ignore(bounds.is_blocked(other, ray)),
-            &mut || ignore(bounds.fragments_in(other, &Frustum::default()).count()),
-            &mut || {
-                other.culled_back_to_front_into(ABOVE, &Culling::new(&bounds), &mut Vec::new());
-            },
-            &mut || {
-                other.culled_front_to_back_into(ABOVE, &Culling::new(&bounds), &mut Vec::new());
-            },
-            &mut || ignore(bounds.of(root)),
-            &mut || ignore(bounds.facing(root, ABOVE)),
-        ];
-        for call in calls {
-            let message = panic_of(call);
-            assert!(message.contains("BspTree::bounds"), "{message}");
-        }
-        let copy = one.clone();
-        copy.culled_back_to_front_into(ABOVE, &Culling::new(&bounds), &mut order);
-        assert_eq!(order.len(), one.len());
-        assert_eq!(bounds.hits(&copy, ray).count(), one.hits(ray).count());
-        // Boxes are equal if they are, whichever tree they are of.
-        assert_eq!(bounds, again.bounds().expect("memory"));
-        assert_ne!(bounds, other.bounds().expect("memory"));
+fn boxes_are_those_of_the_polygons_that_the_tree_has_now() {
+    let mut tree = BspTree::build([square(0.0)]).expect("within budget");
+    let [_, high] = tree.bounds().expect("a polygon");
+    let copy = tree.clone();
+    assert!((0.0..1e-5).contains(&high.z) && copy.bounds() == tree.bounds());
+    BuildOptions::DEFAULT.extend(&mut tree, [square(2.0)]).expect("within budget");
+    let [_, high] = tree.bounds().expect("polygons");
+    assert!((2.0..2.001).contains(&high.z) && copy.bounds() != tree.bounds());
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    for z in [1.0, 7.0, 3.0] {
+        let frame = builder.build([square(z), square(0.0)]).expect("within budget");
+        let [_, high] = frame.bounds().expect("polygons");
+        assert!((z..z + 0.001).contains(&high.z), "{z}");
+        let ray = Ray::new([1.0, 1.0, 9.0], [0.0, 0.0, -1.0]);
+        let hits: Vec<usize> = frame.hits(ray).map(|hit| hit.polygon()).collect();
+        assert!(hits == [0, 1] && frame.is_occluded(ray), "{z}: {hits:?}");
     }
+    builder.build::<[[f64; 3]; 3]>([]).expect("nothing");
+    assert_eq!(builder.tree().bounds(), None);
 }
 
 #[test]
@@ -142,12 +124,10 @@ fn triangles_of_another_frame_are_refused() {
 fn a_tree_that_changes_is_another_one() {
     let mut tree = BspTree::build(frame(false)).expect("within budget");
     let mut overlay = Overlay::new(&tree);
-    let bounds = tree.bounds().expect("memory");
     let mut file = Vec::new();
     tree.write(&mut file).expect("a list takes all");
     let read = BspTree::read(&file[..]).expect("its own file");
     assert!(overlay.replace(&read, [square(2.5)]).is_err());
-    panic_of(|| ignore(bounds.hits(&read, Ray::between([0.0; 3], [1.0; 3])).count()));
     // What it was made for comes with no file.
     let mut again = Vec::new();
     BspTree::build(frame(false)).expect("within budget").write(&mut again).expect("a list");
@@ -159,16 +139,15 @@ fn a_tree_that_changes_is_another_one() {
     let before = tree.len();
     tree.extend([[[1.0; 3]; 3]]).expect("on the grid");
     assert_eq!(tree.len(), before);
-    assert!(overlay.back_to_front(&tree, ABOVE).is_err());
-    panic_of(|| ignore(bounds.hits(&tree, Ray::between([0.0; 3], [1.0; 3])).count()));
+    assert!(overlay.order(&tree, ABOVE).is_err());
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     let overlay = Overlay::new(builder.build(frame(false)).expect("within budget"));
-    assert!(overlay.back_to_front(builder.tree(), ABOVE).is_ok());
+    assert!(overlay.order(builder.tree(), ABOVE).is_ok());
     let copy = builder.clone();
-    assert!(overlay.back_to_front(builder.build(frame(false)).expect("built"), ABOVE).is_err());
-    assert!(overlay.back_to_front(copy.tree(), ABOVE).is_ok());
+    assert!(overlay.order(builder.build(frame(false)).expect("built"), ABOVE).is_err());
+    assert!(overlay.order(copy.tree(), ABOVE).is_ok());
     assert!(builder.build([[[f64::NAN; 3]; 3]]).is_err());
-    assert!(overlay.back_to_front(builder.tree(), ABOVE).is_err());
+    assert!(overlay.order(builder.tree(), ABOVE).is_err());
 }
 
 fn camera() -> Camera {

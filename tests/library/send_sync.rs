@@ -8,13 +8,13 @@ use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
 use binspace::mesh::{Mesh, Triangles};
 use binspace::occlusion::CoverageMask;
-use binspace::overlay::{Marker, Overlaid, Overlay, Segment, Shape};
+use binspace::overlay::{Marker, Overlaid, Overlay, OverlayOrder, Segment, Shape};
 use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Material, ObjError, ObjReport};
 use binspace::verify::Verification;
 use binspace::view::{CameraError, Projection};
 use binspace::{
-    Bounds, Child, Culling, Error, Fragment, Frustum, Grid, Hit, Location, Node,
+    Child, Culling, Error, Fragment, Frustum, Grid, Hit, Location, Node, Order,
     ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
 };
 use testkit::prelude::*;
@@ -31,9 +31,9 @@ macro_rules! assert_shared {
 
 // Trees, and what they hand out; building, and what can go wrong.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
-assert_shared!(Bounds, Child<'_>, CoverageMask<'_>, Culling<'_>, Frustum, Nodes<'_>, Part<'_>);
+assert_shared!(Child<'_>, CoverageMask<'_>, Culling, Frustum, Order<'_>, Nodes<'_>, Part<'_>);
 assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint);
-assert_shared!(Overlay, Overlaid<'_>, Shape<'_>, Segment<'_>, Marker);
+assert_shared!(Overlay, Overlaid<'_>, OverlayOrder<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
 assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError);
 // Geometry.

@@ -49,7 +49,7 @@ fn rays_meet_a_square_beside_a_sliver() {
         let down = Ray::between([0.3 * S, 0.1 * S, S], [0.3 * S, 0.1 * S, 0.05 * S]);
         let hits: Vec<usize> = tree.hits(down).map(|hit| hit.polygon()).collect();
         assert_eq!(hits, [1], "{heuristic}");
-        assert!(tree.is_blocked(down), "{heuristic}");
+        assert!(tree.is_occluded(down), "{heuristic}");
     }
 }
 

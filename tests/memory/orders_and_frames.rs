@@ -45,7 +45,7 @@ fn order_again() {
                 if forwards {
                     tree.back_to_front_into(viewpoint, &mut order);
                 } else {
-                    tree.front_to_back_into(viewpoint, &mut order);
+                    tree.order(viewpoint).front_to_back().write_into(&mut order);
                 }
                 assert_eq!(order.len(), tree.len());
             };
@@ -78,7 +78,7 @@ fn ask() {
             for corner in scene.polygons().take(200).map(|polygon| polygon[0]) {
                 for from in [low, high * 2.0, corner] {
                     hits += tree.hits(Ray::between(from, corner)).take(3).count();
-                    hits += usize::from(tree.is_blocked(Ray::new(from, high - corner)));
+                    hits += usize::from(tree.is_occluded(Ray::new(from, high - corner)));
                 }
                 hits += usize::from(tree.locate(corner).is_some());
             }

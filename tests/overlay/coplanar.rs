@@ -23,8 +23,8 @@ fn decals_come_after_what_they_lie_on() {
     overlay.replace(&tree, &decals).expect("on the grid");
     for z in [9.0, -9.0] {
         for viewpoint in [Viewpoint::eye([7.0, 1.0, z]), Viewpoint::direction([0.0, 0.1, -z])] {
-            let order = overlay.back_to_front(&tree, viewpoint).expect("its own tree");
-            let order = order.filter_map(Shape::fragment);
+            let order = overlay.order(&tree, viewpoint).expect("its own tree");
+            let order = order.into_iter().filter_map(Shape::fragment);
             let layer = |z: f64| (z - 1.0).abs() < 1e-6;
             let level = order.filter(|f| layer(f.vertices().next().expect("a vertex").z));
             let near = level.filter(|f| (5..=8).contains(&f.polygon()) || f.polygon() >= 40);
@@ -51,12 +51,12 @@ fn an_overlay_of_nothing_gives_the_order_of_the_tree() {
             let eye = Viewpoint::eye([f64::from(round), 2.0, 3.0]);
             let moving = (round == 2).then(|| scene.polygons().next().expect("a polygon"));
             overlay.replace(&tree, moving).expect("on the grid");
-            overlay.back_to_front_into(&tree, eye, &mut order).expect("its own tree");
+            overlay.order(&tree, eye).expect("its own tree").write_into(&mut order);
             tree.back_to_front_into(eye, &mut still);
             assert_eq!(overlay.is_empty(), round != 2);
             assert_eq!(order == still, round != 2, "{}", scene.name());
-            let listed = overlay.back_to_front(&tree, eye).expect("its own tree");
-            assert!(listed.map(|f| f.index()).eq(order.iter().copied()));
+            let listed = overlay.order(&tree, eye).expect("its own tree");
+            assert!(listed.into_iter().map(|f| f.index()).eq(order.iter().copied()));
         }
     }
 }
@@ -69,8 +69,8 @@ fn an_empty_tree_can_have_an_overlay() {
     let tree = options.build(Vec::<[DVec3; 3]>::new()).expect("a tree of nothing");
     let mut overlay = Overlay::new(&tree);
     overlay.replace(&tree, [square(0.0, 0.5), square(0.0, 0.25), square(0.0, 0.75)]).expect("fits");
-    let order = overlay.back_to_front(&tree, Viewpoint::direction([0.0, 0.0, -1.0])).expect("own");
-    assert!(order.filter_map(Shape::fragment).map(|f| f.polygon()).eq([1, 0, 2]));
+    let order = overlay.order(&tree, Viewpoint::direction([0.0, 0.0, -1.0])).expect("own");
+    assert!(order.into_iter().filter_map(Shape::fragment).map(|f| f.polygon()).eq([1, 0, 2]));
 }
 
 /// Names in the order of painting: polygons, lines as `l`, points as `p`.
@@ -81,8 +81,8 @@ fn painted(tree: &BspTree, overlay: &Overlay, viewpoint: Viewpoint) -> String {
         Shape::Marker(marker) => format!("p{}", marker.point()),
         _ => unreachable!(),
     };
-    let order = overlay.back_to_front(tree, viewpoint).expect("its own tree");
-    order.map(name).collect::<Vec<_>>().join(" ")
+    let order = overlay.order(tree, viewpoint).expect("its own tree");
+    order.into_iter().map(name).collect::<Vec<_>>().join(" ")
 }
 
 const BOTH_SIDES: [f64; 2] = [9.0, -9.0];
@@ -161,7 +161,7 @@ fn a_line_goes_through_a_polygon_in_two_pieces() {
     let shapes = Shapes::NONE.with_lines([post]).with_points([dvec3(1.0, 1.125, 0.0)]);
     overlay.replace_with(&tree, shapes).expect("on the grid");
     for (z, shares) in [(9.0, [[0.0, 0.25], [0.25, 1.0]]), (-9.0, [[0.25, 1.0], [0.0, 0.25]])] {
-        let order = overlay.back_to_front(&tree, from(z)).expect("its own tree");
+        let order = overlay.order(&tree, from(z)).expect("its own tree");
         let mut found = Vec::new();
         for shape in order {
             if let Shape::Segment(piece) = shape {

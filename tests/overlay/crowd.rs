@@ -19,7 +19,7 @@ fn sides(tree: &BspTree, polygons: &[[DVec3; 3]], lines: &[[DVec3; 2]]) -> Vec<[
     for (view, direction) in [down, -down].into_iter().enumerate() {
         let viewpoint = Viewpoint::direction(direction);
         let mut side = 0;
-        for shape in overlay.back_to_front(tree, viewpoint).expect("its own tree") {
+        for shape in overlay.order(tree, viewpoint).expect("its own tree") {
             match shape {
                 Shape::Fragment(floor) if floor.polygon() == 0 => side = 1,
                 Shape::Fragment(piece) => sides[piece.polygon() - 1][view][side] = true,
@@ -92,7 +92,7 @@ fn crowds_in_several_leaves_are_placed_each_by_its_own_box() {
         // Along x: wall 0, all of slab 0, wall 1, and so on.
         let view = Viewpoint::direction([-1.0, 0.0, 0.0]);
         let mut behind = 0;
-        for shape in overlay.back_to_front(&tree, view).expect("its own tree") {
+        for shape in overlay.order(&tree, view).expect("its own tree") {
             let fragment = shape.fragment().expect("a polygon");
             match fragment.polygon().checked_sub(walls.len()) {
                 None => behind = fragment.polygon() + 1,
@@ -126,8 +126,9 @@ fn polygons_across_a_plane_from_a_crowd_stay() {
         let shapes = Shapes::NONE.with_polygons([1.0, 0.0, 2.0].map(square)).with_points(crowd);
         overlay.replace_with(&tree, shapes).expect("on the grid");
         let toward_crowd = Viewpoint::direction([0.0, 0.0, -side]);
-        let order = overlay.back_to_front(&tree, toward_crowd).expect("its own tree");
-        let polygons = order.map(|shape| shape.fragment().map(|polygon| polygon.polygon()));
+        let order = overlay.order(&tree, toward_crowd).expect("its own tree");
+        let polygons =
+            order.into_iter().map(|shape| shape.fragment().map(|polygon| polygon.polygon()));
         let expected = [1, 0, 2].map(Some).into_iter().chain([None; 300]);
         assert!(polygons.eq(expected), "{side} {is_turned}");
     }

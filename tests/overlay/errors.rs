@@ -38,7 +38,7 @@ fn check_empty(overlay: &Overlay, tree: &BspTree) {
     assert!(overlay.is_empty() && overlay.piece(tree.len() as u32).is_none());
     let (mut order, mut still) = (Vec::new(), Vec::new());
     let eye = Viewpoint::eye([1.0, 2.0, 3.0]);
-    overlay.back_to_front_into(tree, eye, &mut order).expect("its own tree");
+    overlay.order(tree, eye).expect("its own tree").write_into(&mut order);
     tree.back_to_front_into(eye, &mut still);
     assert_eq!(order, still);
     assert_eq!(overlay.faces().len(), tree.faces().len());
@@ -93,13 +93,10 @@ fn another_tree_is_refused() {
     }
     let larger = BspTree::build(scene::city(150, 1).polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);
-    let (eye, mut order) = (Viewpoint::eye([1.0, 2.0, 3.0]), Vec::new());
+    let eye = Viewpoint::eye([1.0, 2.0, 3.0]);
     for other in [&larger, &twice, &thrice, &coarse] {
         overlay.replace(&tree, [triangle(DVec3::ONE)]).expect("on the grid");
-        assert!(overlay.back_to_front_into(other, eye, &mut order).is_err());
-        assert!(overlay.front_to_back_into(other, eye, &mut order).is_err());
-        assert!(overlay.back_to_front(other, eye).is_err());
-        assert!(overlay.front_to_back(other, eye).is_err());
+        assert!(overlay.order(other, eye).is_err());
         let error = overlay.replace(other, [triangle(DVec3::ONE)]).expect_err("another tree");
         assert!(error.to_string().contains("overlay"), "{error}");
         check_empty(&overlay, &tree);
@@ -185,7 +182,7 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
             ControlFlow::Continue(())
         })
         .expect("on the grid");
-    whole.back_to_front_into(&tree, eye, &mut expected).expect("its own tree");
+    whole.order(&tree, eye).expect("its own tree").write_into(&mut expected);
     enough!(calls > 4; "{calls}");
     let mut overlay = Overlay::new(&tree);
     let mut panics = 0;
@@ -203,7 +200,7 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
         check_empty(&overlay, &tree);
         overlay.replace_with(&tree, shapes()).expect("as if nothing had happened");
         let mut order = Vec::new();
-        overlay.back_to_front_into(&tree, eye, &mut order).expect("its own tree");
+        overlay.order(&tree, eye).expect("its own tree").write_into(&mut order);
         assert_eq!(order, expected, "call {at}");
     }
     enough!(panics > 4; "{panics}");

@@ -93,8 +93,8 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     let viewpoint = camera.viewpoint();
     let (mut order, mut still, mut near) = (vec![7], Vec::new(), Vec::new());
     let error = |error: binspace::Error| error.to_string();
-    overlay.back_to_front_into(tree, viewpoint, &mut order).map_err(error)?;
-    overlay.front_to_back_into(tree, viewpoint, &mut near).map_err(error)?;
+    overlay.order(tree, viewpoint).map_err(error)?.write_into(&mut order);
+    overlay.order(tree, viewpoint).map_err(error)?.front_to_back().write_into(&mut near);
     tree.back_to_front_into(viewpoint, &mut still);
     let of_tree = order.iter().copied().filter(|&number| (number as usize) < tree.len());
     ensure(of_tree.eq(still), || "the tree's fragments come in another order".into())?;
@@ -104,11 +104,11 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     ensure(sorted.into_iter().eq(0..count), || "not every number comes once".into())?;
     ensure(near.iter().rev().eq(&order), || "front to back is not the reverse".into())?;
     let number = |shape: Shape<'_>| shape.index();
-    let far_first = overlay.back_to_front(tree, viewpoint).map_err(error)?;
-    let near_first = overlay.front_to_back(tree, viewpoint).map_err(error)?;
+    let far_first = overlay.order(tree, viewpoint).map_err(error)?.into_iter();
+    let near_first = overlay.order(tree, viewpoint).map_err(error)?.front_to_back();
     ensure(far_first.len() == order.len(), || "another length".into())?;
     ensure(far_first.map(number).eq(order.iter().copied()), || "another back to front".into())?;
-    ensure(near_first.map(number).eq(near), || "another front to back".into())?;
+    ensure(near_first.into_iter().map(number).eq(near), || "another front to back".into())?;
     Ok(order)
 }
 

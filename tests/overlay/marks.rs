@@ -66,7 +66,7 @@ fn compare(curves: &[Curve], dice: &mut Dice) -> usize {
     let mut compared = 0;
     for _ in 0..5 {
         let eye = [0; 3].map(|_| 20.4 * dice.around_zero(3));
-        let order = overlay.back_to_front(&tree, Viewpoint::eye(eye)).expect("its own tree");
+        let order = overlay.order(&tree, Viewpoint::eye(eye)).expect("its own tree");
         let mut painted = HashSet::new();
         for shape in order {
             match shape {

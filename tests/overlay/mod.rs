@@ -5,6 +5,7 @@ mod cleared;
 mod coplanar;
 mod cost;
 mod crowd;
+mod culled;
 mod errors;
 mod judge;
 mod lines;

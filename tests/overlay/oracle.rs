@@ -122,7 +122,7 @@ pub(crate) fn judge(
     }
     let mut order = Vec::new();
     let refused = |error: binspace::Error| error.to_string();
-    overlay.back_to_front_into(tree, Viewpoint::Eye(world), &mut order).map_err(refused)?;
+    overlay.order(tree, Viewpoint::Eye(world)).map_err(refused)?.write_into(&mut order);
     let painted = Painted::new(tree, overlay, given, &order);
     let judge = Judge { given, painted: &painted, eye: rational::point(eye) };
     judge.lines(counts)?;

@@ -21,12 +21,13 @@ fn a_line_that_is_all_but_straight_does_not_make_lines_coplanar() {
     overlay.replace_with(&tree, Shapes::NONE.with_lines(lines)).expect("on the grid");
     for (z, expected) in [(5.0, [2, 1]), (-5.0, [1, 2])] {
         let viewpoint = Viewpoint::eye([0.0, 0.0, z]);
-        let order = overlay.back_to_front(&tree, viewpoint).expect("its own tree");
+        let order = overlay.order(&tree, viewpoint).expect("its own tree");
         let line = |shape: Shape<'_>| match shape {
             Shape::Segment(segment) => segment.line(),
             _ => unreachable!("there are lines only"),
         };
-        let mut painted: Vec<usize> = order.map(line).filter(|&line| line > 0).collect();
+        let mut painted: Vec<usize> =
+            order.into_iter().map(line).filter(|&line| line > 0).collect();
         painted.dedup();
         assert_eq!(painted, expected, "from {z}");
     }

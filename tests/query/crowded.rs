@@ -19,12 +19,11 @@ fn nested(n: usize) -> impl Iterator<Item = [[f64; 3]; 4]> {
 fn squares_in_one_plane_are_hit_in_input_order_from_both_sides() {
     let n = 200_000;
     let tree = BspTree::build(nested(n)).unwrap();
-    let bounds = tree.bounds().unwrap();
     for z in [-5.0, 5.0] {
         let ray = Ray::new([0.1, 0.2, z], [0.0, 0.0, -z]);
-        assert_eq!(bounds.hits(&tree, ray).next().unwrap().polygon(), 0);
+        assert_eq!(tree.hits(ray).next().unwrap().polygon(), 0);
         assert!(polygons(&tree, ray).into_iter().eq(0..n));
-        assert!(tree.is_blocked(ray));
+        assert!(tree.is_occluded(ray));
     }
     let point = [0.1, 0.2, 0.0];
     assert!(polygons(&tree, Ray::between(point, point)).into_iter().eq(0..n));
@@ -47,7 +46,7 @@ fn a_ray_through_the_apex_of_a_fan_hits_all_of_it() {
     assert_eq!(tree.len(), n);
     let ray = Ray::new([0.5, 0.25, 1.0], [-0.5, -0.25, -1.0]);
     assert!(polygons(&tree, ray).into_iter().eq(0..n));
-    assert!(tree.is_blocked(ray));
+    assert!(tree.is_occluded(ray));
 }
 
 /// More than the few that are looked through one by one, each in two fragments at the ray.

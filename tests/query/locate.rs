@@ -10,7 +10,6 @@ use testkit::views::in_lattice;
 #[test]
 fn points_are_where_rationals_say() {
     let (mut dice, mut on_planes, mut in_leaves, mut points, mut inside) = (Dice(11), 0, 0, 0, 0);
-    let (mut coplanar, mut twigs) = (0, 0);
     for scene in [
         scene::random_triangles(60, 2),
         scene::city(300, 1),
@@ -25,10 +24,6 @@ fn points_are_where_rationals_say() {
             let options = if heuristic == Heuristic::Auto { options } else { exact };
             let tree = options.build(scene.polygons()).unwrap();
             let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
-            let mut is_twig = vec![true; tree.len()];
-            for fragment in tree.nodes().flat_map(|node| node.on()) {
-                is_twig[fragment as usize] = false;
-            }
             for k in 0..120 {
                 let point = match k % 4 {
                     0 => shots.corner(&mut dice),
@@ -39,11 +34,9 @@ fn points_are_where_rationals_say() {
                     2 => shots.around(1.1, &mut dice),
                     _ => shots.around(1e4, &mut dice),
                 };
-                let found = check(&oracle, &is_twig, point);
+                let found = check(&oracle, point);
                 on_planes += found.planes;
                 inside += found.inside;
-                coplanar += found.coplanar;
-                twigs += found.twigs;
                 points += 1;
                 in_leaves += tree.locate(point).unwrap().fragments().len();
             }
@@ -51,20 +44,16 @@ fn points_are_where_rationals_say() {
     }
     assert!(points == 15 * 120 && on_planes > 600 && in_leaves > 20, "{on_planes} {in_leaves}");
     enough!(inside > 20; "{inside}");
-    enough!(coplanar > 2000, twigs > 100; "{coplanar} {twigs}");
 }
 
 /// On how many planes a point is, and whether it was asked if what contains it is in its leaf.
 struct Found {
     planes: usize,
     inside: usize,
-    /// How many fragments are in planes that the point is on, and how many of them are on no node's.
-    coplanar: usize,
-    twigs: usize,
 }
 
 /// Holds the way to a point's leaf against planes in rationals.
-fn check(oracle: &Oracle<'_>, is_twig: &[bool], point: DVec3) -> Found {
+fn check(oracle: &Oracle<'_>, point: DVec3) -> Found {
     let tree = oracle.tree();
     let location = tree.locate(point).expect("a point within reach");
     let exact = in_lattice(oracle.faces().lattice(), point);
@@ -91,16 +80,7 @@ fn check(oracle: &Oracle<'_>, is_twig: &[bool], point: DVec3) -> Found {
             inside += 1;
         }
     }
-    // All of them, by every fragment's plane.
-    let faces = 0..tree.faces().len() as u32;
-    let is_on: Vec<bool> =
-        faces.map(|face| oracle.model(face).plane.at(&exact).is_zero()).collect();
-    let face = |fragment: u32| tree.fragment(fragment).face() as usize;
-    let truth: Vec<u32> =
-        (0..tree.len() as u32).filter(|&fragment| is_on[face(fragment)]).collect();
-    assert!(location.coplanar().eq(truth.iter().copied()), "{point}");
-    let twigs = truth.iter().filter(|&&fragment| is_twig[fragment as usize]).count();
-    Found { planes: planes.len(), inside, coplanar: truth.len(), twigs }
+    Found { planes: planes.len(), inside }
 }
 
 #[test]

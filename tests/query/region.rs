@@ -1,6 +1,6 @@
 //! Which fragments meet a region, by clipping every one of them in rationals.
 
-use binspace::{Bounds, Culling, Frustum};
+use binspace::{Culling, Frustum};
 use proptest::prelude::*;
 use testkit::hits::Oracle;
 use testkit::prelude::*;
@@ -50,7 +50,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
     let count = |polygon: [[f64; 3]; 3], normal: DVec3, offset: f64| {
         let tree = BspTree::build([polygon]).unwrap();
         let region = Frustum::new([(normal, offset)]);
-        tree.bounds().unwrap().fragments_in(&tree, &region).count()
+        tree.fragments_in(&region).count()
     };
     // x + n·y ≥ n·y + c, where y is far out and the same for all, and n·y exact or rounded to what
     // differs by far more than the scene's size.
@@ -138,21 +138,16 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
     }
 }
 
-fn check(
-    oracle: &Oracle<'_>,
-    bounds: &Bounds,
-    region: &Frustum,
-    score: &mut Score,
-) -> Result<(), String> {
+fn check(oracle: &Oracle<'_>, region: &Frustum, score: &mut Score) -> Result<(), String> {
     let tree = oracle.tree();
     if region.planes().iter().any(|(normal, offset)| !normal.is_finite() || !offset.is_finite()) {
         return Ok(());
     }
-    let found: Vec<u32> = bounds.fragments_in(tree, region).collect();
+    let found: Vec<u32> = tree.fragments_in(region).collect();
     let planes: Vec<Plane> = region.planes().iter().map(|&(n, d)| oracle.plane(n, d)).collect();
     let mut order = Vec::new();
-    let culling = Culling::new(bounds).with_frustum(region.clone());
-    tree.culled_back_to_front_into(Viewpoint::Direction(DVec3::Z), &culling, &mut order);
+    let culling = Culling::NONE.with_frustum(region.clone());
+    tree.order(Viewpoint::Direction(DVec3::Z)).culled(&culling).write_into(&mut order);
     let mut truth = Vec::new();
     for fragment in 0..tree.len() as u32 {
         let polygon = oracle.vertices(fragment);
@@ -187,10 +182,10 @@ fn fragments_in_regions_are_those_of_rationals() {
             return Ok(());
         }
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
-        let (bounds, mut dice) = (tree.bounds().map_err(fail)?, Dice(seed));
+        let mut dice = Dice(seed);
         for _ in 0..1 + 150 / tree.len().max(10) {
             let region = region(&tree, &shots, &mut dice);
-            check(&oracle, &bounds, &region, score).map_err(fail)?;
+            check(&oracle, &region, score).map_err(fail)?;
         }
         Ok(())
     });
@@ -212,11 +207,11 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
             .map(|polygon| polygon.iter().map(|&corner| corner + move_by).collect::<Vec<_>>());
         let tree = BspTree::build(moved).unwrap();
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
-        let (bounds, mut dice) = (tree.bounds().unwrap(), Dice(5));
+        let mut dice = Dice(5);
         enough!(tree.len() > 256; "blocks of blocks: {}", tree.len());
         for _ in 0..times(12) {
             let region = region(&tree, &shots, &mut dice);
-            check(&oracle, &bounds, &region, &mut score).unwrap();
+            check(&oracle, &region, &mut score).unwrap();
         }
     }
     enough!(score.pairs > 10_000, score.met > 2000, score.kept_in_vain > 4; "{score:?}");
@@ -226,9 +221,8 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
 fn planes_of_odd_numbers_keep_everything_or_nothing() {
     for scale in [0, -660, 660, -1015].map(|exponent| 2f64.powi(exponent)) {
         let tree = BspTree::build([0.0, 1.0].map(|z| sheet(2, z * scale, 4.0 * scale))).unwrap();
-        let bounds = tree.bounds().unwrap();
         let count = |normal: DVec3, offset: f64| {
-            bounds.fragments_in(&tree, &Frustum::new([(normal, offset)])).count()
+            tree.fragments_in(&Frustum::new([(normal, offset)])).count()
         };
         for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(count(DVec3::Z, odd), 2);
@@ -243,11 +237,10 @@ fn planes_of_odd_numbers_keep_everything_or_nothing() {
             assert_eq!(count(DVec3::NEG_Z * length, -scale * length), 2, "{scale} {length}");
             assert_eq!(count(DVec3::Z * length, (scale * length).next_up()), 0);
         }
-        assert_eq!(bounds.fragments_in(&tree, &Frustum::default()).count(), 2);
+        assert_eq!(tree.fragments_in(&Frustum::default()).count(), 2);
     }
     let nothing = BspTree::build::<[[f64; 3]; 3]>([]).unwrap();
-    let bounds = nothing.bounds().unwrap();
-    assert_eq!(bounds.fragments_in(&nothing, &Frustum::default()).count(), 0);
+    assert_eq!(nothing.fragments_in(&Frustum::default()).count(), 0);
 }
 
 /// A corner that the tolerance moves counts where it is exactly, between two points of the grid.
@@ -260,10 +253,9 @@ fn a_moved_corner_is_where_its_plane_is() {
     let tree = room.build([corners.map(|corner| corner.map(|c| c * step))]).unwrap();
     assert_eq!((tree.len(), tree.preparation().flattened), (1, 1));
     assert_eq!(tree.grid().exponent, step.log2() as i32);
-    let bounds = tree.bounds().unwrap();
     let far_end = (DVec3::Y, 1.9 * step);
     for (height, is_in) in [(0.66, true), (0.69, false), (0.9, false), (1.0, false)] {
         let above = Frustum::new([far_end, (DVec3::Z, height * step)]);
-        assert_eq!(bounds.fragments_in(&tree, &above).count(), usize::from(is_in), "{height}");
+        assert_eq!(tree.fragments_in(&above).count(), usize::from(is_in), "{height}");
     }
 }

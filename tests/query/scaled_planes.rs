@@ -18,12 +18,12 @@ fn squares() -> BspTree {
 
 /// The polygons in a region, and those that culling keeps.
 fn found(tree: &BspTree, (normal, offset): (DVec3, f64)) -> [Vec<usize>; 2] {
-    let (bounds, region) = (tree.bounds().unwrap(), Frustum::new([(normal, offset)]));
+    let region = Frustum::new([(normal, offset)]);
     let polygon = |fragment: u32| tree.fragment(fragment).polygon();
-    let mut inside: Vec<usize> = bounds.fragments_in(tree, &region).map(polygon).collect();
+    let mut inside: Vec<usize> = tree.fragments_in(&region).map(polygon).collect();
     let (mut kept, viewpoint) = (Vec::new(), Viewpoint::direction([1.0, 0.0, 0.0]));
-    let culling = Culling::new(&bounds).with_frustum(region);
-    tree.culled_back_to_front_into(viewpoint, &culling, &mut kept);
+    let culling = Culling::NONE.with_frustum(region);
+    tree.order(viewpoint).culled(&culling).write_into(&mut kept);
     inside.sort_unstable();
     let mut kept: Vec<usize> = kept.into_iter().map(polygon).collect();
     kept.sort_unstable();

@@ -33,9 +33,8 @@ fn hull<'a>(points: impl Iterator<Item = &'a Point> + Clone) -> [Point; 2] {
 fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
     let [mut cut, mut exact] = [0; 2];
     for tree in trees().into_iter().filter(|tree| !tree.is_empty()) {
-        let bounds = tree.bounds().unwrap();
         let vertices = vertices(&tree);
-        let [low, high] = bounds.all().unwrap();
+        let [low, high] = tree.bounds().unwrap();
         let extent = (high - low).max_element();
         let mut check = |[low, high]: [DVec3; 2], range: std::ops::Range<u32>, what: &str| {
             let range = range.start as usize..range.end as usize;
@@ -54,13 +53,13 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
         check([low, high], 0..tree.len() as u32, "all");
         for fragment in tree.fragments() {
             let index = fragment.index();
-            let [low, high] = bounds.of_fragment(index);
+            let [low, high] = tree.fragment(index).bounds();
             check([low, high], index..index + 1, "fragment");
             assert!(fragment.vertices().all(|p| p.clamp(low, high) == p));
             cut += usize::from(!fragment.is_whole());
         }
         for node in tree.nodes() {
-            check(bounds.of(node), node.fragments(), "node");
+            check(node.bounds(), node.fragments(), "node");
         }
     }
     enough!(cut > 1000, exact > 1000; "{cut} {exact}");
@@ -82,10 +81,10 @@ fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
         };
         let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-2.0), DVec3::splat(2.0));
         let tree = options.build((0..4).map(quad)).unwrap();
-        let (bounds, vertices) = (tree.bounds().unwrap(), vertices(&tree));
+        let vertices = vertices(&tree);
         for fragment in tree.fragments() {
             let index = fragment.index();
-            let [low, high] = bounds.of_fragment(index);
+            let [low, high] = tree.fragment(index).bounds();
             let [least, most] = hull(vertices[index as usize].iter());
             let rounded = fragment.vertices().reduce(DVec3::max).unwrap();
             for axis in 0..3 {
@@ -102,8 +101,7 @@ fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
 
 #[test]
 fn a_tree_of_nothing_has_no_box() {
-    let bounds = BspTree::build::<[[f64; 3]; 3]>([]).unwrap().bounds().unwrap();
-    assert_eq!(bounds.all(), None);
+    assert_eq!(BspTree::build::<[[f64; 3]; 3]>([]).unwrap().bounds(), None);
 }
 
 /// A triangle with an edge that leans by 2⁻⁵⁰ over its height of 1, cut by a floor at 2⁻¹² of it: the cut is
@@ -115,13 +113,12 @@ fn a_box_has_room_for_the_rounding_of_a_cut() {
     let triangle = [[0.5, 0.0, -foot], [0.5 + 2f64.powi(-50), 0.0, 1.0 - foot], [-0.5, 0.25, -0.5]];
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_tolerance(0.0);
     let tree = options.build([floor.to_vec(), triangle.to_vec()]).unwrap();
-    let bounds = tree.bounds().unwrap();
     let mut lower =
         tree.fragments().filter(|f| f.polygon() == 1 && f.vertices().all(|p| p.z < 0.5));
     let fragment = lower.next().expect("the part below the floor");
     assert_eq!(fragment.vertices().map(|p| p.x).fold(-1.0, f64::max), 0.5);
-    let [_, high] = bounds.of_fragment(fragment.index());
+    let [_, high] = tree.fragment(fragment.index()).bounds();
     assert!(high.x > 0.5, "{high} leaves out the cut");
     let root = tree.root().expect("the floor's node");
-    assert!(bounds.of(root)[1].x > 0.5 && bounds.all().unwrap()[1].x > 0.5);
+    assert!(root.bounds()[1].x > 0.5 && tree.bounds().unwrap()[1].x > 0.5);
 }

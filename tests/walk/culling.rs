@@ -4,7 +4,7 @@ use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
 use binspace::view;
-use binspace::{Bounds, Culling, Frustum, Sides};
+use binspace::{Culling, Frustum, Sides};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::rational::Plane;
@@ -14,22 +14,22 @@ use testkit::snapshot::order;
 use testkit::views::View;
 
 /// A culled order, after checks that it is a part of the whole order, from both ends.
-fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling<'_>) -> Vec<u32> {
+fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     let mut found = vec![3; 5];
-    tree.culled_back_to_front_into(viewpoint, culling, &mut found);
+    tree.order(viewpoint).culled(culling).write_into(&mut found);
     let mut whole = order(tree, viewpoint).into_iter();
     assert!(found.iter().all(|&fragment| whole.any(|other| other == fragment)));
     let mut reverse = Vec::new();
-    tree.culled_front_to_back_into(viewpoint, culling, &mut reverse);
+    tree.order(viewpoint).culled(culling).front_to_back().write_into(&mut reverse);
     assert!(found.iter().rev().eq(&reverse));
     found
 }
 
 /// Whether a fragment's box reaches over a plane of the region, exactly, and by how much at most it
 /// may be short of that and be kept all the same.
-fn must_be_kept(bounds: &Bounds, fragment: u32, frustum: &Frustum) -> Option<bool> {
-    let corners = bounds.of_fragment(fragment);
-    let [low, high] = bounds.all().unwrap();
+fn must_be_kept(tree: &BspTree, fragment: u32, frustum: &Frustum) -> Option<bool> {
+    let corners = tree.fragment(fragment).bounds();
+    let [low, high] = tree.bounds().unwrap();
     let reach = low.abs().max(high.abs());
     let mut worst = Some(true);
     for &(normal, offset) in frustum.planes() {
@@ -52,8 +52,8 @@ fn must_be_kept(bounds: &Bounds, fragment: u32, frustum: &Frustum) -> Option<boo
 }
 
 /// Regions about a tree: slabs, wedges from a point, planes through corners of boxes.
-fn frusta(bounds: &Bounds, dice: &mut Dice) -> Vec<Frustum> {
-    let Some([low, high]) = bounds.all() else { return vec![] };
+fn frusta(tree: &BspTree, dice: &mut Dice) -> Vec<Frustum> {
+    let Some([low, high]) = tree.bounds() else { return vec![] };
     let size = (high - low).max(DVec3::splat((high - low).max_element() * 1e-3));
     let mut share = || dice.point(0.0, 1.0);
     let mut frusta = vec![Frustum::default()];
@@ -68,7 +68,7 @@ fn frusta(bounds: &Bounds, dice: &mut Dice) -> Vec<Frustum> {
         frusta.push(Frustum::new(planes));
     }
     // A small cell, and one that is bounded by a box exactly.
-    for cell in [[low + size * 0.4, low + size * 0.5], bounds.of_fragment(0)] {
+    for cell in [[low + size * 0.4, low + size * 0.5], tree.fragment(0).bounds()] {
         let [low, high] = cell;
         let sides = DVec3::AXES
             .into_iter()
@@ -83,14 +83,13 @@ fn what_is_left_is_what_a_look_at_every_box_leaves() {
     let mut dice = Dice(21);
     let [mut kept, mut left_out, mut doubtful] = [0; 3];
     for tree in trees() {
-        let bounds = tree.bounds().unwrap();
-        for frustum in frusta(&bounds, &mut dice) {
+        for frustum in frusta(&tree, &mut dice) {
             // Only so many planes are used.
             let used = Frustum::new(frustum.planes().iter().copied().take(32));
             let expected: Vec<Option<bool>> =
-                (0..tree.len() as u32).map(|f| must_be_kept(&bounds, f, &used)).collect();
+                (0..tree.len() as u32).map(|f| must_be_kept(&tree, f, &used)).collect();
             for viewpoint in viewpoints(&tree, &mut dice).into_iter().take(3) {
-                let culling = Culling::new(&bounds).with_frustum(frustum.clone());
+                let culling = Culling::NONE.with_frustum(frustum.clone());
                 let found = culled(&tree, viewpoint, &culling);
                 let mut is_found = vec![false; tree.len()];
                 found.iter().for_each(|&fragment| is_found[fragment as usize] = true);
@@ -113,10 +112,10 @@ fn sides_are_those_that_rationals_say() {
     let mut dice = Dice(22);
     let [mut fronts, mut backs, mut whole] = [0; 3];
     for tree in trees().into_iter().filter(|tree| !tree.is_empty()) {
-        let (bounds, faces) = (tree.bounds().unwrap(), tree.faces());
+        let faces = tree.faces();
         let planes: Vec<Plane> =
             tree.fragments().map(|f| model::plane(faces, PlaneId::face(f.face()))).collect();
-        let [low, high] = bounds.all().unwrap();
+        let [low, high] = tree.bounds().unwrap();
         let at = |world: DVec3| View::eye(faces, DVec3::from(faces.lattice().to_lattice(world)));
         let mut views = vec![
             at(low + (high - low) * 0.3),
@@ -135,16 +134,16 @@ fn sides_are_those_that_rationals_say() {
                 (Sides::Front, Ordering::Greater, &mut fronts),
                 (Sides::Back, Ordering::Less, &mut backs),
             ] {
-                let culling = Culling::new(&bounds).with_sides(shown);
+                let culling = Culling::NONE.with_sides(shown);
                 let found = culled(&tree, view.viewpoint, &culling);
                 let shown = whole_order.iter().filter(|&&f| sides[f as usize] == side);
                 assert!(found.iter().eq(shown), "{tree:?} {view:?}");
                 *count += found.len();
             }
-            let culling = Culling::new(&bounds).with_sides(Sides::Both);
+            let culling = Culling::NONE.with_sides(Sides::Both);
             assert_eq!(culled(&tree, view.viewpoint, &culling), whole_order);
             for node in tree.nodes() {
-                if let Some(side) = bounds.facing(node, view.viewpoint) {
+                if let Some(side) = node.facing_all(view.viewpoint) {
                     assert!(node.fragments().all(|f| sides[f as usize] == side), "{node:?}");
                     whole += usize::from(node.fragments().len() > 2);
                 }
@@ -182,14 +181,13 @@ proptest! {
     #[test]
     fn the_fronts_of_a_convex_body_are_its_picture(body in body(), seed in any::<u64>()) {
         let tree = BspTree::build(&body).unwrap();
-        let bounds = tree.bounds().unwrap();
-        for camera in view::views(bounds.all().unwrap(), DVec3::Z, 3, [60, 48], seed).unwrap() {
+        for camera in view::views(tree.bounds().unwrap(), DVec3::Z, 3, [60, 48], seed).unwrap() {
             let rays = Rays::new(&camera, tree.faces()).unwrap();
             let viewpoint = camera.viewpoint();
             let whole = paint_tree(&tree, viewpoint, &rays);
             let inside = tree.fragments().all(|f| f.facing(viewpoint).is_lt());
             let shown = if inside { Sides::Back } else { Sides::Front };
-            let mut found = culled(&tree, viewpoint, &Culling::new(&bounds).with_sides(shown));
+            let mut found = culled(&tree, viewpoint, &Culling::NONE.with_sides(shown));
             prop_assert!(found.len() < tree.len() || inside);
             let ordered = paint_order(&tree, &found, &rays);
             // None covers another.
@@ -209,8 +207,7 @@ proptest! {
 fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
     let [mut left_out, mut all, mut pictures] = [0; 3];
     for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
-        let bounds = tree.bounds().unwrap();
-        let [low, high] = bounds.all().unwrap();
+        let [low, high] = tree.bounds().unwrap();
         let size = [64, 36];
         let mut cameras = view::views([low, high], DVec3::Z, 6, size, 5).unwrap();
         let corner = tree.fragment(0).vertices().next().unwrap();
@@ -224,7 +221,7 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
         }
         for camera in cameras {
             let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
-            let culling = Culling::new(&bounds).with_frustum(camera.frustum());
+            let culling = Culling::NONE.with_frustum(camera.frustum());
             let found = culled(&tree, camera.viewpoint(), &culling);
             let whole = paint_tree(&tree, camera.viewpoint(), &rays);
             let picture = paint_order(&tree, &found, &rays);
@@ -243,10 +240,10 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
 #[test]
 fn indices_of_what_is_in_view_are_those_of_the_list() {
     let tree = BspTree::build(cells(12, &mut Dice(12))).unwrap();
-    let (bounds, mesh) = (tree.bounds().unwrap(), tree.mesh().unwrap());
+    let mesh = tree.mesh().unwrap();
     let eye = DVec3::new(2.5, 2.5, 0.4);
     let camera = Camera::perspective(eye, eye + DVec3::X, DVec3::Z, 0.5, [160, 90]).unwrap();
-    let culling = Culling::new(&bounds).with_frustum(camera.frustum());
+    let culling = Culling::NONE.with_frustum(camera.frustum());
     let found = culled(&tree, camera.viewpoint(), &culling);
     assert!(!found.is_empty() && found.len() * 3 < tree.len(), "{} {}", found.len(), tree.len());
     let on_floor = |list: &[u32]| {
@@ -270,10 +267,10 @@ fn indices_of_what_is_in_view_are_those_of_the_list() {
 fn boxes_count_as_larger_by_a_step_of_the_grid() {
     let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
     let tree = BspTree::build([flat]).unwrap();
-    let (bounds, step) = (tree.bounds().unwrap(), 2f64.powi(tree.grid().exponent));
-    assert_eq!(bounds.of_fragment(0).map(|corner| corner.z), [0.0; 2]);
+    let step = 2f64.powi(tree.grid().exponent);
+    assert_eq!(tree.fragment(0).bounds().map(|corner| corner.z), [0.0; 2]);
     let is_kept = |normal: DVec3, offset: f64| {
-        let culling = Culling::new(&bounds).with_frustum(Frustum::new([(normal, offset)]));
+        let culling = Culling::NONE.with_frustum(Frustum::new([(normal, offset)]));
         culled(&tree, Viewpoint::eye([0.0, 0.0, 5.0]), &culling).len() == 1
     };
     for normal in [DVec3::Z, DVec3::NEG_Z] {
@@ -305,20 +302,19 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
             };
             let corners: Vec<_> = (0..count).map(triangle).collect();
             let tree = BspTree::build(corners).unwrap();
-            let bounds = tree.bounds().unwrap();
             for _ in 0..6 {
                 let fragment = (dice.share() * tree.len() as f64) as u32;
                 let mut share = || dice.share() - 0.5;
                 let normal = DVec3::new(share(), share(), share());
                 let normal = [normal, DVec3::X, DVec3::NEG_Y][(dice.share() * 3.0) as usize];
-                let [low, high] = bounds.of_fragment(fragment);
+                let [low, high] = tree.fragment(fragment).bounds();
                 let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
                 // It only touches the plane.
                 let region = Frustum::new([(normal, normal.dot(corner))]);
-                let culling = Culling::new(&bounds).with_frustum(region.clone());
+                let culling = Culling::NONE.with_frustum(region.clone());
                 let found = culled(&tree, Viewpoint::direction([0.1, 0.2, 1.0]), &culling);
                 for fragment in 0..tree.len() as u32 {
-                    let expected = must_be_kept(&bounds, fragment, &region);
+                    let expected = must_be_kept(&tree, fragment, &region);
                     let is_found = found.contains(&fragment);
                     assert!(expected.is_none_or(|kept| kept == is_found), "{size} {shift} {count}");
                     match expected {
@@ -346,10 +342,9 @@ fn a_box_is_kept_however_the_test_is_rounded() {
         let corners: Vec<[DVec3; 3]> =
             (0..40).map(|_| [shift + share(), shift + share(), shift + share()]).collect();
         let tree = BspTree::build(corners).unwrap();
-        let bounds = tree.bounds().unwrap();
         for fragment in 0..tree.len() as u32 {
             for _ in 0..8 {
-                let [low, high] = bounds.of_fragment(fragment);
+                let [low, high] = tree.fragment(fragment).bounds();
                 // Nearly perpendicular to the way to the box, so that the products cancel.
                 let normal = (share() - 0.5).cross(shift.normalize()) + share() * 1e-6;
                 let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
@@ -364,7 +359,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
                 inexact += usize::from(x + y + z < offset);
                 let region = Frustum::new([(normal, offset)]);
                 assert!(region.meets([low, high]), "{normal} {offset}");
-                let culling = Culling::new(&bounds).with_frustum(region);
+                let culling = Culling::NONE.with_frustum(region);
                 let found = culled(&tree, Viewpoint::eye([0.0; 3]), &culling);
                 assert!(found.contains(&fragment), "{normal} {offset}");
                 kept += 1;
@@ -385,11 +380,11 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let tree = options.build((0..1600).map(square).chain([wall])).unwrap();
     assert_eq!(tree.root().unwrap().on().len(), 1600);
-    let (bounds, mut compared) = (tree.bounds().unwrap(), 0);
+    let mut compared = 0;
     for (low, high) in [(3.2, 3.4), (7.6, 9.1), (0.2, 38.9), (11.7, 11.9), (-3.0, 20.3)] {
         for axis in [DVec3::X, DVec3::Y] {
             let region = Frustum::new([(axis, low), (-axis, -high)]);
-            let culling = Culling::new(&bounds).with_frustum(region);
+            let culling = Culling::NONE.with_frustum(region);
             let mut found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
             found.sort_unstable();
             let is_in = |fragment: &u32| {

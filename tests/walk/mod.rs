@@ -52,8 +52,7 @@ fn trees() -> Vec<BspTree> {
 
 /// Viewpoints in a tree's box, around it and at infinity, and on corners of its polygons.
 fn viewpoints(tree: &BspTree, dice: &mut Dice) -> Vec<Viewpoint> {
-    let bounds = tree.bounds().unwrap();
-    let Some([low, high]) = bounds.all() else { return vec![Viewpoint::eye([1.0, 2.0, 3.0])] };
+    let Some([low, high]) = tree.bounds() else { return vec![Viewpoint::eye([1.0, 2.0, 3.0])] };
     let size = high - low;
     let mut any = |reach: f64| {
         let share = DVec3::from_array([0; 3].map(|_| dice.share() * reach - 0.5 * (reach - 1.0)));

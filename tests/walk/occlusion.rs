@@ -11,13 +11,12 @@ use testkit::scenes::cells;
 
 /// The fragments that a mask lets through, back to front, and how many parts were visited.
 fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32>, usize) {
-    let bounds = tree.bounds().unwrap();
     let mut mask = CoverageMask::new(tree, rays, cell);
     let (mut found, mut visited) = (Vec::new(), 0);
-    let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+    let _ = tree.order(camera.viewpoint()).front_to_back().walk(|part| {
         visited += 1;
         match part {
-            Part::Subtree(node) if mask.hides(bounds.of(node)) => return Flow::Skip,
+            Part::Subtree(node) if mask.hides(node.bounds()) => return Flow::Skip,
             Part::Fragment(fragment) if mask.cover(&fragment) => found.push(fragment.index()),
             _ => {}
         }
@@ -31,7 +30,7 @@ fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32
 fn nothing_that_owns_a_pixel_is_hidden() {
     let [mut skipped, mut all, mut hidden] = [0; 3];
     for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
-        let bounds = tree.bounds().unwrap().all().unwrap();
+        let bounds = tree.bounds().unwrap();
         for camera in view::views(bounds, DVec3::Z, 4, [67, 41], 9).unwrap() {
             for fronts in [false, true] {
                 let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };

@@ -30,9 +30,9 @@ fn walked(
         }
     };
     let end = if front_to_back {
-        tree.walk_front_to_back(viewpoint, visit)
+        tree.order(viewpoint).front_to_back().walk(visit)
     } else {
-        tree.walk_back_to_front(viewpoint, visit)
+        tree.order(viewpoint).walk(visit)
     };
     (fragments, nodes, end)
 }

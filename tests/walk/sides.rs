@@ -24,7 +24,7 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
     for _ in 0..times(60) {
         let normal = dice.point(-0.5, 0.5).normalize();
         let tree = BspTree::build(tiles(normal)).unwrap();
-        let (bounds, faces) = (tree.bounds().unwrap(), tree.faces());
+        let faces = tree.faces();
         let planes: Vec<Plane> =
             tree.fragments().map(|f| model::plane(faces, PlaneId::face(f.face()))).collect();
         let (u, v) = normal.any_orthonormal_pair();
@@ -38,8 +38,8 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
             for (shown, side) in [(Sides::Front, Ordering::Greater), (Sides::Back, Ordering::Less)]
             {
                 let mut found = Vec::new();
-                let culling = Culling::new(&bounds).with_sides(shown);
-                tree.culled_back_to_front_into(view.viewpoint, &culling, &mut found);
+                let culling = Culling::NONE.with_sides(shown);
+                tree.order(view.viewpoint).culled(&culling).write_into(&mut found);
                 found.sort_unstable();
                 let all = 0..tree.len() as u32;
                 assert!(found.into_iter().eq(all.filter(|&f| sides[f as usize] == side)));

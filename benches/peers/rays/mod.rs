@@ -5,7 +5,7 @@
 mod peers;
 
 use binspace::glam::DVec3;
-use binspace::{Bounds, BspTree, Ray};
+use binspace::{BspTree, Ray};
 use peers::{Bvh, Parry32, Parry64, Peer};
 use std::hint::black_box;
 use std::time::Instant;
@@ -40,7 +40,6 @@ pub(crate) fn run() {
 struct Case {
     name: String,
     tree: BspTree,
-    bounds: Bounds,
     triangles: Vec<[DVec3; 3]>,
 }
 
@@ -56,16 +55,15 @@ impl Case {
             [0, 1, 2].map(|k| lattice.to_world(corners[k]))
         };
         let triangles = (0..faces.len() as u32).map(triangle).collect();
-        let bounds = tree.bounds().expect("memory");
-        Some(Self { name: name.to_owned(), tree, bounds, triangles })
+        Some(Self { name: name.to_owned(), tree, triangles })
     }
 
     fn extent(&self) -> [DVec3; 2] {
-        self.bounds.all().expect("triangles")
+        self.tree.bounds().expect("triangles")
     }
 
     fn nearest(&self, [from, direction]: [DVec3; 2]) -> Option<f64> {
-        Some(self.bounds.hits(&self.tree, Ray::new(from, direction)).next()?.parameter())
+        Some(self.tree.hits(Ray::new(from, direction)).next()?.parameter())
     }
 }
 
@@ -137,9 +135,9 @@ fn times(cases: &[Case]) {
         );
         let sight = measure(
             &sights,
-            |[from, to]| case.bounds.is_blocked(&case.tree, Ray::between(from, to)),
+            |[from, to]| case.tree.is_occluded(Ray::between(from, to)),
             &peers,
-            |peer, ends| peer.is_blocked(ends),
+            |peer, ends| peer.is_occluded(ends),
         );
         let mut row =
             vec![case.name.clone(), case.triangles.len().to_string(), case.tree.len().to_string()];

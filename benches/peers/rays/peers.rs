@@ -12,7 +12,7 @@ pub(crate) trait Peer {
     fn nearest(&self, ray: [DVec3; 2]) -> Option<f64>;
 
     /// Whether something lies between two points.
-    fn is_blocked(&self, ends: [DVec3; 2]) -> bool;
+    fn is_occluded(&self, ends: [DVec3; 2]) -> bool;
 }
 
 pub(crate) struct Parry64(parry3d_f64::shape::TriMesh);
@@ -30,7 +30,7 @@ impl Peer for Parry64 {
         self.0.cast_local_ray(&parry3d_f64::query::Ray::new(from, direction), f64::MAX, true)
     }
 
-    fn is_blocked(&self, [from, to]: [DVec3; 2]) -> bool {
+    fn is_occluded(&self, [from, to]: [DVec3; 2]) -> bool {
         let [from, direction] = [from, to - from].map(|v| v.to_array().into());
         self.0.intersects_local_ray(&parry3d_f64::query::Ray::new(from, direction), 1.0)
     }
@@ -52,7 +52,7 @@ impl Peer for Parry32 {
         Some(self.0.cast_local_ray(&ray, f32::MAX, true)?.into())
     }
 
-    fn is_blocked(&self, [from, to]: [DVec3; 2]) -> bool {
+    fn is_occluded(&self, [from, to]: [DVec3; 2]) -> bool {
         let [from, direction] = [from, to - from].map(|v| v.as_vec3().to_array().into());
         self.0.intersects_local_ray(&parry3d::query::Ray::new(from, direction), 1.0)
     }
@@ -132,7 +132,7 @@ impl Peer for Bvh {
         best.is_finite().then_some(best / length)
     }
 
-    fn is_blocked(&self, [from, to]: [DVec3; 2]) -> bool {
+    fn is_occluded(&self, [from, to]: [DVec3; 2]) -> bool {
         let length = (to - from).length();
         let ray = Self::ray([from, to - from]);
         let mut met = self.hierarchy.traverse_iterator(&ray, &self.triangles);

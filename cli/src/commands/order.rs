@@ -47,7 +47,7 @@ pub(crate) fn write_order(
     eye: Option<usize>,
 ) -> io::Result<()> {
     let mut fragments = if args.front_to_back {
-        tree.front_to_back(viewpoint)
+        tree.order(viewpoint).front_to_back().into_iter()
     } else {
         tree.back_to_front(viewpoint)
     };

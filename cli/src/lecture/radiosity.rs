@@ -118,11 +118,9 @@ fn published(chapter: &mut Chapter) -> Result<(), Failure> {
     for (name, sides, other, truth) in cases {
         let quads = [level(sides, 0.0), other];
         let tree = BspTree::build(quads).map_err(failure)?;
-        let bounds = tree.bounds().map_err(failure)?;
         let whole = patches(&quads, f64::INFINITY);
-        let found = [4, 16, 64].map(|side| {
-            format!("{:.5}", FormFactors::new(&tree, &bounds, &whole, side, 1).factor(0, 1))
-        });
+        let found = [4, 16, 64]
+            .map(|side| format!("{:.5}", FormFactors::new(&tree, &whole, side, 1).factor(0, 1)));
         let [few, more, most] = found;
         rows.push([name.to_owned(), few, more, most, format!("{truth:.5}")]);
     }

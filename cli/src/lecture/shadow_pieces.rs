@@ -1,9 +1,9 @@
 //! Shadows as pieces of polygons.
 
+use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::raster::{Faces, NONE, Rays, picture, zbuffer};
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree};
 use binspace_evidence::shadows::{Piece, Pieces, Zone, lamp, pieces};
 
 use super::chapter::{Chapter, Picture, failure, percent};
@@ -15,7 +15,6 @@ use crate::failure::Failure;
 pub(super) fn fill(
     chapter: &mut Chapter,
     tree: &BspTree,
-    bounds: &Bounds,
     camera: &Camera,
     middle: &[DVec3],
     by_lines: &[Option<Zone>],
@@ -34,7 +33,7 @@ pub(super) fn fill(
     let lamps = [("a point", middle.to_vec()), ("a rectangle, by its corners", lamp(2))];
     let (mut rows, mut pictures, mut differ) = (Vec::new(), Vec::new(), (0, 0));
     for (name, lamp) in lamps {
-        let Pieces { pieces, tried } = pieces(tree, bounds, &lamp);
+        let Pieces { pieces, tried } = pieces(tree, &lamp);
         rows.push(row(name, faces, &pieces, [tried, lamp.len() * faces.len().pow(2)]));
         let (rgb, zones) = painted(camera, faces, &pieces)?;
         let pairs = zones.iter().zip(by_lines).filter(|(zone, _)| zone.is_some());

@@ -3,7 +3,7 @@
 use binspace::glam::{DVec3, dvec3};
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, BuildOptions};
+use binspace::{BspTree, BuildOptions};
 use binspace_evidence::shadows::{Zone, courtyard, is_umbra, lamp, seen_points, zone};
 
 use super::chapter::{Chapter, Picture, percent};
@@ -29,20 +29,19 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let scene = courtyard();
     let build = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons());
     let tree = build.map_err(|error| Failure::about("a tree", error))?;
-    let bounds = tree.bounds().map_err(|error| Failure::about("boxes", error))?;
     let view = |error| Failure::about("a view", error);
     let (eye, target) = (dvec3(6100.0, -2700.0, 4300.0), dvec3(2150.0, 1850.0, 150.0));
     let camera = Camera::perspective(eye, target, DVec3::Z, 0.62, SIZE).map_err(view)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(view)?;
     let points = seen_points(&camera, eye, &rays, &tree);
     let middle = [dvec3(2093.0, 2231.0, 2999.0)];
-    let by_point = zones(&tree, &bounds, &points, &middle);
-    let all = SIDES.map(|side| zones(&tree, &bounds, &points, &lamp(side)));
+    let by_point = zones(&tree, &points, &middle);
+    let all = SIDES.map(|side| zones(&tree, &points, &lamp(side)));
     table(chapter, &all);
     let corners = lamp(2);
     let seen = points.iter().zip(&all[3]);
     let umbra = seen.clone().filter(|(_, zone)| **zone == Some(Zone::Umbra));
-    let certain = umbra.filter(|(p, _)| p.is_some_and(|p| is_umbra(&tree, &bounds, p, &corners)));
+    let certain = umbra.filter(|(p, _)| p.is_some_and(|p| is_umbra(&tree, p, &corners)));
     chapter.text(format!(
         "What lies between the points of the lamp is not noticed, so lit and umbra of a rectangle are right \
          but for a rim, which becomes narrower with more points; what is found to be penumbra is. Of the {} \
@@ -56,18 +55,13 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         Picture::new(SIZE, shown(&all[0]), "A rectangle by its corners"),
         Picture::new(SIZE, shown(&all[3]), "The same by 49 points"),
     ]);
-    shadow_pieces::fill(chapter, &tree, &bounds, &camera, &middle, &all[0])?;
+    shadow_pieces::fill(chapter, &tree, &camera, &middle, &all[0])?;
     radiosity::fill(chapter)
 }
 
 /// The zone of each pixel that shows a surface.
-fn zones(
-    tree: &BspTree,
-    bounds: &Bounds,
-    points: &[Option<DVec3>],
-    lamp: &[DVec3],
-) -> Vec<Option<Zone>> {
-    let at = |point: &Option<DVec3>| point.map(|point| zone(tree, bounds, point, lamp));
+fn zones(tree: &BspTree, points: &[Option<DVec3>], lamp: &[DVec3]) -> Vec<Option<Zone>> {
+    let at = |point: &Option<DVec3>| point.map(|point| zone(tree, point, lamp));
     points.iter().map(at).collect()
 }
 

@@ -8,7 +8,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::{Camera, CameraError};
-use binspace::{Bounds, BspTree, Culling, Flow, Fragment, Part, Sides};
+use binspace::{BspTree, Culling, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]
@@ -26,9 +26,11 @@ pub struct Step {
 ///
 /// Backs may only be left out of closed bodies that are seen from outside. What is hidden is found
 /// on one walk from front to back, which skips subtrees that the others leave out.
-pub fn steps(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> Vec<Step> {
+pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
+    // Boxes are made once, before the frames that are timed.
+    tree.bounds();
     let viewpoint = camera.viewpoint();
-    let in_view = Culling::new(bounds).with_frustum(camera.frustum());
+    let in_view = Culling::NONE.with_frustum(camera.frustum());
     let fronts = in_view.clone().with_sides(Sides::Front);
     let step = |name, find: &dyn Fn(&mut Vec<u32>)| {
         let (mut left, begin) = (Vec::new(), Instant::now());
@@ -38,14 +40,14 @@ pub fn steps(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> V
     vec![
         step("nothing", &|left| tree.back_to_front_into(viewpoint, left)),
         step("outside of the view volume", &|left| {
-            tree.culled_back_to_front_into(viewpoint, &in_view, left);
+            tree.order(viewpoint).culled(&in_view).write_into(left);
         }),
         step("and seen from behind", &|left| {
-            tree.culled_back_to_front_into(viewpoint, &fronts, left);
+            tree.order(viewpoint).culled(&fronts).write_into(left);
         }),
         step("and hidden", &|left| {
             let is_front = |fragment: &Fragment<'_>| fragment.facing(viewpoint).is_gt();
-            unhidden(tree, bounds, camera, rays, is_front, left);
+            unhidden(tree, camera, rays, is_front, left);
         }),
     ]
 }
@@ -66,7 +68,7 @@ pub struct Left {
 }
 
 /// The steps of culling in figures, each picture held against the exact one of all polygons.
-pub fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) -> Vec<Left> {
+pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
     let truth = zbuffer(rays, tree.faces());
     let left = |Step { name, left, time }| {
         let painted = paint_order(tree, &left, rays);
@@ -75,7 +77,7 @@ pub fn measure(tree: &BspTree, bounds: &Bounds, camera: &Camera, rays: &Rays) ->
             left.iter().map(|&fragment| tree.fragment(fragment).polygon()).collect();
         Left { name, polygons: polygons.len(), time, drawn: painted.drawn(), wrong }
     };
-    steps(tree, bounds, camera, rays).into_iter().map(left).collect()
+    steps(tree, camera, rays).into_iter().map(left).collect()
 }
 
 /// An eye over a crossing of streets of a city, above the highest roof.
@@ -95,7 +97,6 @@ pub fn over_the_city(size: [u32; 2]) -> Result<Camera, CameraError> {
 /// met before. The mask alone would find most of what is out of view as well.
 pub fn unhidden(
     tree: &BspTree,
-    bounds: &Bounds,
     camera: &Camera,
     rays: &Rays,
     is_wanted: impl Fn(&Fragment<'_>) -> bool,
@@ -105,10 +106,10 @@ pub fn unhidden(
     let mut entered = 0;
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let mut mask = CoverageMask::new(tree, rays, 1);
-    let _ = tree.walk_front_to_back(viewpoint, |part| {
+    let _ = tree.order(viewpoint).front_to_back().walk(|part| {
         match part {
             Part::Subtree(node) => {
-                let region = bounds.of(node);
+                let region = node.bounds();
                 if !frustum.meets(region) || mask.hides(region) {
                     return Flow::Skip;
                 }
@@ -136,10 +137,9 @@ mod tests {
 
     /// Holds every step against the exact picture of all, and the last against its owners.
     fn check(tree: &BspTree, camera: &Camera) -> Vec<usize> {
-        let bounds = tree.bounds().unwrap();
         let rays = Rays::new(camera, tree.faces()).unwrap();
         let truth = zbuffer(&rays, tree.faces());
-        let steps = steps(tree, &bounds, camera, &rays);
+        let steps = steps(tree, camera, &rays);
         for step in &steps {
             let picture = paint_order(tree, &step.left, &rays);
             let found = compare(&rays, tree.faces(), &picture, truth.image());
@@ -181,15 +181,14 @@ mod tests {
     /// How many subtrees are entered if only the mask tells what is out of view, and what is left.
     fn entered_by_the_mask_alone(
         tree: &BspTree,
-        bounds: &Bounds,
         camera: &Camera,
         rays: &Rays,
     ) -> (usize, Vec<u32>) {
         let mut mask = CoverageMask::new(tree, rays, 1);
         let (mut entered, mut left) = (0, Vec::new());
-        let _ = tree.walk_front_to_back(camera.viewpoint(), |part| {
+        let _ = tree.order(camera.viewpoint()).front_to_back().walk(|part| {
             match part {
-                Part::Subtree(node) if mask.hides(bounds.of(node)) => return Flow::Skip,
+                Part::Subtree(node) if mask.hides(node.bounds()) => return Flow::Skip,
                 Part::Subtree(_) => entered += 1,
                 Part::Fragment(fragment) if mask.cover(&fragment) => left.push(fragment.index()),
                 Part::Fragment(_) => {}
@@ -203,7 +202,6 @@ mod tests {
     #[test]
     fn subtrees_out_of_view_are_not_entered() {
         let tree = BspTree::build(scene::city(3000, 1).polygons()).unwrap();
-        let bounds = tree.bounds().unwrap();
         let mut random = SplitMix64::new(4);
         let (mut entered, mut by_mask, mut left) = (0, 0, Vec::new());
         for _ in 0..12 {
@@ -211,8 +209,8 @@ mod tests {
             let target = eye + random.point(-1.0, 1.0) * dvec3(1.0, 1.0, 0.3);
             let camera = Camera::perspective(eye, target, DVec3::Z, 1.0, [80, 60]).unwrap();
             let rays = Rays::new(&camera, tree.faces()).unwrap();
-            entered += unhidden(&tree, &bounds, &camera, &rays, |_| true, &mut left);
-            let (others, same) = entered_by_the_mask_alone(&tree, &bounds, &camera, &rays);
+            entered += unhidden(&tree, &camera, &rays, |_| true, &mut left);
+            let (others, same) = entered_by_the_mask_alone(&tree, &camera, &rays);
             assert_eq!(left, same);
             by_mask += others;
         }

@@ -72,13 +72,13 @@ pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
 /// If there is not enough memory.
 pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     let (mut overdraw, mut pieces) = (Overdraw::new(rays), Pieces::default());
-    let (width, bounds) = (rays.size()[0], tree.bounds()?);
+    let width = rays.size()[0];
     let mut mask = CoverageMask::new(tree, rays, 1);
-    let _ = tree.walk_front_to_back(rays.viewpoint(), |part| {
+    let _ = tree.order(rays.viewpoint()).front_to_back().walk(|part| {
         match part {
-            Part::Subtree(node) if mask.hides(bounds.of(node)) => return Flow::Skip,
+            Part::Subtree(node) if mask.hides(node.bounds()) => return Flow::Skip,
             Part::Subtree(_) => {}
-            Part::Fragment(fragment) if mask.hides(bounds.of_fragment(fragment.index())) => {}
+            Part::Fragment(fragment) if mask.hides(fragment.bounds()) => {}
             Part::Fragment(fragment) => {
                 mask.cover(&fragment);
                 for_each_run(rays, tree.faces(), pieces.of(&fragment), |y, columns| {

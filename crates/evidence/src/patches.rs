@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
-use binspace::{Bounds, BspTree, Ray};
+use binspace::{BspTree, Ray};
 
 /// Sight lines end this share of their length before the surfaces that they join, as points of surfaces
 /// are rounded. What is nearer to an end does not block.
@@ -86,14 +86,14 @@ impl FormFactors {
     /// the points see of the other patch if nothing hides it, times the share of the sight lines that are
     /// free, each weighted by the light that it carries. Points are at random in equal parts
     /// of the patch.
-    pub fn new(tree: &BspTree, bounds: &Bounds, patches: &[Patch], side: u32, seed: u64) -> Self {
+    pub fn new(tree: &BspTree, patches: &[Patch], side: u32, seed: u64) -> Self {
         let n = patches.len();
         let mut found = Self { factors: vec![0.0; n * n], patches: n, sight_lines: 0 };
         let mut random = SplitMix64::new(seed);
         for i in 0..n {
             for j in 0..i {
                 let pair = [&patches[i], &patches[j]];
-                let [there, back] = found.between(tree, bounds, pair, side, &mut random);
+                let [there, back] = found.between(tree, pair, side, &mut random);
                 found.factors[i * n + j] = there;
                 found.factors[j * n + i] = back;
             }
@@ -105,7 +105,6 @@ impl FormFactors {
     fn between(
         &mut self,
         tree: &BspTree,
-        bounds: &Bounds,
         [a, b]: [&Patch; 2],
         side: u32,
         random: &mut SplitMix64,
@@ -131,7 +130,7 @@ impl FormFactors {
             if weight > 0.0 {
                 self.sight_lines += 1;
                 all += weight;
-                free += if is_free(tree, bounds, p, q) { weight } else { 0.0 };
+                free += if is_free(tree, p, q) { weight } else { 0.0 };
             }
         }
         let share = if all > 0.0 { free / all } else { 0.0 };
@@ -183,8 +182,8 @@ fn seen(point: DVec3, normal: DVec3, patch: &Patch) -> f64 {
 }
 
 /// Whether one point of a surface sees another.
-fn is_free(tree: &BspTree, bounds: &Bounds, p: DVec3, q: DVec3) -> bool {
-    !bounds.is_blocked(tree, Ray::between(p.lerp(q, RIM), q.lerp(p, RIM)))
+fn is_free(tree: &BspTree, p: DVec3, q: DVec3) -> bool {
+    !tree.is_occluded(Ray::between(p.lerp(q, RIM), q.lerp(p, RIM)))
 }
 
 /// A number from 0 to 1.

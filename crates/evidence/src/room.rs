@@ -62,9 +62,8 @@ impl Room {
         let scene = cornell_box();
         let (quads, colours) = surfaces(&scene);
         let tree = BspTree::build(quads.iter().copied())?;
-        let bounds = tree.bounds()?;
         let patches = patches(&quads, length);
-        let factors = FormFactors::new(&tree, &bounds, &patches, side, seed);
+        let factors = FormFactors::new(&tree, &patches, side, seed);
         let reflected = patches.iter().map(|patch| colours[patch.quad]).collect();
         let is_lamp = |patch: &Patch| patch.quad == quads.len() - 2;
         let light = patches.iter().map(|p| if is_lamp(p) { LAMP_LIGHT } else { 0.0 }).collect();

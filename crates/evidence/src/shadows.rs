@@ -14,7 +14,7 @@ use binspace::internals::cuboid;
 use binspace::raster::{NONE, Rays, zbuffer};
 use binspace::scene::Scene;
 use binspace::view::Camera;
-use binspace::{Bounds, BspTree, Ray};
+use binspace::{BspTree, Ray};
 
 /// What a point has of a lamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,8 +31,8 @@ pub enum Zone {
 ///
 /// Of one point this is all there is to know. Of a rectangle, it is right but for a rim: what is lit or
 /// hidden between the points is not noticed. [`is_umbra`] is certain.
-pub fn zone(tree: &BspTree, bounds: &Bounds, point: DVec3, lamp: &[DVec3]) -> Zone {
-    let sees = |&at: &DVec3| !bounds.is_blocked(tree, Ray::between(point, at));
+pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
+    let sees = |&at: &DVec3| !tree.is_occluded(Ray::between(point, at));
     match lamp.iter().filter(|at| sees(at)).count() {
         0 => Zone::Umbra,
         n if n == lamp.len() => Zone::Lit,
@@ -42,9 +42,9 @@ pub fn zone(tree: &BspTree, bounds: &Bounds, point: DVec3, lamp: &[DVec3]) -> Zo
 
 /// Whether one convex polygon lies between a point and all corners of a lamp: then it hides all of the
 /// lamp, for what it hides of the lamp's plane is convex.
-pub fn is_umbra(tree: &BspTree, bounds: &Bounds, point: DVec3, corners: &[DVec3]) -> bool {
+pub fn is_umbra(tree: &BspTree, point: DVec3, corners: &[DVec3]) -> bool {
     let between = |&at: &DVec3| {
-        let hits = bounds.hits(tree, Ray::between(point, at));
+        let hits = tree.hits(Ray::between(point, at));
         hits.filter(|hit| hit.parameter() > 0.0).map(|hit| hit.polygon()).collect::<Vec<_>>()
     };
     let mut all = corners.iter().map(between);

@@ -7,7 +7,7 @@ use super::rays::{Vector, vector};
 use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{Bounds, BspTree, Hit, Ray};
+use binspace::{BspTree, Hit, Ray};
 use dashu_int::IBig;
 use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
@@ -19,7 +19,6 @@ const RUN: usize = 16;
 /// A tree's faces, made ready for rays.
 pub struct Oracle<'t> {
     tree: &'t BspTree,
-    bounds: Bounds,
     faces: Vec<Face>,
     /// The same in rationals, as far as they were asked for.
     models: Vec<OnceLock<model::Face>>,
@@ -271,7 +270,6 @@ impl<'t> Oracle<'t> {
         assert_eq!(digits.count_ones(), 1, "a power of two");
         Self {
             tree,
-            bounds: tree.bounds().expect("memory"),
             faces: all().map(|face| Face::new(faces, face)).collect(),
             models: all().map(|_| OnceLock::new()).collect(),
             middle: Rough::around(&balls).centre,
@@ -433,7 +431,7 @@ impl<'t> Oracle<'t> {
         let chords = self.chords(&line);
         let is_inside =
             |u: &Fraction| u.over.is_positive() && line.end.as_ref().is_none_or(|end| u < end);
-        let is_blocked =
+        let is_occluded =
             chords.iter().any(|chord| chord.enter < chord.leave || is_inside(&chord.enter));
         let truth = self.hits(chords);
         let most = 2 * truth.len() + 9;
@@ -445,13 +443,7 @@ impl<'t> Oracle<'t> {
             let is_excused = hits.is_empty() && self.may_miss(ray);
             return if is_excused { Ok(()) } else { Err(fault("wrong hits")) };
         }
-        // By boxes, the same.
-        let same = |hit: &Hit<'_>| (hit.fragment().index(), hit.facing(), hit.spot());
-        let by_boxes = self.bounds.hits(self.tree, ray).take(most);
-        if !by_boxes.map(|hit| same(&hit)).eq(hits.iter().map(same)) {
-            return Err(fault("wrong hits by boxes"));
-        }
-        if [self.tree.is_blocked(ray), self.bounds.is_blocked(self.tree, ray)] != [is_blocked; 2] {
+        if self.tree.is_occluded(ray) != is_occluded {
             return Err(fault("wrongly blocked, or not"));
         }
         for (hit, truth) in hits.iter().zip(&truth) {
@@ -479,8 +471,8 @@ impl<'t> Oracle<'t> {
         let is_end =
             |hit: &&Chord| hit.enter.over.is_zero() || line.end.as_ref() == Some(&hit.enter);
         score.at_ends += truth.iter().filter(is_end).count();
-        score.blocked += usize::from(is_blocked);
-        score.clear += usize::from(!is_blocked);
+        score.blocked += usize::from(is_occluded);
+        score.clear += usize::from(!is_occluded);
         Ok(())
     }
 

@@ -1,11 +1,11 @@
 //! Checks that all forms of an order are the same.
 
 use super::judge::{Verdict, ensure};
-use binspace::{BspTree, Fragment, Viewpoint};
+use binspace::{BspTree, Flow, Fragment, Part, Viewpoint};
 use std::ops::ControlFlow;
 
-/// Every fragment once; iterator, visitor and index form alike, both ways; and a visitor that
-/// breaks off sees no more.
+/// Every fragment once; iterator and index form alike, both ways; and a walk that breaks off
+/// sees no more.
 pub fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
     let id = |fragment: Fragment<'_>| fragment.index();
     let mut far_first = vec![7; 3];
@@ -16,29 +16,21 @@ pub fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
 
     let listed: Vec<u32> = tree.back_to_front(viewpoint).map(id).collect();
     ensure(listed == far_first, || format!("iterator {listed:?}, index form {far_first:?}"))?;
-    let mut visited = Vec::new();
-    let done = tree.visit_back_to_front(viewpoint, |fragment| {
-        visited.push(fragment.index());
-        ControlFlow::<()>::Continue(())
-    });
-    ensure(done.is_continue() && visited == far_first, || format!("visitor {visited:?}"))?;
-
     let reverse: Vec<u32> = far_first.iter().rev().copied().collect();
     // Longer than the working space, so that none of it is zero to begin with.
     let mut near_first = vec![u32::MAX; 4 * tree.len() + 40];
-    tree.front_to_back_into(viewpoint, &mut near_first);
+    tree.order(viewpoint).front_to_back().write_into(&mut near_first);
     ensure(near_first == reverse, || format!("{near_first:?} not {reverse:?}"))?;
-    let listed: Vec<u32> = tree.front_to_back(viewpoint).map(id).collect();
+    let listed: Vec<u32> = tree.order(viewpoint).front_to_back().into_iter().map(id).collect();
     ensure(listed == reverse, || format!("iterator {listed:?} not {reverse:?}"))?;
 
     let stop = tree.len() / 2;
     let mut seen = Vec::new();
-    let broken = tree.visit_front_to_back(viewpoint, |fragment| {
-        seen.push(fragment.index());
-        if seen.len() > stop {
-            ControlFlow::Break(fragment.index())
-        } else {
-            ControlFlow::Continue(())
+    let broken = tree.order(viewpoint).front_to_back().walk(|part| match part {
+        Part::Subtree(_) => Flow::Descend,
+        Part::Fragment(fragment) => {
+            seen.push(fragment.index());
+            if seen.len() > stop { Flow::Break(fragment.index()) } else { Flow::Descend }
         }
     });
     let expected =

@@ -75,14 +75,13 @@ pub fn use_all(tree: &BspTree) -> Verdict {
 }
 
 fn use_walks(tree: &BspTree) -> Verdict {
-    let bounds = tree.bounds().map_err(|error| error.to_string())?;
-    let _ = (bounds.all(), bounds.bytes());
+    let _ = tree.bounds();
     let slab = Frustum::new([(DVec3::X, -0.5), (DVec3::NEG_X, -0.5)]);
     for viewpoint in EYES {
         let mut walked = Vec::new();
-        let _ = tree.walk_back_to_front(viewpoint, |part| {
+        let _ = tree.order(viewpoint).walk(|part| {
             match part {
-                Part::Subtree(node) => drop((bounds.of(node), bounds.facing(node, viewpoint))),
+                Part::Subtree(node) => drop((node.bounds(), node.facing_all(viewpoint))),
                 Part::Fragment(fragment) => walked.push(fragment.index()),
             }
             Flow::<()>::Descend
@@ -91,8 +90,8 @@ fn use_walks(tree: &BspTree) -> Verdict {
         tree.back_to_front_into(viewpoint, &mut order);
         ensure(walked == order, || "a walk has another order".into())?;
         for sides in [Sides::Both, Sides::Front, Sides::Back] {
-            let culling = Culling::new(&bounds).with_frustum(slab.clone()).with_sides(sides);
-            tree.culled_back_to_front_into(viewpoint, &culling, &mut order);
+            let culling = Culling::NONE.with_frustum(slab.clone()).with_sides(sides);
+            tree.order(viewpoint).culled(&culling).write_into(&mut order);
             ensure(order.len() <= tree.len(), || "more than all is left".into())?;
         }
     }
@@ -110,15 +109,12 @@ fn places(tree: &BspTree) -> Vec<DVec3> {
 /// How many hits of a ray are read.
 const HITS: usize = 100;
 
-/// Asks everything that can be asked of points, rays and regions. What is found with boxes and without
-/// is the same.
+/// Runs every query of points, rays and regions.
 pub fn use_queries(tree: &BspTree) -> Verdict {
-    let bounds = tree.bounds().map_err(|error| error.to_string())?;
     let places = places(tree);
     let _ = tree.grid();
     for (k, &place) in places.iter().enumerate() {
         if let Some(location) = tree.locate(place) {
-            ensure(location.coplanar().all(|f| (f as usize) < tree.len()), || "coplanar".into())?;
             let _ = (location.node(), location.fragments(), location.planes().len());
         }
         let other = places[(k + 3) % places.len()];
@@ -129,22 +125,19 @@ pub fn use_queries(tree: &BspTree) -> Verdict {
             Ray::new(place + (place - other) * 3.0, DVec3::new(0.1, 0.0, -1.0)),
         ] {
             let hits: Vec<_> = tree.hits(ray).take(HITS).collect();
-            let boxed: Vec<_> = bounds.hits(tree, ray).take(HITS).collect();
-            let blocked = [tree.is_blocked(ray), bounds.is_blocked(tree, ray)];
-            let same = hits.iter().map(|hit| hit.polygon()).eq(boxed.iter().map(|h| h.polygon()));
-            ensure(same && blocked[0] == blocked[1], || format!("{ray:?}"))?;
+            ensure(!tree.is_occluded(ray) || !hits.is_empty(), || format!("{ray:?}"))?;
             for pair in hits.windows(2) {
                 ensure(pair[0].compare(&pair[1]).is_le(), || format!("order: {ray:?}"))?;
             }
-            for hit in hits.iter().chain(&boxed) {
+            for hit in &hits {
                 let _ = (hit.point(), hit.parameter(), hit.facing(), hit.grid_points());
                 let _ = (format!("{hit:?}"), hit.fragment().grid_points());
             }
         }
         let region = Frustum::of_box([place.min(other), place.max(other)]);
-        let inside: Vec<u32> = bounds.fragments_in(tree, &region).collect();
+        let inside: Vec<u32> = tree.fragments_in(&region).collect();
         ensure(inside.is_sorted_by(|a, b| a < b), || "fragments in a region".into())?;
-        let _ = bounds.fragments_in(tree, &Frustum::new([(other - place, 0.0)])).count();
+        let _ = tree.fragments_in(&Frustum::new([(other - place, 0.0)])).count();
     }
     for node in tree.nodes() {
         let _ = node.grid_points();
@@ -174,14 +167,14 @@ fn use_overlay(tree: &BspTree) {
     let mut order = Vec::new();
     if overlay.replace(tree, &polygons).is_ok() {
         for viewpoint in EYES {
-            let written = overlay.back_to_front_into(tree, viewpoint, &mut order);
-            assert!(written.is_ok() && order.len() == tree.len() + overlay.len());
+            overlay.order(tree, viewpoint).expect("its own tree").write_into(&mut order);
+            assert!(order.len() == tree.len() + overlay.len());
         }
     }
     let shapes = Shapes::NONE.with_polygons(&polygons).with_lines([&corners[..]]);
     if overlay.replace_with(tree, shapes.with_points(corners.iter().copied())).is_ok() {
         for viewpoint in EYES {
-            let shapes = overlay.back_to_front(tree, viewpoint).expect("its own tree");
+            let shapes = overlay.order(tree, viewpoint).expect("its own tree");
             let mut seen = 0;
             for shape in shapes {
                 let at = match shape {

@@ -128,7 +128,7 @@ impl Triangles {
     }
 
     /// Writes the indices of some fragments in a given order, such as that of
-    /// [`culled_back_to_front_into`](BspTree::culled_back_to_front_into), and returns how many:
+    /// [`Order::write_into`](crate::Order::write_into), and returns how many:
     /// otherwise as [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors

@@ -222,11 +222,9 @@ impl Planes {
     }
 
     /// Planes that are given rounded, in their order.
-    pub(in crate::tree) fn of(
-        mut planes: impl ExactSizeIterator<Item = Vec4>,
-    ) -> Result<Self, Error> {
+    pub(in crate::tree) fn of(mut planes: impl ExactSizeIterator<Item = Vec4>) -> Self {
         let groups = 0..planes.len().div_ceil(GROUP);
-        Ok(Self(collect(groups.map(|_| group(planes.by_ref().take(GROUP))))?))
+        Self(groups.map(|_| group(planes.by_ref().take(GROUP))).collect())
     }
 
     /// How many words the signs of all planes take, and one more to read past the end.

@@ -8,13 +8,209 @@ use std::hint::select_unpredictable;
 use std::iter::FusedIterator;
 use std::ops::{ControlFlow, Range};
 
+use super::culling::{Cull, Culling};
 use crate::tree::{BspTree, Child, Fragment, Node};
 use crate::viewpoint::Viewpoint;
 use eye::View;
 use layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 
-/// The fragments of a tree in the order of a viewpoint: [`BspTree::back_to_front`] and
-/// [`BspTree::front_to_back`].
+/// The order of a tree's fragments for one viewpoint: [`BspTree::order`].
+///
+/// It is back to front unless you call [`front_to_back`](Self::front_to_back). Write it into a list of
+/// numbers, iterate over its fragments, or walk its subtrees:
+///
+/// ```
+/// use binspace::{BspTree, Viewpoint};
+///
+/// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+/// let tree = BspTree::build([square(2.0), square(0.0), square(1.0)])?;
+/// let order = tree.order(Viewpoint::eye([0.5, 0.5, 9.0])).front_to_back();
+///
+/// let mut numbers = Vec::new();
+/// order.write_into(&mut numbers);
+/// assert!(order.into_iter().map(|fragment| fragment.index()).eq(numbers));
+/// assert!(order.into_iter().map(|fragment| fragment.polygon()).eq([0, 2, 1]));
+/// # Ok::<(), binspace::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an order is written, iterated over or walked"]
+pub struct Order<'t> {
+    tree: &'t BspTree,
+    viewpoint: Viewpoint,
+    is_front_to_back: bool,
+    culling: Option<&'t Culling>,
+}
+
+impl BspTree {
+    /// The order of the fragments for a viewpoint, to be written into a list, iterated over or walked.
+    pub fn order(&self, viewpoint: Viewpoint) -> Order<'_> {
+        Order { tree: self, viewpoint, is_front_to_back: false, culling: None }
+    }
+
+    /// The fragments, back to front: none hides one that comes later. Short for an iterator over
+    /// [`order`](Self::order).
+    pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
+        self.order(viewpoint).into_iter()
+    }
+
+    /// Writes the numbers of all fragments, back to front, into a buffer, and replaces its contents.
+    /// Short for [`Order::write_into`].
+    pub fn back_to_front_into(&self, viewpoint: Viewpoint, numbers: &mut Vec<u32>) {
+        self.order(viewpoint).write_into(numbers);
+    }
+}
+
+impl<'t> Order<'t> {
+    /// The same order, front to back: no fragment is hidden by one that comes later. It is the exact
+    /// reverse of back to front.
+    pub fn front_to_back(self) -> Self {
+        Self { is_front_to_back: true, ..self }
+    }
+
+    /// The same order without the fragments outside of a frustum, or without those that show the wrong
+    /// side.
+    pub fn culled(self, culling: &'t Culling) -> Self {
+        Self { culling: Some(culling), ..self }
+    }
+
+    /// Writes the numbers of the fragments into a buffer, and replaces its contents.
+    ///
+    /// O(n). Every node stores how many fragments lie on each of its sides, so the place of a subtree in
+    /// the order is known before the subtree is read, and each number is written to its final place.
+    /// The buffer is working space as well. Its capacity grows to one or two numbers per fragment, at
+    /// most four per fragment plus sixteen; after that, nothing is allocated.
+    ///
+    /// A culled order skips subtrees outside of the frustum, and those of which only the wrong side is
+    /// seen. Its time is proportional to the number of fragments that are left and of those close to the
+    /// frustum's boundary. It takes O(depth) memory, and a bit for each fragment and each block of 16.
+    ///
+    /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) turns the list into indices of
+    /// triangles.
+    pub fn write_into(self, numbers: &mut Vec<u32>) {
+        match self.culling {
+            Some(culling) => {
+                numbers.clear();
+                Cull::new(self.tree, self.viewpoint, culling).write(numbers);
+            }
+            None => self.tree.write_all(self.viewpoint, numbers),
+        }
+        if self.is_front_to_back {
+            numbers.reverse();
+        }
+    }
+
+    /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns
+    /// [`Flow::Skip`]. Returns what `visit` broke with.
+    ///
+    /// A subtree is visited after everything before it in the order, and before anything in it. So front
+    /// to back it is visited after everything that may hide it. Takes O(parts visited) time and O(depth)
+    /// memory, and does not recurse.
+    ///
+    /// ```
+    /// use binspace::{BspTree, Flow, Part, Viewpoint};
+    ///
+    /// let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.5], [x, 1.0, 1.0]];
+    /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
+    /// let mut seen = Vec::new();
+    /// let mut subtrees = 0;
+    /// let _ = tree.order(Viewpoint::eye([50.0, -9.0, 3.0])).walk(|part| match part {
+    ///     Part::Subtree(node) => {
+    ///         subtrees += 1;
+    ///         let [low, high] = node.bounds();
+    ///         if high.x < 20.0 || low.x > 23.5 { Flow::Skip } else { Flow::<()>::Descend }
+    ///     }
+    ///     Part::Fragment(fragment) => {
+    ///         seen.push(fragment.polygon());
+    ///         Flow::Descend
+    ///     }
+    /// });
+    /// assert!((20..=23).all(|polygon| seen.contains(&polygon)));
+    /// assert!(subtrees < 40);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    pub fn walk<B>(self, mut visit: impl FnMut(Part<'t>) -> Flow<B>) -> ControlFlow<B> {
+        let Self { tree, viewpoint, is_front_to_back, culling } = self;
+        let view = View::new(tree, viewpoint);
+        let cull = culling.map(|culling| Cull::new(tree, viewpoint, culling));
+        let mut pending = vec![tree.whole()];
+        while let Some(next) = pending.pop() {
+            match next {
+                Child::Node(node) => {
+                    if cull.as_ref().is_some_and(|cull| !cull.shows_some(&node)) {
+                        continue;
+                    }
+                    match visit(Part::Subtree(node)) {
+                        Flow::Descend => {
+                            let mut parts = node.parts(view.is_in_front(tree, node.index()));
+                            // The last one is taken first.
+                            if !is_front_to_back {
+                                parts.reverse();
+                            }
+                            pending.extend(parts);
+                        }
+                        Flow::Skip => {}
+                        Flow::Break(value) => return ControlFlow::Break(value),
+                    }
+                }
+                Child::Leaf(mut run) => {
+                    let take = |run: &mut Range<u32>| {
+                        if is_front_to_back { run.next_back() } else { run.next() }
+                    };
+                    while let Some(index) = take(&mut run) {
+                        if cull.as_ref().is_some_and(|cull| !cull.shows(index)) {
+                            continue;
+                        }
+                        if let Flow::Break(value) = visit(Part::Fragment(tree.fragment(index))) {
+                            return ControlFlow::Break(value);
+                        }
+                    }
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<'t> IntoIterator for Order<'t> {
+    type Item = Fragment<'t>;
+    type IntoIter = Ordered<'t>;
+
+    /// A culled order is written into a list first.
+    fn into_iter(self) -> Ordered<'t> {
+        let Self { tree, viewpoint, is_front_to_back: front_to_back, culling } = self;
+        let (mut left, mut parts) = (tree.records.len(), VecDeque::from([tree.whole()]));
+        if culling.is_some() {
+            let mut numbers = Vec::new();
+            Self { is_front_to_back: false, ..self }.write_into(&mut numbers);
+            left = numbers.len();
+            parts = numbers.into_iter().map(|number| Child::Leaf(number..number + 1)).collect();
+        }
+        let view = View::new(tree, viewpoint);
+        Ordered { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
+    }
+}
+
+/// What a walk comes to: [`Order::walk`].
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'t> {
+    /// A subtree, before anything in it.
+    Subtree(Node<'t>),
+    /// A fragment, in its place in the order.
+    Fragment(Fragment<'t>),
+}
+
+/// How a walk goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow<B = ()> {
+    /// Into the subtree. After a fragment: to the next part.
+    Descend,
+    /// Past the subtree: nothing in it is visited. After a fragment: to the next part.
+    Skip,
+    /// Not at all: the walk ends and returns the value.
+    Break(B),
+}
+
+/// The fragments of a tree in an [`Order`].
 ///
 /// It can be read from both ends. To read all n fragments takes O(n) time, from either end or from
 /// both, and O(depth) memory.
@@ -34,13 +230,6 @@ pub struct Ordered<'t> {
 }
 
 impl<'t> Ordered<'t> {
-    fn new(tree: &'t BspTree, viewpoint: Viewpoint, front_to_back: bool) -> Self {
-        let left = tree.records.len();
-        let view = View::new(tree, viewpoint);
-        let parts = [tree.whole()].into();
-        Self { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
-    }
-
     /// The parts of a subtree, back to front.
     fn open(&self, node: Node<'t>) -> [Child<'t>; 3] {
         node.parts(self.view.is_in_front(self.tree, node.index()))
@@ -110,163 +299,12 @@ impl DoubleEndedIterator for Ordered<'_> {
 impl ExactSizeIterator for Ordered<'_> {}
 impl FusedIterator for Ordered<'_> {}
 
-impl BspTree {
-    /// The fragments, back to front: none hides one that comes later.
-    pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
-        Ordered::new(self, viewpoint, false)
-    }
-
-    /// The fragments, front to back: none is hidden by one that comes later. The reverse of
-    /// [`back_to_front`](Self::back_to_front).
-    pub fn front_to_back(&self, viewpoint: Viewpoint) -> Ordered<'_> {
-        Ordered::new(self, viewpoint, true)
-    }
-
-    /// Calls `visit` with each fragment, back to front, until it returns [`ControlFlow::Break`],
-    /// and returns what it returned last.
-    pub fn visit_back_to_front<B>(
-        &self,
-        viewpoint: Viewpoint,
-        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        self.back_to_front(viewpoint).try_for_each(visit)
-    }
-
-    /// Calls `visit` with each fragment, front to back, until it returns [`ControlFlow::Break`]
-    /// (say, because every pixel is covered), and returns what it returned last.
-    pub fn visit_front_to_back<B>(
-        &self,
-        viewpoint: Viewpoint,
-        visit: impl FnMut(Fragment<'_>) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        self.front_to_back(viewpoint).try_for_each(visit)
-    }
-}
-
-/// What a walk comes to: [`BspTree::walk_back_to_front`] and [`BspTree::walk_front_to_back`].
-#[derive(Clone, Copy, Debug)]
-pub enum Part<'t> {
-    /// A subtree, before anything in it.
-    Subtree(Node<'t>),
-    /// A fragment, in its place in the order.
-    Fragment(Fragment<'t>),
-}
-
-/// How a walk goes on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow<B = ()> {
-    /// Into the subtree. After a fragment: to the next part.
-    Descend,
-    /// Past the subtree: nothing in it is visited. After a fragment: to the next part.
-    Skip,
-    /// Not at all: the walk ends and returns the value.
-    Break(B),
-}
-
-impl BspTree {
-    /// Visits subtrees and fragments, back to front, and leaves out the subtrees that `visit`
-    /// skips. Returns what `visit` broke with.
-    ///
-    /// The fragments of subtrees that are not skipped come in the order of
-    /// [`back_to_front`](Self::back_to_front). A subtree comes when the walk reaches it: after all
-    /// that is behind it, before anything in it. Takes O(parts visited) time and O(depth) memory,
-    /// and does not recurse.
-    ///
-    /// With [`Bounds`](crate::Bounds), what lies outside of a region is left out as a whole:
-    ///
-    /// ```
-    /// use binspace::{BspTree, Flow, Part, Viewpoint};
-    ///
-    /// let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.5], [x, 1.0, 1.0]];
-    /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
-    /// let bounds = tree.bounds()?;
-    /// let mut seen = Vec::new();
-    /// let mut subtrees = 0;
-    /// let _ = tree.walk_back_to_front(Viewpoint::eye([50.0, -9.0, 3.0]), |part| match part {
-    ///     Part::Subtree(node) => {
-    ///         subtrees += 1;
-    ///         let [low, high] = bounds.of(node);
-    ///         if high.x < 20.0 || low.x > 23.5 { Flow::Skip } else { Flow::<()>::Descend }
-    ///     }
-    ///     Part::Fragment(fragment) => {
-    ///         seen.push(fragment.polygon());
-    ///         Flow::Descend
-    ///     }
-    /// });
-    /// assert!((20..=23).all(|polygon| seen.contains(&polygon)));
-    /// assert!(subtrees < 40);
-    /// # Ok::<(), binspace::Error>(())
-    /// ```
-    pub fn walk_back_to_front<'t, B>(
-        &'t self,
-        viewpoint: Viewpoint,
-        visit: impl FnMut(Part<'t>) -> Flow<B>,
-    ) -> ControlFlow<B> {
-        self.walk(viewpoint, false, visit)
-    }
-
-    /// Visits subtrees and fragments, front to back, and leaves out the subtrees that `visit`
-    /// skips; otherwise as [`walk_back_to_front`](Self::walk_back_to_front). A subtree comes after
-    /// all that is in front of it: skip it if that hides it.
-    pub fn walk_front_to_back<'t, B>(
-        &'t self,
-        viewpoint: Viewpoint,
-        visit: impl FnMut(Part<'t>) -> Flow<B>,
-    ) -> ControlFlow<B> {
-        self.walk(viewpoint, true, visit)
-    }
-
-    fn walk<'t, B>(
-        &'t self,
-        viewpoint: Viewpoint,
-        is_front_to_back: bool,
-        mut visit: impl FnMut(Part<'t>) -> Flow<B>,
-    ) -> ControlFlow<B> {
-        let view = View::new(self, viewpoint);
-        let mut pending = vec![self.whole()];
-        while let Some(next) = pending.pop() {
-            match next {
-                Child::Node(node) => match visit(Part::Subtree(node)) {
-                    Flow::Descend => {
-                        let mut parts = node.parts(view.is_in_front(self, node.index()));
-                        // The last one is taken first.
-                        if !is_front_to_back {
-                            parts.reverse();
-                        }
-                        pending.extend(parts);
-                    }
-                    Flow::Skip => {}
-                    Flow::Break(value) => return ControlFlow::Break(value),
-                },
-                Child::Leaf(mut run) => {
-                    let take = |run: &mut std::ops::Range<u32>| {
-                        if is_front_to_back { run.next_back() } else { run.next() }
-                    };
-                    while let Some(index) = take(&mut run) {
-                        if let Flow::Break(value) = visit(Part::Fragment(self.fragment(index))) {
-                            return ControlFlow::Break(value);
-                        }
-                    }
-                }
-            }
-        }
-        ControlFlow::Continue(())
-    }
-}
-
 /// Spare places behind an order: a block always writes as many numbers as the largest has.
 const ROOM: usize = FRAGMENTS;
 
 impl BspTree {
-    /// Writes the numbers of all fragments, back to front, into a buffer, and replaces its contents.
-    ///
-    /// The buffer is working space as well. Its capacity grows to one or two numbers per fragment,
-    /// at most four per fragment plus sixteen; after that, nothing is allocated.
-    ///
-    /// O(n), without a stack: every node stores how many fragments lie on each of its sides, so the
-    /// place of a subtree in the order is known before the subtree is read, and each number is
-    /// written to its final place.
-    pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
+    /// Writes the numbers of all fragments, back to front.
+    fn write_all(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         let view = View::new(self, viewpoint);
         let Some(layout) = &self.layout else {
             order.clear();
@@ -276,13 +314,6 @@ impl BspTree {
         write_order(layout, self.records.len(), self.planes.words(), order, |signs| {
             view.write_signs(self, signs);
         });
-    }
-
-    /// Writes the numbers of all fragments, front to back, into a buffer: the reverse of
-    /// [`back_to_front_into`](Self::back_to_front_into).
-    pub fn front_to_back_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
-        self.back_to_front_into(viewpoint, order);
-        order.reverse();
     }
 }
 

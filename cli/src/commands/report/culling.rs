@@ -30,11 +30,10 @@ pub(super) fn run(is_quick: bool) -> Result<City, Failure> {
     let tree = BspTree::build(scene.polygons());
     let tree = tree.map_err(|error| Failure::about(scene.name(), error))?;
     let build = begin.elapsed().as_secs_f64();
-    let bounds = tree.bounds().map_err(|error| Failure::about(scene.name(), error))?;
     let view = |error| Failure::about("a view of the city", error);
     let camera = over_the_city(SIZE).map_err(view)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(view)?;
-    let steps = measure(&tree, &bounds, &camera, &rays);
+    let steps = measure(&tree, &camera, &rays);
     progress.step();
     Ok(City { polygons: scene.len(), fragments: tree.len(), build, steps })
 }

@@ -19,11 +19,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let failure = |error| Failure::about("a view", error);
     let scene = scene::city(POLYGONS, 1);
     let tree = BspTree::build(scene.polygons()).map_err(|error| Failure::about("a tree", error))?;
-    let bounds = tree.bounds().map_err(|error| Failure::about("boxes", error))?;
     let camera = over_the_city(SIZE).map_err(failure)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(failure)?;
     let truth = zbuffer(&rays, tree.faces());
-    let rows = measure(&tree, &bounds, &camera, &rays).into_iter().map(|left| {
+    let rows = measure(&tree, &camera, &rays).into_iter().map(|left| {
         let share = percent(left.polygons as f64, scene.len() as f64);
         [
             left.name.to_owned(),

@@ -18,7 +18,7 @@ fn room(with_body: bool) -> Vec<[DVec3; 4]> {
 fn factors(quads: &[[DVec3; 4]], length: f64, side: u32) -> (Vec<Patch>, FormFactors) {
     let tree = BspTree::build(quads.iter().copied()).unwrap();
     let patches = patches(quads, length);
-    let found = FormFactors::new(&tree, &tree.bounds().unwrap(), &patches, side, 1);
+    let found = FormFactors::new(&tree, &patches, side, 1);
     (patches, found)
 }
 
@@ -70,7 +70,7 @@ fn level(x: [f64; 2], y: [f64; 2], z: f64, is_turned: bool) -> [DVec3; 4] {
 fn factor(quads: &[[DVec3; 4]], side: u32) -> f64 {
     let tree = BspTree::build(quads.iter().copied()).unwrap();
     let whole = patches(&quads[..2], 1e9);
-    FormFactors::new(&tree, &tree.bounds().unwrap(), &whole, side, 3).factor(0, 1)
+    FormFactors::new(&tree, &whole, side, 3).factor(0, 1)
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Which faces may throw a shadow on a face.
 
 use binspace::glam::DVec3;
-use binspace::{Bounds, BspTree, Frustum};
+use binspace::{BspTree, Frustum};
 
 /// By how much the sides of a pyramid are moved outwards, as a share of the cube of the largest
 /// coordinate: a side is a product of three lengths, of which each is off by some 10⁻¹⁵ of that
@@ -13,8 +13,8 @@ const WIDER: f64 = 1e-11;
 ///
 /// What throws a shadow on a face goes through the pyramid between the lamp and the face. The tree's boxes
 /// tell what may do so; in doubt it is kept, so no shadow is lost.
-pub(super) fn casters(tree: &BspTree, bounds: &Bounds, corners: &[DVec3], lamp: DVec3) -> Vec<u32> {
-    let within = bounds.fragments_in(tree, &pyramid(corners, lamp));
+pub(super) fn casters(tree: &BspTree, corners: &[DVec3], lamp: DVec3) -> Vec<u32> {
+    let within = tree.fragments_in(&pyramid(corners, lamp));
     let mut faces: Vec<u32> = within.map(|fragment| tree.fragment(fragment).face()).collect();
     faces.sort_unstable();
     faces.dedup();

@@ -9,9 +9,9 @@ use super::Zone;
 use super::casters::casters;
 use super::shade::{Shade, side};
 use crate::place::{Place, Plane};
+use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{Bounds, BspTree};
 
 /// A convex part of a face, all of whose inner points see the same of a lamp.
 ///
@@ -116,8 +116,8 @@ pub struct Pieces {
 ///
 /// Each face is cut by the shadows of those that the tree's boxes find between it and the lamp: time grows
 /// with these and with the number of pieces. The lamp is rounded to the faces' lattice.
-pub fn pieces(tree: &BspTree, bounds: &Bounds, lamp: &[DVec3]) -> Pieces {
-    pieces_by(tree.faces(), lamp, |corners, at| casters(tree, bounds, corners, at))
+pub fn pieces(tree: &BspTree, lamp: &[DVec3]) -> Pieces {
+    pieces_by(tree.faces(), lamp, |corners, at| casters(tree, corners, at))
 }
 
 /// The pieces, where what may throw a shadow on a face with some corners from a point is found by a

@@ -2,7 +2,6 @@
 
 use super::pieces::pieces_by;
 use super::{Piece, Pieces, courtyard, lamp, pieces};
-use binspace::Bounds;
 use binspace::internals::{SplitMix64, cuboid};
 use binspace::scene::random_triangles;
 use testkit::prelude::*;
@@ -21,10 +20,8 @@ fn posts(side: u32) -> Scene {
     scene
 }
 
-fn tree(scene: &Scene) -> (BspTree, Bounds) {
-    let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap();
-    let bounds = tree.bounds().unwrap();
-    (tree, bounds)
+fn tree(scene: &Scene) -> BspTree {
+    BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap()
 }
 
 /// By the boxes and by trying every face, the pieces are the same, exactly.
@@ -35,8 +32,8 @@ fn what_is_skipped_throws_no_shadow() {
     for (scene, lamp) in
         [(courtyard(), lamp(2)), (random_triangles(40, 2), over.to_vec()), (posts(4), low.to_vec())]
     {
-        let (tree, bounds) = tree(&scene);
-        let found = pieces(&tree, &bounds, &lamp);
+        let tree = tree(&scene);
+        let found = pieces(&tree, &lamp);
         let all = pieces_by(tree.faces(), &lamp, |_, _| (0..tree.faces().len() as u32).collect());
         let told = |pieces: &Pieces| {
             let told = |piece: &Piece| {
@@ -54,9 +51,9 @@ fn what_is_skipped_throws_no_shadow() {
 #[test]
 fn the_work_grows_with_the_shadows_and_not_with_the_square_of_the_faces() {
     let tried = [2, 4, 8].map(|side| {
-        let (tree, bounds) = tree(&posts(side));
+        let tree = tree(&posts(side));
         let sun = DVec3::new(-40_000.0, -23_000.0, 52_000.0);
-        (tree.faces().len(), pieces(&tree, &bounds, &[sun]).tried)
+        (tree.faces().len(), pieces(&tree, &[sun]).tried)
     });
     for pair in tried.windows(2) {
         let ([faces, more_faces], [few, many]) = ([pair[0].0, pair[1].0], [pair[0].1, pair[1].1]);

@@ -106,7 +106,7 @@ fn tree(scene: &Scene) -> BspTree {
 
 fn cut(scene: &Scene, lamp: &[DVec3]) -> Vec<Piece> {
     let tree = tree(scene);
-    pieces(&tree, &tree.bounds().unwrap(), lamp).pieces
+    pieces(&tree, lamp).pieces
 }
 
 fn check(scene: &Scene, lamp: &[DVec3], count: usize) {

@@ -78,12 +78,11 @@ fn a_million_sight_lines_are_those_of_whole_numbers() {
 
 fn compare_sight_lines(count: usize) {
     let (scene, tree, polygons) = setting();
-    let bounds = tree.bounds().unwrap();
     let (mut dice, lamp) = (Dice(9), lamp(9));
     let (mut blocked, mut wrong) = (0, 0);
     for k in 0..count {
         let (point, at) = (point(&scene, &mut dice), lamp[k % lamp.len()]);
-        let found = bounds.is_blocked(&tree, Ray::between(point, at));
+        let found = tree.is_occluded(Ray::between(point, at));
         let truth = polygons.iter().any(|polygon| blocks(polygon, whole(point), whole(at)));
         wrong += usize::from(found != truth);
         blocked += usize::from(truth);
@@ -104,7 +103,6 @@ fn a_shadow_that_breaks_the_rule_is_noticed() {
 #[test]
 fn zones_are_those_of_many_more_points_but_for_a_rim() {
     let (scene, tree, polygons) = setting();
-    let bounds = tree.bounds().unwrap();
     let mut dice = Dice(4);
     let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
     let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
@@ -120,12 +118,12 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
             false => Zone::Penumbra,
         };
         counts[truth as usize] += 1;
-        if is_umbra(&tree, &bounds, point, &corners) {
+        if is_umbra(&tree, point, &corners) {
             assert_eq!(truth, Zone::Umbra, "{point}");
             certain += 1;
         }
         for (rim, lamp) in rim.iter_mut().zip([&corners, &some]) {
-            let found = zone(&tree, &bounds, point, lamp);
+            let found = zone(&tree, point, lamp);
             // Fewer points of the lamp see less of it, never anything else.
             assert!(found == truth || truth == Zone::Penumbra, "{point}");
             *rim += usize::from(found != truth);
@@ -139,7 +137,6 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
 
 /// Beside the table, and under it.
 fn point_lamp(tree: &BspTree) -> [Zone; 2] {
-    let bounds = tree.bounds().unwrap();
     let lamp = [dvec3(2751.0, 1951.0, 2999.0)];
-    [[3900.0, 500.0], [2750.0, 1950.0]].map(|[x, y]| zone(tree, &bounds, dvec3(x, y, 0.0), &lamp))
+    [[3900.0, 500.0], [2750.0, 1950.0]].map(|[x, y]| zone(tree, dvec3(x, y, 0.0), &lamp))
 }
