@@ -95,7 +95,7 @@ pub use query::{Hit, Location};
 #[cfg(feature = "save")]
 pub use save::LoadError;
 pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Part, Sides, Stats};
-pub use viewpoint::{Frustum, Ray, Viewpoint};
+pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
 /// Vertex and index buffers of a tree: [`BspTree::mesh`].
 pub mod mesh {

@@ -1,5 +1,7 @@
 //! From where, along what and in what one looks: viewpoints, rays, frusta.
 
+use std::cmp::Ordering;
+
 use glam::{DMat4, DVec3, DVec4};
 use smallvec::SmallVec;
 
@@ -35,6 +37,28 @@ impl Viewpoint {
     /// The direction in which the viewer looks, from infinitely far away.
     pub fn direction(direction: impl Into<DVec3>) -> Self {
         Self::Direction(direction.into())
+    }
+}
+
+/// The side of a polygon, or of a plane, that is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Facing {
+    /// The front: corners run counter-clockwise, and the normal points to the eye.
+    Front,
+    /// The back.
+    Back,
+    /// Neither: the eye lies in the plane, or the direction runs along it.
+    EdgeOn,
+}
+
+/// From the sign of a distance from the plane: positive is the front.
+impl From<Ordering> for Facing {
+    fn from(side: Ordering) -> Self {
+        match side {
+            Ordering::Greater => Self::Front,
+            Ordering::Less => Self::Back,
+            Ordering::Equal => Self::EdgeOn,
+        }
     }
 }
 
@@ -128,14 +152,14 @@ impl Frustum {
     ///
     /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
     /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
-    /// let region = Frustum::of_box([DVec3::new(0.2, 0.2, 6.5), DVec3::new(0.7, 0.4, 9.0)]);
+    /// let region = Frustum::from_box([DVec3::new(0.2, 0.2, 6.5), DVec3::new(0.7, 0.4, 9.0)]);
     /// let culling = Culling::NONE.with_frustum(region);
     /// let order = tree.order(Viewpoint::direction([0.0, 0.0, 1.0])).front_to_back();
     /// let inside = order.culled(&culling).into_iter().map(|fragment| fragment.polygon());
     /// assert!(inside.eq([7, 8, 9]));
     /// # Ok::<(), binspace::Error>(())
     /// ```
-    pub fn of_box([low, high]: [DVec3; 2]) -> Self {
+    pub fn from_box([low, high]: [DVec3; 2]) -> Self {
         let sides = |axis: usize| {
             let normal = DVec3::AXES[axis];
             [(normal, low[axis]), (-normal, -high[axis])]
@@ -148,7 +172,7 @@ impl Frustum {
     /// no near and no far plane.
     ///
     /// Points right on the sides may be left out by the rounding of the matrix: widen it a little.
-    pub fn of_matrix(matrix: DMat4) -> Self {
+    pub fn from_matrix(matrix: DMat4) -> Self {
         let [x, y, w] = [matrix.row(0), matrix.row(1), matrix.row(3)];
         // Where both sides hold, w is not negative; it is worth a plane of its own for boxes.
         Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
@@ -187,7 +211,7 @@ mod frustum_tests {
         // A perspective of 1.5 radians, half as high again in width, with w = −z.
         let mut perspective = DMat4::from_scale(DVec3::new(1.0 / 1.5, 1.0, -1.0) / 0.75_f64.tan());
         (perspective.z_axis.w, perspective.w_axis.w) = (-1.0, 0.0);
-        let frustum = Frustum::of_matrix(perspective * view);
+        let frustum = Frustum::from_matrix(perspective * view);
         let meets = |x: f64, y: f64, z: f64| frustum.meets([DVec3::new(x, y, z); 2]);
         // From z = 5 along −z: half the height at distance 5 is 5 tan 0.75 = 4.66.
         assert!(meets(0.0, 4.6, 0.0) && !meets(0.0, 4.7, 0.0));

@@ -4,7 +4,7 @@
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Culling, Frustum, Sides};
+use binspace::{BspTree, Culling, Facing, Frustum, Sides};
 use binspace_evidence::culling::unhidden;
 use binspace_evidence::interior::{HEIGHT, ROOM, rooms};
 use std::time::{Duration, Instant};
@@ -141,7 +141,7 @@ fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
         take(2, &mut || tree.order(viewpoint).culled(&fronts).write_into(&mut shown));
     }
     check(tree, &frustum, &order, &seen);
-    let is_front = |&fragment: &u32| tree.fragment(fragment).facing(viewpoint).is_gt();
+    let is_front = |&fragment: &u32| tree.fragment(fragment).facing(viewpoint) == Facing::Front;
     assert!(seen.iter().copied().filter(is_front).eq(shown));
     (seen.len(), shortest)
 }

@@ -52,7 +52,7 @@ pub(crate) fn run() {
             time(writing),
             time(reading),
             each(file.len()),
-            each(tree.bytes()),
+            each(tree.memory_usage()),
             ratio,
             target,
             met,

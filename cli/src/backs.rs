@@ -1,12 +1,10 @@
 //! Pictures that show the backs of most faces.
 
-use std::cmp::Ordering;
-
-use binspace::BspTree;
 use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
 use binspace::scene::Scene;
 use binspace::view::Camera;
+use binspace::{BspTree, Facing};
 
 use crate::camera;
 use crate::terminal::note;
@@ -43,7 +41,7 @@ fn count(tree: &BspTree, camera: &Camera) -> Option<[usize; 2]> {
     let rays = Rays::new(&camera.with_size(size).ok()?, tree.faces()).ok()?;
     let mut is_back = vec![false; tree.faces().len()];
     for fragment in tree.fragments() {
-        is_back[fragment.face() as usize] = fragment.facing(camera.viewpoint()) == Ordering::Less;
+        is_back[fragment.face() as usize] = fragment.facing(camera.viewpoint()) == Facing::Back;
     }
     let image = paint_tree(tree, camera.viewpoint(), &rays);
     let shown = image.faces().iter().filter(|&&face| face != NONE);

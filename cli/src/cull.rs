@@ -1,7 +1,7 @@
 //! Leaving out the backs of polygons.
 
 use binspace::raster::Rays;
-use binspace::{Fragment, Viewpoint};
+use binspace::{Facing, Fragment, Viewpoint};
 use clap::{Args, ValueEnum};
 
 /// Which sides of polygons are left out.
@@ -17,7 +17,7 @@ pub(crate) enum Cull {
 impl Cull {
     /// Whether a fragment shows a side that is not left out.
     pub(crate) fn shows(self, fragment: &Fragment<'_>, viewpoint: Viewpoint) -> bool {
-        self == Self::None || fragment.facing(viewpoint).is_gt()
+        self == Self::None || fragment.facing(viewpoint) == Facing::Front
     }
 
     /// Rays that pass through what is left out.

@@ -34,7 +34,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Flow, Part, Ray, Viewpoint};
+use binspace::{BspTree, Facing, Flow, Part, Ray, Viewpoint};
 use canvas::Canvas;
 use door::Door;
 use picture::{paint_map, paint_view};
@@ -107,7 +107,7 @@ impl Level {
                 Part::Fragment(fragment) => {
                     // Walls are thin, and seen from both sides.
                     let is_thin = polygons[fragment.polygon()].0 == Kind::Wall;
-                    let is_drawn = is_thin || fragment.facing(camera.viewpoint()).is_gt();
+                    let is_drawn = is_thin || fragment.facing(camera.viewpoint()) == Facing::Front;
                     if is_drawn && mask.cover(&fragment) {
                         seen.push(fragment.index());
                     }

@@ -368,7 +368,7 @@ impl Faces {
     }
 
     /// The resident size in bytes.
-    pub fn bytes(&self) -> usize {
+    pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.corners)
             + size_of_val(&*self.numbers)
             + size_of_val(&*self.numbered)

@@ -17,7 +17,7 @@ use crate::tree::culling::Cull;
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
 use crate::tree::{BspTree, Culling, Sides};
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Facing, Viewpoint};
 
 /// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
 /// A branch comes after the one that it is attached to.
@@ -276,8 +276,8 @@ impl Shape<'_> {
             Self::Fragment(piece) => {
                 let is_drawn = match culling.sides {
                     Sides::Both => true,
-                    Sides::Front => piece.facing(viewpoint).is_gt(),
-                    Sides::Back => piece.facing(viewpoint).is_lt(),
+                    Sides::Front => piece.facing(viewpoint) == Facing::Front,
+                    Sides::Back => piece.facing(viewpoint) == Facing::Back,
                 };
                 (piece.bounds(), is_drawn)
             }

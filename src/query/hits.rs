@@ -12,7 +12,7 @@ use super::walk::Walk;
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
 use crate::tree::{BspTree, Fragment};
-use crate::viewpoint::Ray;
+use crate::viewpoint::{Facing, Ray};
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
 ///
@@ -109,7 +109,7 @@ impl BspTree {
     /// What a ray or a segment hits, the nearest first. The first hit is the nearest polygon.
     ///
     /// ```
-    /// use binspace::{BspTree, Ray};
+    /// use binspace::{BspTree, Facing, Ray};
     ///
     /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
     /// let tree = BspTree::build([square(0.0), square(2.0), square(1.0)])?;
@@ -119,7 +119,7 @@ impl BspTree {
     /// assert_eq!((nearest.polygon(), nearest.parameter()), (1, 7.0));
     /// assert_eq!(nearest.point().to_array(), [0.5, 0.5, 2.0]);
     /// // It is hit from its front.
-    /// assert!(nearest.facing().is_gt());
+    /// assert!(nearest.facing() == Facing::Front);
     /// // All of them, and those of a segment.
     /// assert!(tree.hits(down).map(|hit| hit.polygon()).eq([1, 2, 0]));
     /// let segment = Ray::between([0.5, 0.5, 1.0], [0.5, 0.5, 0.5]);
@@ -178,8 +178,8 @@ impl<'t> Hit<'t> {
     /// The side of the fragment that is hit, exactly: `Greater` if it is the front, `Less` if it is the
     /// back, `Equal` if the ray lies in the fragment's plane. It depends on the ray's direction alone,
     /// so it is the same for a ray that begins on the fragment.
-    pub fn facing(&self) -> Ordering {
-        self.facing
+    pub fn facing(&self) -> Facing {
+        self.facing.into()
     }
 
     /// How far along the ray the point is: it is at `from + parameter * direction`. It is the `f64` that is
@@ -244,7 +244,7 @@ impl std::fmt::Debug for Hit<'_> {
             .field("fragment", &self.fragment)
             .field("parameter", &self.parameter())
             .field("point", &self.point())
-            .field("facing", &self.facing)
+            .field("facing", &self.facing())
             .finish()
     }
 }

@@ -135,7 +135,7 @@ impl BspTree {
     /// let slanted = |x: f64| [[x, 0.0, 0.0], [x + 8.0, 0.0, 8.0], [x, 1.0, 0.0]];
     /// let tree = BspTree::build([slanted(0.0), slanted(4.0)])?;
     /// // It is in the bounding boxes of both, but only one of them goes through it.
-    /// let region = Frustum::of_box([DVec3::new(6.0, 0.0, 1.0), DVec3::new(7.0, 1.0, 2.5)]);
+    /// let region = Frustum::from_box([DVec3::new(6.0, 0.0, 1.0), DVec3::new(7.0, 1.0, 2.5)]);
     /// let inside: Vec<u32> = tree.fragments_in(&region).collect();
     /// assert_eq!(inside.len(), 1);
     /// assert_eq!(tree.fragment(inside[0]).polygon(), 1);

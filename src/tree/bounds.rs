@@ -11,7 +11,7 @@ use super::{BspTree, Child, Fragment, Node};
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
 use crate::parallel_map;
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Facing, Viewpoint};
 
 /// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common. They take
 /// about 90 bytes a fragment.
@@ -73,9 +73,10 @@ impl Node<'_> {
     /// The side that all fragments of the subtree show to a viewpoint, where their normals and their
     /// box tell at once. It is the exact [`Fragment::facing`] of each of them. O(1), but see
     /// [`BspTree::bounds`].
-    pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Ordering> {
+    pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
-        self.tree.boxes().seen(self.index(), &Arms::new(&Eye::new(viewpoint, lattice)))
+        let arms = Arms::new(&Eye::new(viewpoint, lattice));
+        self.tree.boxes().seen(self.index(), &arms).map(Facing::from)
     }
 }
 

@@ -218,7 +218,7 @@ use crate::faces::Preparation;
 /// Modelled scenes and scans have 1.0 to 2.3 fragments a face; triangles at random that cross each
 /// other have many more (1000 of them about 12 each, and more the more there are).
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to
-/// 160 bytes a fragment ([`bytes`](Self::bytes)), and up to 2.7 times that while it is built.
+/// 160 bytes a fragment ([`memory_usage`](Self::memory_usage)), and up to 2.7 times that while it is built.
 ///
 /// With the feature `save`, a tree is written to a file and read from it, bit for bit, which takes a
 /// small part of the time to build it: `BspTree::write` and `BspTree::read`.
@@ -413,7 +413,7 @@ pub struct Stats {
     pub depth_mean: f64,
     /// How many times the builder cut a piece in two.
     pub splits: usize,
-    /// The size of the tree in bytes: [`BspTree::bytes`].
+    /// The size of the tree in bytes: [`BspTree::memory_usage`].
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
@@ -451,7 +451,7 @@ impl BspTree {
             depth_max,
             depth_mean: depth_sum as f64 / fragments.max(1) as f64,
             splits: self.cuts,
-            bytes: self.bytes(),
+            bytes: self.memory_usage(),
             tolerance: lattice.length_to_world(self.faces.tolerance()),
             nearly_coplanar: is_near.into_iter().filter(|&is_near| is_near).count(),
             nearly_coplanar_by: lattice.length_to_world(nearly_coplanar_by),
@@ -466,9 +466,9 @@ impl BspTree {
     }
 
     /// The size in bytes, heap included.
-    pub fn bytes(&self) -> usize {
+    pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
-            + self.faces.bytes()
+            + self.faces.memory_usage()
             + size_of_val(&*self.nodes)
             + self.planes.bytes()
             + self.layout.as_ref().map_or(0, |layout| layout.bytes())

@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 use super::BspTree;
 use super::parts::{Record, Stored};
 use crate::exact::{EdgeLine, Eye, Faces, PlaneId, PlaneKind, StoredVertex, VertexId, integers};
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Facing, Viewpoint};
 
 /// A convex piece of a polygon, or the whole polygon.
 #[derive(Clone, Copy)]
@@ -201,20 +201,21 @@ impl<'t> Fragment<'t> {
     /// a room:
     ///
     /// ```
-    /// use binspace::{BspTree, Viewpoint};
+    /// use binspace::{BspTree, Facing, Viewpoint};
     ///
     /// let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     /// let ceiling = [[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]];
     /// let tree = BspTree::build([floor, ceiling])?;
     ///
     /// let above = Viewpoint::eye([0.5, 0.5, 3.0]);
-    /// let seen = tree.back_to_front(above).filter(|fragment| fragment.facing(above).is_gt());
+    /// let is_seen = |fragment: &binspace::Fragment<'_>| fragment.facing(above) == Facing::Front;
+    /// let seen = tree.back_to_front(above).filter(is_seen);
     /// assert!(seen.map(|fragment| fragment.polygon()).eq([0]));
     /// # Ok::<(), binspace::Error>(())
     /// ```
-    pub fn facing(&self, viewpoint: Viewpoint) -> Ordering {
+    pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let faces = self.faces;
-        facing(faces, self.face, &Eye::new(viewpoint, faces.lattice()))
+        facing(faces, self.face, &Eye::new(viewpoint, faces.lattice())).into()
     }
 }
 

@@ -189,7 +189,7 @@ impl Mesh {
     }
 
     /// The resident size in bytes.
-    pub fn bytes(&self) -> usize {
+    pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.parts.positions)
             + size_of_val(&*self.parts.vertices)
             + size_of_val(&*self.parts.weights)

@@ -13,7 +13,7 @@ use super::{BspTree, fragment};
 use crate::Error;
 use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::memory::reserve;
-use crate::viewpoint::Viewpoint;
+use crate::viewpoint::{Facing, Viewpoint};
 
 /// A node of a tree: a partition plane, the fragments on it, and what is on its sides.
 ///
@@ -92,12 +92,11 @@ impl<'t> Node<'t> {
         self.tree.nodes[self.index()].plane
     }
 
-    /// Which side of the plane a viewpoint sees, exactly: `Greater` is the front, `Equal` is
-    /// neither. The far side, from which orders begin, is the other one; of a plane seen edge-on,
-    /// either may be.
-    pub fn facing(&self, viewpoint: Viewpoint) -> Ordering {
+    /// The side of the plane that a viewpoint sees, exactly. Orders begin with the other side. If the plane is
+    /// seen edge-on, they may begin with either.
+    pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
-        self.tree.faces.plane(self.plane()).facing(&eye)
+        self.tree.faces.plane(self.plane()).facing(&eye).into()
     }
 
     /// The numbers of the fragments on the plane, and on both sides down to the leaves.

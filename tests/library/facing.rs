@@ -1,5 +1,6 @@
 //! Which side of a fragment faces a viewpoint, against exact rationals.
 
+use binspace::Facing;
 use binspace::verify::verify_fronts;
 use binspace::view;
 use testkit::prelude::*;
@@ -45,7 +46,7 @@ fn fragments_face_the_side_that_rationals_say() {
         for view in viewpoints(tree, &mut dice) {
             for fragment in tree.fragments() {
                 let plane = model::plane(tree.faces(), PlaneId::face(fragment.face()));
-                let (found, expected) = (fragment.facing(view.viewpoint), view.side(&plane));
+                let (found, expected) = (fragment.facing(view.viewpoint), view.side(&plane).into());
                 assert_eq!(found, expected, "{fragment:?} {view:?}");
                 counts[(found as i8 + 1) as usize] += 1;
             }
@@ -60,16 +61,16 @@ fn fragments_face_the_side_that_rationals_say() {
 fn a_front_is_where_corners_run_counter_clockwise() {
     let tree = BspTree::build([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();
     let facing = |viewpoint| tree.fragment(0).facing(viewpoint);
-    assert_eq!(facing(Viewpoint::eye([5.0, -9.0, 1e-12])), Ordering::Greater);
-    assert_eq!(facing(Viewpoint::eye([0.2, 0.2, -1.0])), Ordering::Less);
-    assert_eq!(facing(Viewpoint::eye([7.0, 7.0, 0.0])), Ordering::Equal);
-    assert_eq!(facing(Viewpoint::direction([0.0, 0.0, -1.0])), Ordering::Greater);
-    assert_eq!(facing(Viewpoint::direction([3.0, 0.0, 1e-9])), Ordering::Less);
-    assert_eq!(facing(Viewpoint::direction([3.0, -1.0, 0.0])), Ordering::Equal);
+    assert_eq!(facing(Viewpoint::eye([5.0, -9.0, 1e-12])), Facing::Front);
+    assert_eq!(facing(Viewpoint::eye([0.2, 0.2, -1.0])), Facing::Back);
+    assert_eq!(facing(Viewpoint::eye([7.0, 7.0, 0.0])), Facing::EdgeOn);
+    assert_eq!(facing(Viewpoint::direction([0.0, 0.0, -1.0])), Facing::Front);
+    assert_eq!(facing(Viewpoint::direction([3.0, 0.0, 1e-9])), Facing::Back);
+    assert_eq!(facing(Viewpoint::direction([3.0, -1.0, 0.0])), Facing::EdgeOn);
     // As orders take them: no number is no error.
-    assert_eq!(facing(Viewpoint::direction([0.0; 3])), Ordering::Greater);
-    assert_eq!(facing(Viewpoint::eye([0.0, 0.0, f64::NEG_INFINITY])), Ordering::Less);
-    assert_eq!(facing(Viewpoint::eye([f64::INFINITY, 0.0, 5.0])), Ordering::Equal);
+    assert_eq!(facing(Viewpoint::direction([0.0; 3])), Facing::Front);
+    assert_eq!(facing(Viewpoint::eye([0.0, 0.0, f64::NEG_INFINITY])), Facing::Back);
+    assert_eq!(facing(Viewpoint::eye([f64::INFINITY, 0.0, 5.0])), Facing::EdgeOn);
 }
 
 /// A room with its walls facing inwards: from outside, those between the eye and the room are left
@@ -83,13 +84,13 @@ fn a_room_is_seen_from_outside_without_the_walls_that_face_away() {
         for camera in view::views([low, high], scene.up(), 6, [80, 60], 4).unwrap() {
             let seen = verify_fronts(&tree, &camera).unwrap();
             assert!(seen.is_right(), "{} {camera:?}", scene.name());
-            let mut facing = vec![Ordering::Equal; tree.faces().len()];
+            let mut facing = vec![Facing::EdgeOn; tree.faces().len()];
             for fragment in tree.fragments() {
                 facing[fragment.face() as usize] = fragment.facing(camera.viewpoint());
             }
             let shown = [&seen.painted, seen.truth.image()].map(|image| image.faces().iter());
             let shown = shown.into_iter().flatten().filter(|&&face| face != binspace::raster::NONE);
-            assert!(shown.into_iter().all(|&face| facing[face as usize].is_gt()));
+            assert!(shown.into_iter().all(|&face| facing[face as usize] == Facing::Front));
         }
     }
 }

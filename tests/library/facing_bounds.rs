@@ -1,6 +1,7 @@
 //! Bounds tell which side polygons show only where the exact predicate tells the same: eyes far away in
 //! the plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
 
+use binspace::Facing;
 use testkit::prelude::*;
 
 #[test]
@@ -29,7 +30,7 @@ fn bounds_of_normals_hold_the_exact_normals() {
             {
                 let viewpoint = Viewpoint::eye(on + normal * off);
                 let exact = fragment.facing(viewpoint);
-                assert_eq!(exact, side, "{seed}: the case is another");
+                assert_eq!(exact, side.into(), "{seed}: the case is another");
                 match root.facing_all(viewpoint) {
                     Some(told) => assert_eq!(told, exact, "{seed}: {i} {j} {off}"),
                     None => undecided += 1,
@@ -40,7 +41,7 @@ fn bounds_of_normals_hold_the_exact_normals() {
         }
         // And it does tell where the eye is clearly off.
         let eye = Viewpoint::eye(at + normal * 1e4);
-        decided += usize::from(root.facing_all(eye) == Some(Ordering::Greater));
+        decided += usize::from(root.facing_all(eye) == Some(Facing::Front));
     }
     enough!(undecided > 50_000, decided > 1500; "{undecided} undecided, {decided} decided");
 }

@@ -103,6 +103,6 @@ fn fragments_keep_their_vertices() {
         // Fragments of one polygon share vertices, and polygons share points.
         assert!(mesh.len() <= vertices && mesh.positions().len() <= mesh.len());
         assert_eq!(mesh.is_empty(), tree.is_empty());
-        assert!(mesh.bytes() >= 24 * mesh.positions().len());
+        assert!(mesh.memory_usage() >= 24 * mesh.positions().len());
     }
 }

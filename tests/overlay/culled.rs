@@ -1,11 +1,11 @@
 //! Culled orders of a tree and an overlay, against the vertices of what is kept and left out.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{Culling, Frustum, Sides};
+use binspace::{Culling, Facing, Frustum, Sides};
 use testkit::prelude::*;
 
 /// The points that decide whether a shape is in a frustum, and the side that it shows.
-fn looked_at(shape: Shape<'_>, viewpoint: Viewpoint) -> (Vec<DVec3>, Option<Ordering>) {
+fn looked_at(shape: Shape<'_>, viewpoint: Viewpoint) -> (Vec<DVec3>, Option<Facing>) {
     match shape {
         Shape::Fragment(piece) => (piece.vertices().collect(), Some(piece.facing(viewpoint))),
         Shape::Segment(segment) => (segment.ends().to_vec(), None),
@@ -56,8 +56,8 @@ fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
                 let (points, facing) = looked_at(shape, viewpoint);
                 let is_turned = match (sides, facing) {
                     (Sides::Both, _) | (_, None) => false,
-                    (Sides::Front, Some(facing)) => facing.is_le(),
-                    (Sides::Back, Some(facing)) => facing.is_ge(),
+                    (Sides::Front, Some(facing)) => facing != Facing::Front,
+                    (Sides::Back, Some(facing)) => facing != Facing::Back,
                 };
                 let furthest = points.iter().copied().reduce(DVec3::max).expect("a point");
                 let nearest = points.iter().copied().reduce(DVec3::min).expect("a point");
@@ -89,7 +89,7 @@ fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
 fn an_empty_overlay_culls_as_its_tree_does() {
     let tree = BspTree::build(scene::city(200, 1).polygons()).expect("within budget");
     let [low, high] = tree.bounds().expect("polygons");
-    let culling = Culling::NONE.with_frustum(Frustum::of_box([low, (low + high) * 0.5]));
+    let culling = Culling::NONE.with_frustum(Frustum::from_box([low, (low + high) * 0.5]));
     let viewpoint = Viewpoint::Eye(high * 1.5);
     let (mut own, mut both) = (Vec::new(), Vec::new());
     tree.order(viewpoint).culled(&culling).write_into(&mut own);

@@ -140,7 +140,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
 
 /// Whether two overlays have the same pieces: what one had before leaves no trace.
 pub(crate) fn same(tree: &BspTree, overlays: [&Overlay; 2]) -> Verdict {
-    let [bytes, others] = overlays.map(|overlay| overlay.faces().bytes());
+    let [bytes, others] = overlays.map(|overlay| overlay.faces().memory_usage());
     ensure(bytes == others, || format!("faces of {bytes} and {others} bytes"))?;
     for number in 0..=(tree.len() + overlays[0].len()) as u32 {
         let [piece, other] = overlays.map(|overlay| {

@@ -1,6 +1,6 @@
 //! By hand: what the pages of `BspTree::hits` and `BspTree::is_occluded` say.
 
-use binspace::Ray;
+use binspace::{Facing, Ray};
 use testkit::prelude::*;
 
 fn square(z: f64) -> Vec<[f64; 3]> {
@@ -8,7 +8,7 @@ fn square(z: f64) -> Vec<[f64; 3]> {
 }
 
 /// Polygon, parameter and side of each hit.
-fn hits(tree: &BspTree, ray: Ray) -> Vec<(usize, f64, Ordering)> {
+fn hits(tree: &BspTree, ray: Ray) -> Vec<(usize, f64, Facing)> {
     tree.hits(ray).map(|hit| (hit.polygon(), hit.parameter(), hit.facing())).collect()
 }
 
@@ -16,12 +16,12 @@ fn hits(tree: &BspTree, ray: Ray) -> Vec<(usize, f64, Ordering)> {
 fn sides_and_parameters() {
     let tree = BspTree::build([square(0.0), square(2.0)]).unwrap();
     let down = Ray::new([1.0, 1.0, 4.0], [0.0, 0.0, -0.5]);
-    assert_eq!(hits(&tree, down), [(1, 4.0, Ordering::Greater), (0, 8.0, Ordering::Greater)]);
+    assert_eq!(hits(&tree, down), [(1, 4.0, Facing::Front), (0, 8.0, Facing::Front)]);
     let up = Ray::between([1.0, 1.0, -1.0], [1.0, 1.0, 3.0]);
-    assert_eq!(hits(&tree, up), [(0, 0.25, Ordering::Less), (1, 0.75, Ordering::Less)]);
+    assert_eq!(hits(&tree, up), [(0, 0.25, Facing::Back), (1, 0.75, Facing::Back)]);
     // Both ends count, and a beginning is hit from the side that the ray would come from.
     let between = Ray::between([1.0, 1.0, 0.0], [1.0, 1.0, 2.0]);
-    assert_eq!(hits(&tree, between), [(0, 0.0, Ordering::Less), (1, 1.0, Ordering::Less)]);
+    assert_eq!(hits(&tree, between), [(0, 0.0, Facing::Back), (1, 1.0, Facing::Back)]);
     assert!(!tree.is_occluded(between));
     assert!(tree.is_occluded(Ray::between([1.0, 1.0, 0.0], [1.0, 1.0, 2.0_f64.next_up()])));
     assert!(tree.is_occluded(Ray::new([1.0, 1.0, 0.0], [0.0, 0.0, 1e-300])));
@@ -54,13 +54,13 @@ fn a_ray_in_the_plane_of_a_polygon_hits_it_where_it_enters() {
     let tree = BspTree::build([square(0.0), square(2.0), upright]).unwrap();
     let along = Ray::between([-4.0, 1.0, 0.0], [12.0, 1.0, 0.0]);
     // It goes through two fragments of the square, and through the upright one.
-    assert_eq!(hits(&tree, along), [(0, 0.25, Ordering::Equal), (2, 0.375, Ordering::Less)]);
+    assert_eq!(hits(&tree, along), [(0, 0.25, Facing::EdgeOn), (2, 0.375, Facing::Back)]);
     let inside = Ray::new([1.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
-    assert_eq!(hits(&tree, inside), [(0, 0.0, Ordering::Equal)]);
+    assert_eq!(hits(&tree, inside), [(0, 0.0, Facing::EdgeOn)]);
     // Along an edge, and through a corner alone.
     assert_eq!(hits(&tree, Ray::new([-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]))[0].1, 0.5);
     let corner = Ray::between([-1.0, 1.0, 2.0], [1.0, -1.0, 2.0]);
-    assert_eq!(hits(&tree, corner), [(1, 0.5, Ordering::Equal)]);
+    assert_eq!(hits(&tree, corner), [(1, 0.5, Facing::EdgeOn)]);
     assert!(tree.is_occluded(corner));
     assert!(tree.is_occluded(Ray::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0])));
     // It touches with its last point only.

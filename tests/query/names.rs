@@ -68,7 +68,7 @@ fn hits_can_be_computed_again_from_points_of_the_grid() {
                 let point = rational::sum(&from, &direction.clone().map(|c| c * &t));
                 assert!(own.at(&point).is_zero(), "{hit:?}");
                 let slope = rational::sign(&rational::scalar(&own.normal, &direction));
-                assert_eq!(hit.facing(), slope.reverse());
+                assert_eq!(hit.facing(), slope.reverse().into());
                 in_plane += usize::from(slope.is_eq());
                 assert!(t >= last, "{hit:?}");
                 let rounded = t.to_f64().value();

@@ -97,11 +97,11 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
         // Boxes with sides through corners, some of them flat.
         0 | 1 => {
             let [a, b] = [shots.corner(dice), shots.corner(dice)];
-            Frustum::of_box([a.min(b), a.max(b)])
+            Frustum::from_box([a.min(b), a.max(b)])
         }
         2 => {
             let [a, b] = [shots.corner(dice), shots.around(1.1, dice)];
-            Frustum::of_box([a.min(b), a.max(b)])
+            Frustum::from_box([a.min(b), a.max(b)])
         }
         // A point, and a line.
         3 => {
@@ -113,7 +113,7 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
                 let axis = dice.below(3);
                 b[axis] = shots.around(1.0, dice)[axis];
             }
-            Frustum::of_box([a.min(b), a.max(b)])
+            Frustum::from_box([a.min(b), a.max(b)])
         }
         // A wedge or a pyramid with its apex at a corner.
         4 | 5 => {

@@ -4,7 +4,7 @@ use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
 use binspace::view;
-use binspace::{Culling, Frustum, Sides};
+use binspace::{Culling, Facing, Frustum, Sides};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::rational::Plane;
@@ -136,7 +136,7 @@ fn sides_are_those_that_rationals_say() {
             ] {
                 let culling = Culling::NONE.with_sides(shown);
                 let found = culled(&tree, view.viewpoint, &culling);
-                let shown = whole_order.iter().filter(|&&f| sides[f as usize] == side);
+                let shown = whole_order.iter().filter(|&&f| side == sides[f as usize].into());
                 assert!(found.iter().eq(shown), "{tree:?} {view:?}");
                 *count += found.len();
             }
@@ -144,7 +144,7 @@ fn sides_are_those_that_rationals_say() {
             assert_eq!(culled(&tree, view.viewpoint, &culling), whole_order);
             for node in tree.nodes() {
                 if let Some(side) = node.facing_all(view.viewpoint) {
-                    assert!(node.fragments().all(|f| sides[f as usize] == side), "{node:?}");
+                    assert!(node.fragments().all(|f| side == sides[f as usize].into()), "{node:?}");
                     whole += usize::from(node.fragments().len() > 2);
                 }
             }
@@ -185,7 +185,7 @@ proptest! {
             let rays = Rays::new(&camera, tree.faces()).unwrap();
             let viewpoint = camera.viewpoint();
             let whole = paint_tree(&tree, viewpoint, &rays);
-            let inside = tree.fragments().all(|f| f.facing(viewpoint).is_lt());
+            let inside = tree.fragments().all(|f| f.facing(viewpoint) == Facing::Back);
             let shown = if inside { Sides::Back } else { Sides::Front };
             let mut found = culled(&tree, viewpoint, &Culling::NONE.with_sides(shown));
             prop_assert!(found.len() < tree.len() || inside);

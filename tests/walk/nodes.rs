@@ -1,7 +1,7 @@
 //! Nodes and their planes.
 
 use crate::walk::{scenes, trees};
-use binspace::{Child, Node};
+use binspace::{Child, Facing, Node};
 use testkit::prelude::*;
 use testkit::rational::Plane;
 
@@ -177,12 +177,14 @@ fn nodes_of_two_trees_are_never_equal() {
 #[test]
 fn a_node_tells_on_which_side_of_it_a_viewpoint_is() {
     use binspace::Viewpoint;
-    use std::cmp::Ordering::{Equal, Greater, Less};
     let tree = BspTree::build([[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]]).unwrap();
     let root = tree.root().unwrap();
     assert_eq!((root.normal(), root.offset(), root.polygon()), (DVec3::Z, 2.0, Some(0)));
     let facing = |z: f64| root.facing(Viewpoint::eye([9.0, 9.0, z]));
-    assert_eq!([2.0f64.next_up(), 2.0, 1.0].map(facing), [Greater, Equal, Less]);
-    assert_eq!(root.facing(Viewpoint::direction([0.0, 0.0, -1.0])), Greater);
-    assert_eq!(root.facing(Viewpoint::direction([1.0, 0.0, 0.0])), Equal);
+    assert_eq!(
+        [2.0f64.next_up(), 2.0, 1.0].map(facing),
+        [Facing::Front, Facing::EdgeOn, Facing::Back]
+    );
+    assert_eq!(root.facing(Viewpoint::direction([0.0, 0.0, -1.0])), Facing::Front);
+    assert_eq!(root.facing(Viewpoint::direction([1.0, 0.0, 0.0])), Facing::EdgeOn);
 }

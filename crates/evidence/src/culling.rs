@@ -8,7 +8,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::{Camera, CameraError};
-use binspace::{BspTree, Culling, Flow, Fragment, Part, Sides};
+use binspace::{BspTree, Culling, Facing, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
             tree.order(viewpoint).culled(&fronts).write_into(left);
         }),
         step("and hidden", &|left| {
-            let is_front = |fragment: &Fragment<'_>| fragment.facing(viewpoint).is_gt();
+            let is_front = |fragment: &Fragment<'_>| fragment.facing(viewpoint) == Facing::Front;
             unhidden(tree, camera, rays, is_front, left);
         }),
     ]

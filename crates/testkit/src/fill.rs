@@ -4,7 +4,7 @@ use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Hit, Viewpoint};
+use binspace::{BspTree, Facing, Hit, Viewpoint};
 
 /// What covers the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,7 +176,7 @@ pub fn check_rays(
         // Nothing is seen edge-on; and of polygons of one plane the order decides.
         let mut hits = tree
             .hits(ray(camera, shown.point))
-            .filter(|hit| hit.facing().is_ne() && hit.parameter() > 0.0);
+            .filter(|hit| hit.facing() != Facing::EdgeOn && hit.parameter() > 0.0);
         let first = hits.next();
         let is_first = |hit: &Hit<'_>| first.is_some_and(|first| first.compare(hit).is_eq());
         let mut nearest = first.into_iter().chain(hits.take_while(is_first));

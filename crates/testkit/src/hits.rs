@@ -7,7 +7,7 @@ use super::rays::{Vector, vector};
 use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{BspTree, Hit, Ray};
+use binspace::{BspTree, Facing, Hit, Ray};
 use dashu_int::IBig;
 use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
@@ -438,7 +438,8 @@ impl<'t> Oracle<'t> {
         let hits: Vec<Hit<'_>> = self.tree.hits(ray).take(most).collect();
         let fault = |what: &str| format!("{what}: {ray:?}\nfound {hits:#?}\nin truth {truth:#?}");
         let said = |hit: &Hit<'_>| (hit.polygon(), hit.fragment().face() as usize, hit.facing());
-        let expected = truth.iter().map(|hit| (self.faces[hit.face].polygon, hit.face, hit.facing));
+        let expected =
+            truth.iter().map(|hit| (self.faces[hit.face].polygon, hit.face, hit.facing.into()));
         if !hits.iter().map(said).eq(expected) {
             let is_excused = hits.is_empty() && self.may_miss(ray);
             return if is_excused { Ok(()) } else { Err(fault("wrong hits")) };
@@ -467,7 +468,7 @@ impl<'t> Oracle<'t> {
         }
         score.rays += 1;
         score.hits += hits.len();
-        score.in_plane += hits.iter().filter(|hit| hit.facing().is_eq()).count();
+        score.in_plane += hits.iter().filter(|hit| hit.facing() == Facing::EdgeOn).count();
         let is_end =
             |hit: &&Chord| hit.enter.over.is_zero() || line.end.as_ref() == Some(&hit.enter);
         score.at_ends += truth.iter().filter(is_end).count();

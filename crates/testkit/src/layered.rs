@@ -6,10 +6,10 @@ use std::collections::{HashMap, HashSet};
 
 use super::fill::{Picture, Pixel, ray};
 use super::fragment_pixels::for_each_pixel;
-use binspace::BspTree;
 use binspace::drawing::{Drawing, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::view::Camera;
+use binspace::{BspTree, Facing};
 
 /// Counts of compared pixels, their layers, polygons, paths, regions and rays.
 #[derive(Clone, Copy, Debug, Default)]
@@ -108,7 +108,7 @@ pub fn check_sight(
     for shown in map.polygons().filter(|shown| shown.area > 0.01) {
         score.rays += 1;
         let mut hits = tree.hits(ray(camera, shown.point)).filter(|hit| {
-            hit.facing().is_ne() && hit.parameter() > 0.0 && opacity(hit.polygon()) > 0.0
+            hit.facing() != Facing::EdgeOn && hit.parameter() > 0.0 && opacity(hit.polygon()) > 0.0
         });
         let own = hits.clone().find(|hit| hit.polygon() == shown.polygon);
         let Some(own) = own else { return Err(format!("no ray meets {shown:?}")) };

@@ -44,7 +44,7 @@ const EYES: [Viewpoint; 4] = [
 pub fn use_all(tree: &BspTree) -> Verdict {
     tree.validate()?;
     // What is only looked at here must not panic.
-    let _ = (tree.stats(), tree.bytes(), format!("{tree:?}"));
+    let _ = (tree.stats(), tree.memory_usage(), format!("{tree:?}"));
     ensure(tree.dropped().count() == tree.preparation().dropped, || "dropped".into())?;
     for viewpoint in EYES {
         orders::check(tree, viewpoint)?;
@@ -134,7 +134,7 @@ pub fn use_queries(tree: &BspTree) -> Verdict {
                 let _ = (format!("{hit:?}"), hit.fragment().grid_points());
             }
         }
-        let region = Frustum::of_box([place.min(other), place.max(other)]);
+        let region = Frustum::from_box([place.min(other), place.max(other)]);
         let inside: Vec<u32> = tree.fragments_in(&region).collect();
         ensure(inside.is_sorted_by(|a, b| a < b), || "fragments in a region".into())?;
         let _ = tree.fragments_in(&Frustum::new([(other - place, 0.0)])).count();

@@ -137,7 +137,7 @@ fn exact(scene: &Scene, heuristic: Heuristic) -> Result<Size, String> {
     let build = || options.build(scene.polygons()).map_err(|error| error.to_string());
     let (tree, build) = timed(build)?;
     let order = time_order(|viewpoint, order| tree.back_to_front_into(viewpoint, order));
-    let (fragments, depth, bytes) = (tree.len(), tree.stats().depth_max, tree.bytes());
+    let (fragments, depth, bytes) = (tree.len(), tree.stats().depth_max, tree.memory_usage());
     Ok(Size { fragments, depth, bytes, build, order })
 }
 
@@ -151,7 +151,7 @@ fn rounded(scene: &Scene) -> Result<Size, String> {
     let (tree, build) = timed(build)?;
     let order = time_order(|viewpoint, order| tree.back_to_front_into(viewpoint, order));
     let (fragments, depth) = (tree.len(), tree.depth());
-    let bytes = tree.bytes() + tree.faces().bytes();
+    let bytes = tree.memory_usage() + tree.faces().memory_usage();
     Ok(Size { fragments, depth, bytes, build, order })
 }
 

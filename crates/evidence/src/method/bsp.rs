@@ -97,7 +97,7 @@ impl Prepared for Ready<BspTree> {
     }
 
     fn bytes(&self) -> usize {
-        self.tree.bytes() - self.tree.faces().bytes() + self.order_bytes()
+        self.tree.memory_usage() - self.tree.faces().memory_usage() + self.order_bytes()
     }
 
     fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
