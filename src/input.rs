@@ -46,25 +46,17 @@ impl_point! {
 /// trait for a type of your own to build a tree without copying your mesh first:
 ///
 /// ```
-/// use binspace::{BspTree, Polygon, glam::DVec3};
+/// use binspace::{BspTree, Polygon};
 ///
 /// struct Mesh { positions: Vec<[f32; 3]>, quads: Vec<[usize; 4]> }
 /// struct Quad<'a>(&'a Mesh, usize);
 ///
-/// impl Quad<'_> {
-///     fn points(&self) -> [[f32; 3]; 4] {
-///         self.0.quads[self.1].map(|i| self.0.positions[i])
-///     }
-/// }
-///
 /// impl Polygon for Quad<'_> {
-///     fn corners(&self) -> impl Iterator<Item = DVec3> {
-///         self.points().into_iter().map(|point| DVec3::from(point.map(f64::from)))
-///     }
+///     // The type of the points decides the default tolerance, here that of `f32`.
+///     type Point = [f32; 3];
 ///
-///     // As for an array of these points: their type says that they are rounded to `f32`.
-///     fn precision(&self) -> f64 {
-///         self.points().precision()
+///     fn corners(&self) -> impl Iterator<Item = [f32; 3]> {
+///         self.0.quads[self.1].into_iter().map(|i| self.0.positions[i])
 ///     }
 /// }
 ///
@@ -75,18 +67,23 @@ impl_point! {
 /// # Ok::<(), binspace::Error>(())
 /// ```
 pub trait Polygon {
+    /// A corner.
+    type Point: Point;
+
     /// The corners, in order around the polygon. More than 2²² (4 194 304) are an error,
     /// so an endless iterator is one as well.
-    fn corners(&self) -> impl Iterator<Item = DVec3>;
+    fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
     /// How far a corner may be off the plane that it was meant to be on, a length. The default
     /// tolerance follows it, within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
-    /// Of arrays, vectors and slices it is four times [`Point::PRECISION`] of the polygon's largest
-    /// coordinate, about the rounding of a point that was turned by a matrix. For a type of your own
-    /// it is 0, which stands for `f64`, unless you say otherwise: do so if its coordinates are `f32`.
+    /// By default it is four times [`Point::PRECISION`] of the polygon's largest coordinate, about the
+    /// rounding of a point that was turned by a matrix.
     fn precision(&self) -> f64 {
-        0.0
+        let numbers = self.corners().flat_map(|point| point.to_dvec3().abs().to_array());
+        // Not `f64::max`, which takes more instructions because of NaN.
+        let largest = numbers.fold(0.0, |most, c| if c > most { c } else { most });
+        STEPS * Self::Point::PRECISION * largest
     }
 }
 
@@ -95,39 +92,33 @@ pub trait Polygon {
 pub(crate) const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.iter().map(|point| point.to_dvec3())
-    }
+    type Point = P;
 
-    fn precision(&self) -> f64 {
-        let numbers = self.iter().flat_map(|point| point.to_dvec3().abs().to_array());
-        // Not `f64::max`, which takes more instructions because of NaN.
-        STEPS * P::PRECISION * numbers.fold(0.0, |most, c| if c > most { c } else { most })
+    fn corners(&self) -> impl Iterator<Item = P> {
+        self.iter().copied()
     }
 }
 
 impl<P: Point, const N: usize> Polygon for [P; N] {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.as_slice().corners()
-    }
+    type Point = P;
 
-    fn precision(&self) -> f64 {
-        self.as_slice().precision()
+    fn corners(&self) -> impl Iterator<Item = P> {
+        self.iter().copied()
     }
 }
 
 impl<P: Point> Polygon for Vec<P> {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.as_slice().corners()
-    }
+    type Point = P;
 
-    fn precision(&self) -> f64 {
-        self.as_slice().precision()
+    fn corners(&self) -> impl Iterator<Item = P> {
+        self.iter().copied()
     }
 }
 
 impl<T: Polygon + ?Sized> Polygon for &T {
-    fn corners(&self) -> impl Iterator<Item = DVec3> {
+    type Point = T::Point;
+
+    fn corners(&self) -> impl Iterator<Item = T::Point> {
         (**self).corners()
     }
 

@@ -18,6 +18,8 @@ pub(crate) struct Given {
 }
 
 impl Polygon for Given {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.corners.iter().copied()
     }

@@ -429,7 +429,7 @@ impl InputPolygons {
         polygon: &P,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let mut corners = polygon.corners();
+        let mut corners = polygon.corners().map(Point::to_dvec3);
         let mut read = 0;
         if let (least, Some(most)) = corners.size_hint()
             && least == most

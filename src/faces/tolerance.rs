@@ -42,9 +42,8 @@ pub enum Tolerance {
     ///
     /// Far from the origin `f32` and `f64` have coarser steps: there it is four steps of the largest
     /// coordinate, however large a share of the extent they are. For `f64` that is more than 10⁻⁹ beyond a
-    /// million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (A polygon of another type is
-    /// taken for `f32` or `f64` if its precision is exactly that; a file is if nearly all of its numbers are
-    /// `f32`, written with more digits than these have.)
+    /// million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as
+    /// `f32` if nearly all of their numbers are `f32`, written with more digits than these have.)
     #[default]
     Default,
     /// A length, in the polygons' unit.

@@ -273,7 +273,14 @@ fn corners_of<'a>(
 struct Clipped<'p>(&'p [ClippedCorner]);
 
 impl Polygon for Clipped<'_> {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.0.iter().map(|corner| corner.vertex.position)
+    }
+
+    /// The tolerance of a page is set, and needs no default.
+    fn precision(&self) -> f64 {
+        0.0
     }
 }

@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 
 use crate::exact::faces::{CellBox, EVERYWHERE};
 use crate::exact::{Eye, Faces, LATTICE_LIMIT, Lattice, Plane};
-use crate::input::Polygon;
+use crate::input::{Point, Polygon};
 use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
@@ -214,7 +214,7 @@ impl Partition {
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
         cells.clear();
         let corners: SmallVec<[[f64; 3]; 8]> =
-            polygon.corners().map(|corner| self.lattice.snap(corner)).collect();
+            polygon.corners().map(|corner| self.lattice.snap(corner.to_dvec3())).collect();
         let Some(&first) = corners.first() else { return };
         let is_on_lattice = |corner: &[f64; 3]| corner.iter().all(|c| c.abs() <= LATTICE_LIMIT);
         if !corners.iter().all(is_on_lattice) {
@@ -289,7 +289,7 @@ impl Default for Extent {
 impl Extent {
     /// Includes a polygon.
     pub fn include(&mut self, polygon: &(impl Polygon + ?Sized)) {
-        for corner in polygon.corners() {
+        for corner in polygon.corners().map(Point::to_dvec3) {
             let box_of_it = if corner.is_finite() { [corner; 2] } else { [DVec3::NAN; 2] };
             self.include_box(box_of_it);
         }

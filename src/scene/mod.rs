@@ -103,6 +103,8 @@ impl<'a> IntoIterator for ScenePolygon<'a> {
 }
 
 impl Polygon for ScenePolygon<'_> {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.corners.iter().copied()
     }

@@ -186,7 +186,7 @@ use crate::faces::Preparation;
 /// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin four steps of the largest coordinate, which are more | 0 if layers, however thin, must never be exchanged |
 /// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | 0 if no computation has touched them, as on integers |
 /// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent, however far it lies from the origin | a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
-/// | a [`Polygon`](crate::Polygon) of your own | its [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent; more where it is that of arrays of `f32` | |
+/// | a [`Polygon`](crate::Polygon) of your own | that of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///
 /// Too small, and polygons that were meant to be coplanar cut each other into slivers, and quads

@@ -9,6 +9,8 @@ struct Endless<'a> {
 }
 
 impl Polygon for Endless<'_> {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         (0..).map(|k: u32| {
             self.read.set(self.read.get() + 1);

@@ -26,6 +26,8 @@ impl<I: Iterator> Iterator for Hinted<I> {
 
 /// A polygon whose corners come with such a hint.
 impl<I: Iterator<Item = DVec3> + Clone> Polygon for Hinted<I> {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.clone()
     }

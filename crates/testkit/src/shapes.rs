@@ -13,6 +13,8 @@ pub struct Claim {
 }
 
 impl Polygon for Claim {
+    type Point = DVec3;
+
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.corners.iter().copied()
     }

@@ -51,6 +51,8 @@ fn an_error_names_the_polygon() {
 struct Triangle([binspace::glam::DVec3; 3]);
 
 impl Polygon for Triangle {
+    type Point = binspace::glam::DVec3;
+
     fn corners(&self) -> impl Iterator<Item = binspace::glam::DVec3> {
         self.0.iter().copied()
     }

@@ -151,7 +151,7 @@ fn rounded(scene: &Scene) -> Result<Size, String> {
     let (tree, build) = timed(build)?;
     let order = time_order(|viewpoint, order| tree.back_to_front_into(viewpoint, order));
     let (fragments, depth) = (tree.len(), tree.depth());
-    let bytes = tree.memory_usage() + tree.faces().memory_usage();
+    let bytes = tree.bytes() + tree.faces().memory_usage();
     Ok(Size { fragments, depth, bytes, build, order })
 }
 
