@@ -9,7 +9,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
 
 use binspace::scene::Scene;
-use binspace::{BspTree, BuildOptions, Heuristic};
+use binspace::{BspTree, BuildOptions, ErrorKind, Heuristic};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 use support::{Table, best, best_of, check, print_head, scene, time, viewpoints};
@@ -113,7 +113,7 @@ fn build(options: &BuildOptions, scene: &Scene) -> Result<BspTree, String> {
         if late { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     options.build_with_progress(scene.polygons(), progress).map_err(|error| {
-        if error.is_cancelled() {
+        if error.kind() == ErrorKind::Cancelled {
             format!("over {} s", PATIENCE.as_secs())
         } else {
             "over budget".to_owned()

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Why something could not be built, written or finished, and the polygon to blame if there is one.
+/// Why something could not be built, written or finished: its [kind](Self::kind), and the polygon to blame if
+/// there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -88,27 +89,55 @@ impl Error {
         }
     }
 
-    /// Whether a budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another
-    /// heuristic may succeed.
-    pub const fn is_over_budget(&self) -> bool {
-        matches!(self.kind, Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_))
+    /// What kind of error it is, to decide what to do about it.
+    pub const fn kind(&self) -> ErrorKind {
+        match self.kind {
+            Kind::NonFinite
+            | Kind::Corners(_)
+            | Kind::OffGrid
+            | Kind::Opacity(_)
+            | Kind::Layer
+            | Kind::Tolerance(_)
+            | Kind::Bounds
+            | Kind::Viewport
+            | Kind::Places { .. } => ErrorKind::InvalidInput,
+            Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices => ErrorKind::TooLarge,
+            Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_) => {
+                ErrorKind::OverBudget
+            }
+            Kind::OutOfMemory => ErrorKind::OutOfMemory,
+            Kind::Cancelled => ErrorKind::Cancelled,
+            Kind::OverlaidTree | Kind::MeshOfOtherTree | Kind::OtherRays => ErrorKind::OtherTree,
+            Kind::InOverlay | Kind::OfCell => ErrorKind::Unsupported,
+        }
     }
+}
 
-    /// Whether the polygons, the tree, its layout or its mesh do not fit into memory.
+/// The kinds of errors: [`Error::kind`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A polygon, an option or an argument has a number out of its range.
+    InvalidInput,
+    /// There is more input than the numbers of a tree can count.
+    TooLarge,
+    /// A budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another heuristic
+    /// may succeed.
+    OverBudget,
+    /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
     /// Other lists, such as those of drawings and overlays, are not checked: where they do not fit, the
     /// program ends, as Rust programs do. A system that promises more memory than it has may end it
-    /// earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit what a
-    /// build takes.
-    pub const fn is_out_of_memory(&self) -> bool {
-        matches!(self.kind, Kind::OutOfMemory)
-    }
-
-    /// Whether the caller's callback cancelled it, as that of
+    /// earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit the
+    /// memory of a build.
+    OutOfMemory,
+    /// The caller's callback cancelled it, as that of
     /// [`build_with_progress`](crate::BuildOptions::build_with_progress) can.
-    pub const fn is_cancelled(&self) -> bool {
-        matches!(self.kind, Kind::Cancelled)
-    }
+    Cancelled,
+    /// An overlay, a mesh or rays were made for another tree.
+    OtherTree,
+    /// The two do not combine, such as a drawing and the tree of one cell.
+    Unsupported,
 }
 
 impl std::error::Error for Error {}

@@ -14,7 +14,7 @@
 //! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
 //! | [`Preparation`], [`Stats`] | how the input was prepared, and a tree's figures |
 //! | [`Grid`] | the grid of a tree's exact numbers |
-//! | [`Error`] | why something failed, and at which polygon |
+//! | [`Error`], [`ErrorKind`] | why something failed, and at which polygon |
 //!
 //! | module | for |
 //! |---|---|
@@ -86,7 +86,7 @@ pub mod view;
 mod viewpoint;
 
 pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError};
-pub use error::Error;
+pub use error::{Error, ErrorKind};
 pub use faces::{Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};

@@ -73,7 +73,7 @@ impl BuildOptions {
     ///
     /// let never = BuildOptions::DEFAULT
     ///     .build_with_progress(scene.polygons(), |_| ControlFlow::Break(()));
-    /// assert!(never.is_err_and(|error| error.is_cancelled()));
+    /// assert!(never.is_err_and(|error| error.kind() == binspace::ErrorKind::Cancelled));
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///

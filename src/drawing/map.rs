@@ -43,7 +43,7 @@ use crate::tree::BspTree;
 /// call, when the result is ready. Parts do not take equally long. The callback is called each time about a
 /// millisecond of work is done, by any thread, one at a time; only to sort a long list takes longer (a tenth of a
 /// second for a million items). If it returns `Break`, the operation ends with an error of which
-/// [`Error::is_cancelled`] is true; the map stays as it is, and what is asked of it next begins anew. If several
+/// [`Error::kind`] is `Cancelled`; the map stays as it is, and what is asked of it next begins anew. If several
 /// threads ask one map at once, the callback hears of all of them in turn, and of some perhaps not the end.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
@@ -545,7 +545,7 @@ mod reporter_tests {
                 }
                 sort_by(&mut list, watch, u32::cmp)
             });
-            assert!(result.unwrap_err().is_cancelled());
+            assert!(result.unwrap_err().kind() == crate::ErrorKind::Cancelled);
             drop(reporter);
             assert_eq!(left, 0);
             assert!(done <= (calls - 1) << 16, "{done} by call {calls}");

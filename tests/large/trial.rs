@@ -1,5 +1,6 @@
 //! Scenes on trial, several at a time.
 
+use binspace::ErrorKind;
 use rayon::prelude::*;
 use testkit::as_given::ray::Targets;
 use testkit::as_given::scene::Scene;
@@ -44,7 +45,9 @@ impl Trial<'_> {
         }
         match scene.build(heuristic, most) {
             Ok(tree) => Court::new(targets, &tree).judge(shots),
-            Err(error) if error.is_over_budget() => Ok(Score { given_up: 1, ..Score::default() }),
+            Err(error) if error.kind() == ErrorKind::OverBudget => {
+                Ok(Score { given_up: 1, ..Score::default() })
+            }
             Err(error) => Err(error.to_string()),
         }
     }

@@ -2,6 +2,7 @@
 //! the program. Each case runs in a process of its own, with limited memory.
 #![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
 
+use binspace::ErrorKind;
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -54,12 +55,13 @@ fn run(case: &str) -> bool {
         "extend" => {
             let mut tree = options.build(&polygons[..700]).expect("room");
             began();
-            tree.extend(&polygons[700..]).is_err_and(|error| error.is_out_of_memory())
+            tree.extend(&polygons[700..]).is_err_and(|error| error.kind() == ErrorKind::OutOfMemory)
         }
         "frame" => {
             began();
             let mut builder = FrameBuilder::new(options);
-            let failed = builder.build(&polygons).is_err_and(|error| error.is_out_of_memory());
+            let failed =
+                builder.build(&polygons).is_err_and(|error| error.kind() == ErrorKind::OutOfMemory);
             assert!(!failed || builder.tree().is_empty() && builder.tree().root().is_none());
             failed
         }
@@ -72,11 +74,11 @@ fn run(case: &str) -> bool {
             let file = std::fs::File::open(tree_file()).expect("the parent's file");
             let tree = BspTree::read(file).expect("room");
             began();
-            tree.welded_mesh().is_err_and(|error| error.is_out_of_memory())
+            tree.welded_mesh().is_err_and(|error| error.kind() == ErrorKind::OutOfMemory)
         }
         _ => {
             began();
-            options.build(&polygons).is_err_and(|error| error.is_out_of_memory())
+            options.build(&polygons).is_err_and(|error| error.kind() == ErrorKind::OutOfMemory)
         }
     }
 }

@@ -1,8 +1,8 @@
 //! One builder, scene after scene, against trees that are built alone.
 
 use crate::tree::{heuristic, shoot};
-use binspace::Error;
 use binspace::internals::{Tuning, tree_of};
+use binspace::{Error, ErrorKind};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::rays::Rays;
@@ -109,7 +109,7 @@ fn crossing_cards_of_every_small_number_keep_their_budgets()
         let enough = options.with_max_fragments(pieces).with_max_depth(depth);
         assert_eq!(build(enough)?.len(), pieces);
         for less in [options.with_max_fragments(pieces - 1), options.with_max_depth(depth - 1)] {
-            assert!(build(less).is_err_and(|error| error.is_over_budget()));
+            assert!(build(less).is_err_and(|error| error.kind() == ErrorKind::OverBudget));
         }
         if count > 25 {
             enough!(pieces > 300; "{pieces} pieces of {count}");

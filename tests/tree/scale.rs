@@ -1,6 +1,6 @@
 //! Large and deep: no recursion, no quadratic work, budgets that hold.
 
-use binspace::Error;
+use binspace::{Error, ErrorKind};
 use std::thread;
 use testkit::orders;
 use testkit::prelude::*;
@@ -181,15 +181,21 @@ fn budgets_end_in_errors_that_say_the_limit() {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         for limit in [0, 1, 2999, 3500] {
             let error = error(&crowd, options.with_max_fragments(limit));
-            assert!(error.is_over_budget() && error.to_string().contains(&limit.to_string()));
+            assert!(
+                error.kind() == ErrorKind::OverBudget
+                    && error.to_string().contains(&limit.to_string())
+            );
         }
         for limit in [0, 1, 5] {
             let error = error(&crowd, options.with_max_depth(limit));
-            assert!(error.is_over_budget() && error.to_string().contains(&limit.to_string()));
+            assert!(
+                error.kind() == ErrorKind::OverBudget
+                    && error.to_string().contains(&limit.to_string())
+            );
         }
     }
     let list = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(1000);
-    assert!(error(&scene::chain(LARGE), list).is_over_budget());
+    assert!(error(&scene::chain(LARGE), list).kind() == ErrorKind::OverBudget);
 }
 
 #[test]
@@ -217,5 +223,8 @@ fn a_tree_of_nothing_needs_no_depth() {
         let tree = options.build(polygons).unwrap();
         assert!(tree.is_empty() && tree.stats().depth_max == 0);
     }
-    assert!(options.build([[DVec3::X, DVec3::Y, DVec3::Z]]).unwrap_err().is_over_budget());
+    assert!(
+        options.build([[DVec3::X, DVec3::Y, DVec3::Z]]).unwrap_err().kind()
+            == ErrorKind::OverBudget
+    );
 }

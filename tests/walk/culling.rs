@@ -136,7 +136,7 @@ fn sides_are_those_that_rationals_say() {
             ] {
                 let culling = Culling::NONE.with_sides(shown);
                 let found = culled(&tree, view.viewpoint, &culling);
-                let shown = whole_order.iter().filter(|&&f| side == sides[f as usize].into());
+                let shown = whole_order.iter().filter(|&&f| side == sides[f as usize]);
                 assert!(found.iter().eq(shown), "{tree:?} {view:?}");
                 *count += found.len();
             }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use binspace::scene::Scene;
-use binspace::{BspTree, Heuristic, Preparation, Stats};
+use binspace::{BspTree, ErrorKind, Heuristic, Preparation, Stats};
 use serde::Serialize;
 
 use super::Outcome;
@@ -53,7 +53,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
             Ok(built) => built,
             // Another heuristic may stay within the budget.
-            Err(error) if error.is_over_budget() && heuristics.len() > 1 => {
+            Err(error) if error.kind() == ErrorKind::OverBudget && heuristics.len() > 1 => {
                 note(&format!("{heuristic}: {error}"));
                 over_budget += 1;
                 continue;

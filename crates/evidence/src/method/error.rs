@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use binspace::Error;
+use binspace::{Error, ErrorKind};
 
 /// Why a method cannot show a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl MethodError {
     /// Whether a budget ran out; a larger one may succeed.
     pub const fn is_over_budget(&self) -> bool {
         match &self.kind {
-            Kind::Build(error) => error.is_over_budget(),
+            Kind::Build(error) => matches!(error.kind(), ErrorKind::OverBudget),
             Kind::Pieces { .. } | Kind::Comparisons { .. } => true,
             Kind::Range { .. } => false,
         }

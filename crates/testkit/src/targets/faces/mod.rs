@@ -12,7 +12,7 @@ use super::cover;
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
-use binspace::{BuildOptions, Preparation};
+use binspace::{BuildOptions, ErrorKind, Preparation};
 use flat::{Area, area_of, cross, main_axes};
 use outline::Outline;
 use std::ops::ControlFlow;
@@ -76,7 +76,10 @@ fn check(given: &[Given], options: BuildOptions, dice: &mut Dice) -> Verdict {
             cover::covers(&tree)
         }
         // Triangles of polygons that cross, or are planar but for rounding, cut each other.
-        Err(error) => ensure(error.is_over_budget() || error.is_cancelled(), || error.to_string()),
+        Err(error) => ensure(
+            error.kind() == ErrorKind::OverBudget || error.kind() == ErrorKind::Cancelled,
+            || error.to_string(),
+        ),
     }
 }
 

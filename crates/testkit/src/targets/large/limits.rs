@@ -5,7 +5,7 @@ use super::super::super::judge::{Verdict, ensure};
 use super::super::super::snapshot::Snapshot;
 use super::{Base, pools};
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, Progress};
+use binspace::{BspTree, BuildOptions, Error, ErrorKind, Progress};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -66,7 +66,7 @@ impl Base<'_> {
             ensure(cut.heard.len() <= stop && cut.read_late == 0, what)?;
             match &cut.result {
                 Err(error) => {
-                    let only = error.is_cancelled() && !error.is_over_budget();
+                    let only = error.kind() == ErrorKind::Cancelled;
                     ensure(only && cut.heard.len() == stop, || format!("{error}, {}", what()))?;
                 }
                 // Several threads may have passed two marks at once, and made a call less.
@@ -109,7 +109,8 @@ impl Base<'_> {
                 ensure(Snapshot::of(&tree) == Snapshot::of(self.tree), what)
             }
             Err(error) => {
-                let says = error.is_over_budget() && error.to_string().contains(&limit.to_string());
+                let says = error.kind() == ErrorKind::OverBudget
+                    && error.to_string().contains(&limit.to_string());
                 ensure(says && limit < needed, || format!("{error}: {}", what()))
             }
         }

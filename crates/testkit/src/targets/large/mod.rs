@@ -14,7 +14,7 @@ use super::super::views;
 use super::cover;
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
-use binspace::{BspTree, BuildOptions, Error, Progress};
+use binspace::{BspTree, BuildOptions, Error, ErrorKind, Progress};
 use limits::Watched;
 
 /// A tree of more fragments takes too long to be judged: its scene is halved.
@@ -55,8 +55,14 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
     let built = loop {
         let built = limits::watch(&options, &polygons, MOST_CALLS, 1);
         match &built.result {
-            Err(error) if error.is_over_budget() || error.is_cancelled() => {
-                assert!(error.is_over_budget() || built.heard.len() == MOST_CALLS, "{error}");
+            Err(error)
+                if error.kind() == ErrorKind::OverBudget
+                    || error.kind() == ErrorKind::Cancelled =>
+            {
+                assert!(
+                    error.kind() == ErrorKind::OverBudget || built.heard.len() == MOST_CALLS,
+                    "{error}"
+                );
                 assert!(polygons.len() > 1, "{error}: {options:?} {polygons:?}");
                 polygons.truncate(polygons.len() / 2);
             }
