@@ -3,7 +3,6 @@
 use super::oracle::{Meeting, meet};
 use super::{Polygons, cameras, disjoint, faces, judge, polygons_of, show};
 use crate::method::{DepthBuffer, DepthFormat, Interpolation, Method};
-use binspace::ErrorKind;
 use binspace::raster::NONE;
 use testkit::prelude::*;
 
@@ -204,7 +203,7 @@ fn senseless_planes_are_errors() {
         let rays = Rays::new(camera, &faces).unwrap();
         let method = DepthBuffer { near, far, ..DepthBuffer::new(Integer(16)) };
         let result = method.prepare(&faces).unwrap().paint(camera, &rays);
-        assert!(result.as_ref().err().is_none_or(|error| error.kind() != ErrorKind::OverBudget));
+        assert!(result.as_ref().err().is_none_or(|error| !error.is_over_budget()));
         result.is_err()
     };
     let camera = &ahead([4, 4]);

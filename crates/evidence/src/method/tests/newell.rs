@@ -1,6 +1,5 @@
 //! Newell's algorithm against brute force, and its cycles.
 
-use binspace::ErrorKind;
 use glam::DQuat;
 use testkit::prelude::*;
 
@@ -230,7 +229,7 @@ fn budgets_run_out_with_a_figure() {
     let rays = Rays::new(&camera, &faces).unwrap();
     let fails = |method: Newell, figure: &str| {
         let error = method.prepare(&faces).unwrap().paint(&camera, &rays).unwrap_err();
-        assert!(error.kind() == ErrorKind::OverBudget);
+        assert!(error.is_over_budget());
         assert!(error.to_string().contains(figure), "{error}");
     };
     fails(Newell { max_pieces: 61, ..Newell::DEFAULT }, "more than 61 pieces");
