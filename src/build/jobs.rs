@@ -277,7 +277,7 @@ mod threads_tests {
             })
         });
         let error = tree.unwrap_err();
-        assert!(error.kind() == ErrorKind::OverBudget, "{error}");
+        assert!(error.kind() == crate::ErrorKind::OverBudget, "{error}");
         assert!(done < 1000, "{done} faces were stored after the error");
         // The job behind is large enough to be heard of.
         let mut calls = 0;
@@ -299,7 +299,7 @@ mod threads_tests {
                 let squares = squares().map(|square| square.map(|[x, y, z]| [mirrored * x, y, z]));
                 let error = pool.install(|| options.build(squares).unwrap_err());
                 assert!(
-                    error.kind() == ErrorKind::OverBudget,
+                    error.kind() == crate::ErrorKind::OverBudget,
                     "{threads} threads, {mirrored}: {error}"
                 );
             }
