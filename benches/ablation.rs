@@ -203,7 +203,7 @@ fn turned(scene: &Scene) -> Scene {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let mut turned = Scene::new(format!("{}, turned", scene.name()), scene.up());
     for corners in scene.polygons() {
-        turned.push(corners.iter().map(|&corner: &DVec3| turn * corner), 0);
+        turned.push(corners.points().iter().map(|&corner: &DVec3| turn * corner), 0);
     }
     turned
 }

@@ -72,8 +72,8 @@ fn hierarchy<T: BHValue + Send>(boxes: &[Shape<T>]) -> Duration {
 fn boxes<T: BHValue>(scene: &Scene, number: impl Fn(f64) -> T) -> Vec<Shape<T>> {
     let mut boxes = Vec::new();
     for corners in scene.polygons() {
-        for pair in corners.windows(2).skip(1) {
-            let corners = [corners[0], pair[0], pair[1]];
+        for pair in corners.points().windows(2).skip(1) {
+            let corners = [corners.points()[0], pair[0], pair[1]];
             let points = corners.map(|p| Point3::from(p.to_array().map(&number)));
             let bounds = points.iter().fold(Aabb::empty(), |bounds, point| bounds.grow(point));
             boxes.push(Shape { bounds, node: 0 });

@@ -174,7 +174,8 @@ fn lines_and_bodies() {
             let size = margin * 0.4;
             let place = move |corner: &DVec3| at + *corner * size;
             let sphere = scene::sphere(BODY);
-            let faces = sphere.polygons().map(|face| face.iter().map(place).collect::<Vec<_>>());
+            let faces =
+                sphere.polygons().map(|face| face.points().iter().map(place).collect::<Vec<_>>());
             faces.collect::<Vec<_>>()
         };
         let (none, no_lines): (Vec<Vec<DVec3>>, &[Vec<DVec3>]) = (vec![], &[]);

@@ -86,7 +86,7 @@ fn time_ours(scene: &Scene) -> Measured {
 fn time_theirs(scene: &Scene) -> Measured {
     let work = || {
         let polygons: Vec<_> =
-            scene.polygons().enumerate().map(|(i, corners)| polygon(i, &corners)).collect();
+            scene.polygons().enumerate().map(|(i, corners)| polygon(i, corners.points())).collect();
         let mut splitter = BspSplitter::<usize>::new();
         let (build, ()) = best_of(1, || {
             splitter.reset();

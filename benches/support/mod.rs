@@ -113,8 +113,8 @@ pub fn triangles_in_cubes(count: u32) -> Scene {
 pub fn triangulated(scene: &Scene) -> Scene {
     let mut triangles = Scene::new(scene.name(), scene.up());
     for corners in scene.polygons() {
-        for pair in corners[1..].windows(2) {
-            triangles.push([corners[0], pair[0], pair[1]], 0);
+        for pair in corners.points()[1..].windows(2) {
+            triangles.push([corners.points()[0], pair[0], pair[1]], 0);
         }
     }
     triangles
@@ -123,7 +123,7 @@ pub fn triangulated(scene: &Scene) -> Scene {
 fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {
     let mut mapped = Scene::new(name, scene.up());
     for corners in scene.polygons() {
-        let corners = <[DVec3; 3]>::try_from(&corners[..]).expect("a triangle");
+        let corners = <[DVec3; 3]>::try_from(&corners.points()[..]).expect("a triangle");
         mapped.push(polygon(corners), 0);
     }
     mapped

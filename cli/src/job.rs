@@ -129,7 +129,7 @@ pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, fo
 /// Notes that the tolerance is too small for the faces; otherwise which one was taken, if the file's
 /// decimals decided that.
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
-    let quads = scene.polygons().filter(|polygon| polygon.len() > 3).count();
+    let quads = scene.polygons().filter(|polygon| polygon.points().len() > 3).count();
     let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
     note_length(scene, limits, tolerance, tree.preparation(), quads);
 }

@@ -87,8 +87,9 @@ impl Areas {
     fn of(scene: &Scene, middle: DVec3) -> Self {
         let mut sums = Self::default();
         for polygon in scene.polygons() {
-            let Some(&first) = polygon.first() else { continue };
-            let fan = polygon.windows(2).map(|ends| (ends[0] - first).cross(ends[1] - first));
+            let Some(&first) = polygon.points().first() else { continue };
+            let fan =
+                polygon.points().windows(2).map(|ends| (ends[0] - first).cross(ends[1] - first));
             let normal: DVec3 = fan.sum();
             let area = normal.length();
             sums.total += area;
@@ -111,7 +112,7 @@ mod tests {
     fn moved(scene: &Scene, to: impl Fn(DVec3) -> DVec3) -> Scene {
         let mut result = Scene::new(scene.name(), DVec3::Y);
         for polygon in scene.polygons() {
-            result.push(polygon.iter().map(|&corner| to(corner)), 0);
+            result.push(polygon.points().iter().map(|&corner| to(corner)), 0);
         }
         result
     }

@@ -28,8 +28,6 @@ pub use generated::{
 pub use obj::{ObjError, ObjReport, ObjStream};
 pub use teapot::teapot;
 
-use std::ops::Deref;
-
 use glam::{DVec2, DVec3};
 
 use crate::Polygon;
@@ -78,17 +76,16 @@ struct Attributes {
     colors: Vec<Option<[f32; 3]>>,
 }
 
-/// A polygon of a [`Scene`]: its corners, as a slice, and how precise they are.
+/// A polygon of a [`Scene`]: its points, and how precise they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScenePolygon<'a> {
     corners: &'a [DVec3],
     precision: f64,
 }
 
-impl Deref for ScenePolygon<'_> {
-    type Target = [DVec3];
-
-    fn deref(&self) -> &[DVec3] {
+impl<'a> ScenePolygon<'a> {
+    /// The corners, counter-clockwise seen from the front.
+    pub fn points(&self) -> &'a [DVec3] {
         self.corners
     }
 }

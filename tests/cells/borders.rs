@@ -95,7 +95,10 @@ fn faces_that_share_an_edge_have_the_same_vertices() {
     let polygons: Vec<Corners> = mesh
         .polygons()
         .flat_map(|quad| {
-            quad[1..].windows(2).map(|pair| [quad[0], pair[0], pair[1]]).collect::<Vec<_>>()
+            quad.points()[1..]
+                .windows(2)
+                .map(|pair| [quad.points()[0], pair[0], pair[1]])
+                .collect::<Vec<_>>()
         })
         .map(|triangle| triangle.iter().map(odd).collect())
         .collect();

@@ -135,12 +135,12 @@ fn teapot_has_the_published_size_and_counts() {
         let scene = scene::teapot(segments);
         let n = segments as usize;
         assert_eq!(scene.len(), 32 * n * n);
-        let triangles = scene.polygons().filter(|p| p.len() == 3).count();
+        let triangles = scene.polygons().filter(|p| p.points().len() == 3).count();
         assert_eq!(triangles, 8 * n);
         for polygon in scene.polygons() {
-            let distinct: HashSet<Bits> = polygon.iter().map(|&p| bits(p)).collect();
-            assert_eq!(distinct.len(), polygon.len());
-            assert!(normal(&polygon).length() > 0.0);
+            let distinct: HashSet<Bits> = polygon.points().iter().map(|&p| bits(p)).collect();
+            assert_eq!(distinct.len(), polygon.points().len());
+            assert!(normal(polygon.points()).length() > 0.0);
         }
     }
     let (low, high) = scene::teapot(32).bounds().unwrap_or_default();
@@ -219,8 +219,8 @@ fn sphere_is_closed_and_convex() {
         let corners: HashMap<Bits, DVec3> =
             scene.polygons().flatten().map(|&p| (bits(p), p)).collect();
         for polygon in scene.polygons() {
-            let unit = normal(&polygon).normalize();
-            let origin = centre(&polygon);
+            let unit = normal(polygon.points()).normalize();
+            let origin = centre(polygon.points());
             assert!(unit.dot(origin) > 0.0, "outwards");
             for corner in corners.values() {
                 let height = unit.dot(*corner - origin);
@@ -258,7 +258,7 @@ fn terrain_is_one_sheet_that_faces_up() {
     let scene = scene::terrain(5_000, 3);
     assert_eq!(scene.len(), 5_000);
     let faces_up = |triangle: &[DVec3]| triangle.len() == 3 && normal(triangle).z > 0.0;
-    assert!(scene.polygons().all(|triangle| faces_up(&triangle)));
+    assert!(scene.polygons().all(|triangle| faces_up(triangle.points())));
     let open = open_edges(outlines(&scene));
     assert_eq!(open.len(), 4 * 50);
     let at_border = |p: &DVec3| [p.x, p.y].iter().any(|&c| c == 0.0 || c == 100.0);
@@ -274,7 +274,7 @@ fn random_triangles_have_edges_as_stated() {
     assert!(low.min_element() >= 0.0 && high.max_element() <= 1.0);
     for triangle in scene.polygons() {
         for i in 0..3 {
-            let edge = triangle[i].distance(triangle[(i + 1) % 3]);
+            let edge = triangle.points()[i].distance(triangle.points()[(i + 1) % 3]);
             assert!((0.0999..0.3001).contains(&edge), "{edge}");
         }
     }
@@ -286,8 +286,8 @@ fn crossing_squares_share_the_z_axis() {
         let scene = scene::crossing(count);
         assert_eq!(scene.len(), count as usize);
         for square in scene.polygons() {
-            assert_eq!(square[0] + square[1], DVec3::NEG_Z * 2.0);
-            assert_eq!(square[2] + square[3], DVec3::Z * 2.0);
+            assert_eq!(square.points()[0] + square.points()[1], DVec3::NEG_Z * 2.0);
+            assert_eq!(square.points()[2] + square.points()[3], DVec3::Z * 2.0);
         }
     }
     let two = scene::crossing(2);
@@ -359,8 +359,10 @@ fn small_sizes_give_scenes_that_can_be_drawn() {
             let built = scene.build(Some(size), 9);
             assert!(!built.is_empty(), "{scene}:{size}");
             for polygon in built.polygons() {
-                assert!(polygon.len() >= 3 && polygon.iter().all(|p| p.is_finite()));
-                assert!(normal(&polygon).length() > 0.0, "{scene}:{size}");
+                assert!(
+                    polygon.points().len() >= 3 && polygon.points().iter().all(|p| p.is_finite())
+                );
+                assert!(normal(polygon.points()).length() > 0.0, "{scene}:{size}");
             }
             assert!((0..built.len()).all(|i| !built.material(i).name.is_empty()));
         }

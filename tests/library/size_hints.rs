@@ -112,6 +112,6 @@ fn so_are_those_of_planes_and_of_scenes() {
         let mut scene = Scene::new("hinted", DVec3::Z);
         let material = scene.add_material(Material::DEFAULT);
         scene.push(Hinted { items: triangle.into_iter(), hint }, material);
-        assert_eq!(scene.polygons().next().unwrap().len(), 3, "{hint:?}");
+        assert_eq!(scene.polygons().next().unwrap().points().len(), 3, "{hint:?}");
     }
 }

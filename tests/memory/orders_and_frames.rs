@@ -75,7 +75,7 @@ fn ask() {
         let mut hits = 0;
         let used = least_allocations(|| {
             hits = 0;
-            for corner in scene.polygons().take(200).map(|polygon| polygon[0]) {
+            for corner in scene.polygons().take(200).map(|polygon| polygon.points()[0]) {
                 for from in [low, high * 2.0, corner] {
                     hits += tree.hits(Ray::between(from, corner)).take(3).count();
                     hits += usize::from(tree.is_occluded(Ray::new(from, high - corner)));
@@ -96,7 +96,7 @@ fn frame_again() {
         let upright = [[0.5, -9.0, -9.0], [0.5, 9.0, -9.0], [0.5, 9.0, 9.0], [0.5, -9.0, 9.0]];
         let polygons: Vec<Vec<[f64; 3]>> = scene
             .polygons()
-            .map(|polygon| polygon.iter().map(|corner| corner.to_array()).collect())
+            .map(|polygon| polygon.points().iter().map(|corner| corner.to_array()).collect())
             .chain([upright.to_vec()])
             .collect();
         allocations(|| {

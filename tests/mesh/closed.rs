@@ -69,7 +69,7 @@ fn a_body_that_others_cut_stays_closed() {
         .polygons()
         .map(|triangle| {
             let corner = |p: &DVec3| (p.as_vec3() * 2.0 - vec3(1.9, 1.15, 1.98)).to_array();
-            triangle.iter().map(corner).collect()
+            triangle.points().iter().map(corner).collect()
         })
         .collect();
     check_cut_body(&[&body[..], &others].concat(), 0..body.len());

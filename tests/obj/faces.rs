@@ -70,7 +70,7 @@ fn line_ends_continuations_and_comments_do_not_matter() {
 #[test]
 fn normals_texture_weights_and_colours_change_no_polygon() {
     let polygons = |(scene, _): (Scene, ObjReport)| {
-        scene.polygons().map(|polygon| polygon.to_vec()).collect::<Vec<_>>()
+        scene.polygons().map(|polygon| polygon.points().to_vec()).collect::<Vec<_>>()
     };
     let plain = polygons(read(with_corners("f 1 2 3\nf 3 4 5")).unwrap());
     let faces = [

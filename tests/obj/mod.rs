@@ -46,7 +46,7 @@ fn file(test: &str, text: impl AsRef<[u8]>) -> PathBuf {
 }
 
 fn sides(scene: &Scene) -> Vec<usize> {
-    scene.polygons().map(|polygon| polygon.len()).collect()
+    scene.polygons().map(|polygon| polygon.points().len()).collect()
 }
 
 /// Five corners; the last stands apart.

@@ -42,7 +42,8 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
     enough!(prepared.flattened > 40; "{prepared:?}");
     assert!(prepared.triangulated == 0, "{prepared:?}");
     // Of the same numbers, as if they were exact, most are triangulated.
-    let exact: Vec<Vec<DVec3>> = scene.polygons().map(|polygon| polygon.to_vec()).collect();
+    let exact: Vec<Vec<DVec3>> =
+        scene.polygons().map(|polygon| polygon.points().to_vec()).collect();
     let prepared = *BspTree::build(&exact).unwrap().preparation();
     enough!(prepared.triangulated > 30; "{prepared:?}");
     assert_eq!(prepared.bent, prepared.triangulated);

@@ -96,7 +96,7 @@ fn generated_cornell_box_agrees_with_the_real_one() {
     let ours = scene::cornell_box();
     let near = |a: &DVec3, b: &DVec3| a.distance(*b) < 1e-4;
     for (a, b) in file.polygons().zip(ours.polygons()) {
-        let same = a.iter().all(|p| b.iter().any(|q| near(p, q)));
+        let same = a.points().iter().all(|p| b.points().iter().any(|q| near(p, q)));
         assert!(same, "{a:?} {b:?}");
     }
 }

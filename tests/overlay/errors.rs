@@ -78,7 +78,8 @@ fn bounds_must_be_finite() {
 fn another_tree_is_refused() {
     let scene = scene::city(100, 1);
     let scaled = |by: f64| {
-        let polygons = scene.polygons().map(|p| p.iter().map(|&c| c * by).collect::<Vec<_>>());
+        let polygons =
+            scene.polygons().map(|p| p.points().iter().map(|&c| c * by).collect::<Vec<_>>());
         BspTree::build(polygons).expect("within budget")
     };
     // Twice as large, its grid is as fine for its size, and its tolerance as many steps.
@@ -167,8 +168,10 @@ fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
     let scene = scene::random_triangles(60, 3);
     let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1e3), DVec3::splat(1e3));
     let tree = room.build(scene.polygons()).expect("within budget");
-    let moving: Vec<Vec<DVec3>> =
-        scene::random_triangles(1400, 4).polygons().map(|polygon| polygon.to_vec()).collect();
+    let moving: Vec<Vec<DVec3>> = scene::random_triangles(1400, 4)
+        .polygons()
+        .map(|polygon| polygon.points().to_vec())
+        .collect();
     let lines: Vec<Vec<DVec3>> = moving[..40].to_vec();
     let points: Vec<DVec3> = lines.iter().map(|line| line[0]).collect();
     let shapes = || {

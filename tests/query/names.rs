@@ -92,7 +92,8 @@ fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
         (scene::teapot(3), DVec3::splat(-5.0)),
         (scene::crossing(9), DVec3::new(1e3, -2e3, 5e2)),
     ] {
-        let moved = scene.polygons().map(|p| p.iter().map(|&c| c + far).collect::<Vec<_>>());
+        let moved =
+            scene.polygons().map(|p| p.points().iter().map(|&c| c + far).collect::<Vec<_>>());
         let polygons: Vec<Vec<DVec3>> = moved.collect();
         let tree = BspTree::build(&polygons).unwrap();
         let grid = tree.grid();

@@ -202,9 +202,9 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
         (scene::terrain(900, 1), DVec3::new(1e7, -3e5, 0.0)),
         (scene::random_triangles(160, 3), DVec3::splat(1e3)),
     ] {
-        let moved = scene
-            .polygons()
-            .map(|polygon| polygon.iter().map(|&corner| corner + move_by).collect::<Vec<_>>());
+        let moved = scene.polygons().map(|polygon| {
+            polygon.points().iter().map(|&corner| corner + move_by).collect::<Vec<_>>()
+        });
         let tree = BspTree::build(moved).unwrap();
         let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
         let mut dice = Dice(5);

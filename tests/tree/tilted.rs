@@ -11,7 +11,8 @@ use testkit::scenes::scene_of;
 /// The same turned away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
-    let turned = |polygon: ScenePolygon<'_>| polygon.iter().map(|&corner| turn * corner).collect();
+    let turned =
+        |polygon: ScenePolygon<'_>| polygon.points().iter().map(|&corner| turn * corner).collect();
     scene.polygons().map(turned).collect()
 }
 

@@ -164,7 +164,7 @@ fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
             0 => shapes::cuboid(turn, DVec3::ONE, DVec3::from(size)).into_iter().collect(),
             1 => {
                 let sphere = scene::sphere(200);
-                sphere.polygons().map(|p| p.iter().map(|&p| place(p)).collect()).collect()
+                sphere.polygons().map(|p| p.points().iter().map(|&p| place(p)).collect()).collect()
             }
             _ => {
                 let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(place);

@@ -141,7 +141,7 @@ fn build(
     })?;
     let mut reached = Vec::new();
     let counted = scene.polygons().filter(|polygon| {
-        let corners = polygon.iter().map(|corner| corner.to_array());
+        let corners = polygon.points().iter().map(|corner| corner.to_array());
         let least = corners.reduce(|a, b| if b < a { b } else { a });
         reached.clear();
         least.inspect(|corner| partition.reached_by(&[*corner], &mut reached));

@@ -114,7 +114,11 @@ impl Polygons {
                 let mut polygons = scene.polygons().enumerate();
                 polygons
                     .try_for_each(|(number, polygon)| {
-                        visit(number, &polygon, known(number).map_or(u32::MAX, |m| m as u32))
+                        visit(
+                            number,
+                            polygon.points(),
+                            known(number).map_or(u32::MAX, |m| m as u32),
+                        )
                     })
                     .map_err(unwritable)
             }

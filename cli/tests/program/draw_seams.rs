@@ -157,10 +157,11 @@ fn write_balls(folder: &Folder) {
     for (material, scale) in [("glass", 1.0), ("wood", 0.5)] {
         writeln!(text, "usemtl {material}").unwrap();
         for polygon in ball.polygons() {
-            for corner in polygon.iter().map(|&corner| corner * scale) {
+            for corner in polygon.points().iter().map(|&corner| corner * scale) {
                 writeln!(text, "v {:?} {:?} {:?}", corner.x, corner.y, corner.z).unwrap();
             }
-            let numbers: String = (1..=polygon.len()).rev().map(|k| format!(" -{k}")).collect();
+            let numbers: String =
+                (1..=polygon.points().len()).rev().map(|k| format!(" -{k}")).collect();
             writeln!(text, "f{numbers}").unwrap();
         }
     }

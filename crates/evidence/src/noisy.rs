@@ -20,7 +20,8 @@ pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
     // Rows of quads from pole to pole.
     let side = std::f64::consts::PI / (f64::from(triangles) / 4.0).sqrt().max(2.0);
     for (number, polygon) in (0..).zip(smooth.polygons()) {
-        let corners: Vec<DVec3> = polygon.iter().map(|&p| moved(p, NOISE * side, seed)).collect();
+        let corners: Vec<DVec3> =
+            polygon.points().iter().map(|&p| moved(p, NOISE * side, seed)).collect();
         for k in 2..corners.len() {
             scene.push([corners[0], corners[k - 1], corners[k]], number % 2);
         }
@@ -49,7 +50,8 @@ mod tests {
         assert!((3500..4500).contains(&scene.len()), "{}", scene.len());
         let mut edges = HashSet::new();
         let bits = |p: DVec3| p.to_array().map(f64::to_bits);
-        let triangles: Vec<[DVec3; 3]> = scene.polygons().map(|p| [p[0], p[1], p[2]]).collect();
+        let triangles: Vec<[DVec3; 3]> =
+            scene.polygons().map(|p| [p.points()[0], p.points()[1], p.points()[2]]).collect();
         for [a, b, c] in &triangles {
             for [p, q] in [[a, b], [b, c], [c, a]] {
                 assert!(edges.insert([bits(*p), bits(*q)]));

@@ -8,7 +8,7 @@ use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon};
 
 /// The corners of all polygons.
 pub fn polygons(scene: &Scene) -> Vec<Corners> {
-    scene.polygons().map(|polygon| polygon.to_vec()).collect()
+    scene.polygons().map(|polygon| polygon.points().to_vec()).collect()
 }
 
 /// A scene of some polygons; up is z.

@@ -22,7 +22,11 @@ fn vertices_are_as_near_as_they_say() {
             .collect()
     };
     let mut scenes = vec![
-        Builtin::Random.build(Some(150), 5).polygons().map(|polygon| polygon.to_vec()).collect(),
+        Builtin::Random
+            .build(Some(150), 5)
+            .polygons()
+            .map(|polygon| polygon.points().to_vec())
+            .collect(),
     ];
     for (flat, thin) in [(1.0, 1.0), (1e-6, 1.0), (1e-12, 1.0), (1.0, 1e-6), (1e-4, 1e-9)] {
         scenes.push(crossing(flat, thin));

@@ -107,7 +107,7 @@ fn tilted(scene: &Scene) -> Scene {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
     let mut tilted = Scene::new(scene.name(), scene.up());
     for polygon in scene.polygons() {
-        tilted.push(polygon.iter().map(|&corner| turn * corner), 0);
+        tilted.push(polygon.points().iter().map(|&corner| turn * corner), 0);
     }
     tilted
 }

@@ -100,7 +100,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         report.run_family(family, &methods_of(MAX_PIECES))?;
     }
     for scene in &scenes {
-        let corners: usize = scene.polygons().map(|polygon| polygon.len()).sum();
+        let corners: usize = scene.polygons().map(|polygon| polygon.points().len()).sum();
         let methods = methods_of(MAX_PIECES.max(PIECES_PER_CORNER * corners));
         match report.run_scene(scene, &methods) {
             Err(Failure::Message(problem)) => {

@@ -24,12 +24,12 @@ pub(super) fn scale(factor: f64, seed: u64) -> Trial {
     ] {
         for (i, polygon) in part.polygons().enumerate() {
             let place = |&p: &DVec3| pose.place(p / size + shift);
-            unscaled.push(polygon.iter().map(place), (i % 8) as u32);
+            unscaled.push(polygon.points().iter().map(place), (i % 8) as u32);
         }
     }
     let mut scene = empty("scale", factor);
     for (i, polygon) in unscaled.polygons().enumerate() {
-        scene.push(polygon.iter().map(|&p| p * factor), (i % 8) as u32);
+        scene.push(polygon.points().iter().map(|&p| p * factor), (i % 8) as u32);
     }
     let scaled =
         |look: Look| Look { eye: look.eye * factor, target: look.target * factor, up: look.up };

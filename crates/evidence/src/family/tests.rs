@@ -51,7 +51,8 @@ fn a_seed_gives_one_scene_and_another_seed_another() {
 #[test]
 fn triangles_cross_at_the_angle() {
     each_step(Family::Angle, |angle, scene| {
-        let normals: Vec<DVec3> = scene.polygons().map(|polygon| normal(&polygon)).collect();
+        let normals: Vec<DVec3> =
+            scene.polygons().map(|polygon| normal(polygon.points())).collect();
         let mut least = f64::INFINITY;
         for (i, p) in normals.iter().enumerate() {
             for q in &normals[..i] {
@@ -67,7 +68,8 @@ fn layers_are_the_gap_apart() {
     each_step(Family::Gap, |gap, scene| {
         let up = normal(scene.polygon(0));
         let origin = scene.polygon(0)[0];
-        let mut heights: Vec<f64> = scene.polygons().map(|p| (p[0] - origin).dot(up)).collect();
+        let mut heights: Vec<f64> =
+            scene.polygons().map(|p| (p.points()[0] - origin).dot(up)).collect();
         heights.sort_by(f64::total_cmp);
         let lowest = (heights[11] - heights[0]) / 11.0;
         assert_near(lowest / extent(scene), gap, 0.2);
@@ -81,8 +83,10 @@ fn layers_are_the_gap_apart() {
 fn slivers_are_as_narrow_as_they_should_be() {
     each_step(Family::Sliver, |width, scene| {
         for polygon in scene.polygons() {
-            let length = (polygon[1] - polygon[0]).length();
-            let area = (polygon[1] - polygon[0]).cross(polygon[2] - polygon[0]).length();
+            let length = (polygon.points()[1] - polygon.points()[0]).length();
+            let area = (polygon.points()[1] - polygon.points()[0])
+                .cross(polygon.points()[2] - polygon.points()[0])
+                .length();
             // The base is 4/3 of the width a quarter of the length away, and more if rolled.
             assert!((1.2..1.7).contains(&(area / length / width)), "{width:e} {area:e}");
         }
@@ -92,11 +96,15 @@ fn slivers_are_as_narrow_as_they_should_be() {
 #[test]
 fn the_cube_is_as_far_out_as_it_should_be() {
     each_step(Family::Offset, |distance, scene| {
-        let near = scene.polygons().filter(|p| p[0].length() < 0.3 || p[1].length() < 0.11);
+        let near = scene
+            .polygons()
+            .filter(|p| p.points()[0].length() < 0.3 || p.points()[1].length() < 0.11);
         assert!(distance < 10.0 || near.count() == 1);
-        let mean = scene.polygons().map(|p| p[0].length()).sum::<f64>() / scene.len() as f64;
+        let mean =
+            scene.polygons().map(|p| p.points()[0].length()).sum::<f64>() / scene.len() as f64;
         assert_near(mean, distance, if distance < 10.0 { 0.3 } else { 0.05 });
-        let largest = scene.polygons().map(|p| (p[1] - p[0]).length()).fold(0.0, f64::max);
+        let largest =
+            scene.polygons().map(|p| (p.points()[1] - p.points()[0]).length()).fold(0.0, f64::max);
         assert!(largest < 1.2, "{largest}");
     });
 }
@@ -113,15 +121,15 @@ fn counts_are_what_was_asked_for() {
         assert_eq!(scene.len(), count as usize + 1);
         let large = scene.polygons().max_by(|p, q| {
             let size = |p: &[DVec3]| (p[1] - p[0]).length();
-            size(p).total_cmp(&size(q))
+            size(p.points()).total_cmp(&size(q.points()))
         });
-        let plane = (large.unwrap()[0], normal(&large.unwrap()));
+        let plane = (large.unwrap().points()[0], normal(large.unwrap().points()));
         let pierces = |polygon: &[DVec3]| {
             let height = |p: &DVec3| (*p - plane.0).dot(plane.1);
             let low = polygon.iter().map(height).fold(f64::INFINITY, f64::min);
             low < -1e-3 / count.sqrt() && polygon.iter().map(height).any(|h| h > 0.0)
         };
-        assert_eq!(scene.polygons().filter(|p| pierces(p)).count(), count as usize);
+        assert_eq!(scene.polygons().filter(|p| pierces(p.points())).count(), count as usize);
     });
     each_step(Family::Cycle, |count, scene| assert_eq!(scene.len(), count as usize));
     each_step(Family::Penetration, |count, scene| assert_eq!(scene.len(), count as usize));
@@ -156,8 +164,10 @@ fn boxes_touch_but_for_rounding() {
 fn bars_cover_each_other_in_a_cycle() {
     each_step(Family::Cycle, |count, scene| {
         // The ends of one bar at a time, as a line from the middle of one end to the other's.
-        let lines: Vec<[DVec3; 2]> =
-            scene.polygons().map(|p| [(p[0] + p[3]) * 0.5, (p[1] + p[2]) * 0.5]).collect();
+        let lines: Vec<[DVec3; 2]> = scene
+            .polygons()
+            .map(|p| [(p.points()[0] + p.points()[3]) * 0.5, (p.points()[1] + p.points()[2]) * 0.5])
+            .collect();
         let centre = scene.polygons().flatten().sum::<DVec3>() / (4.0 * count);
         // Every bar rises along itself; all together they do not.
         let across =
@@ -192,7 +202,10 @@ fn triangles_penetrate_each_other() {
         q.iter().any(|c| side(c) > 0.0) && q.iter().any(|c| side(c) < 0.0)
     };
     let pairs = scene.polygons().enumerate().flat_map(|(i, p)| {
-        scene.polygons().take(i).map(move |q| crossing(&p, &q) && crossing(&q, &p))
+        scene
+            .polygons()
+            .take(i)
+            .map(move |q| crossing(p.points(), q.points()) && crossing(q.points(), p.points()))
     });
     assert!(pairs.filter(|&cross| cross).count() > 500);
 }

@@ -43,14 +43,15 @@ fn read_any(bytes: &[u8]) {
         for corner in polygon {
             let _ = writeln!(text, "v {:e} {:e} {:e}", corner.x, corner.y, corner.z);
         }
-        let numbers: Vec<String> = (1..=polygon.len()).map(|k| (next + k).to_string()).collect();
+        let numbers: Vec<String> =
+            (1..=polygon.points().len()).map(|k| (next + k).to_string()).collect();
         let _ = writeln!(text, "f {}", numbers.join(" "));
-        next += polygon.len();
+        next += polygon.points().len();
     }
     let again = Scene::from_obj("again", text.as_bytes(), |_| None);
     let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
     // Corners alone: the precision also follows from vertices that no face names.
-    let corners = |scene: &Scene| scene.polygons().map(|p| p.to_vec()).collect::<Vec<_>>();
+    let corners = |scene: &Scene| scene.polygons().map(|p| p.points().to_vec()).collect::<Vec<_>>();
     assert_eq!(corners(&scene), corners(&again), "{text}");
 }
 
@@ -159,7 +160,7 @@ impl Known {
                 let corner = |&k: &usize| self.corners[k];
                 let faces = self.faces.iter().map(|f| f.iter().map(corner).collect::<Vec<_>>());
                 assert!(
-                    scene.polygons().map(|polygon| polygon.to_vec()).eq(faces),
+                    scene.polygons().map(|polygon| polygon.points().to_vec()).eq(faces),
                     "{:?}",
                     self.text
                 );

@@ -48,7 +48,7 @@ fn cycle_that_no_plane_cuts() -> Polygons {
 }
 
 fn polygons_of(scene: &Scene) -> Polygons {
-    scene.polygons().map(|polygon| polygon.to_vec()).collect()
+    scene.polygons().map(|polygon| polygon.points().to_vec()).collect()
 }
 
 fn faces(polygons: &Polygons, tolerance: Option<f64>) -> Faces {
