@@ -1,27 +1,30 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
 //!
 //! [`BspTree`] is the library's main type, and its page is the manual. The [`guide`] has a page for each
-//! subject, such as frames on a GPU, vector drawings and moving things. Around the tree:
+//! subject, such as frames on a GPU, vector drawings and moving things.
 //!
-//! | | |
-//! |---|---|
-//! | [`Polygon`], [`Point`] | what polygons of your own types have to say |
-//! | [`BuildOptions`], [`Heuristic`], [`Tolerance`], [`Progress`] | how a tree is built, what counts as coplanar, and how far the build is |
-//! | [`FrameBuilder`] | trees built anew every frame |
-//! | [`Viewpoint`] | an eye or a direction, for which a tree is ordered |
-//! | [`Fragment`], [`Node`] | the parts of a tree; [`Part`] and [`Child`] are one of both |
-//! | [`Order`], [`Culling`], [`Frustum`] | an order: written, iterated over or walked; whole or without what need not be drawn |
-//! | [`Ray`], [`Hit`], [`Location`] | what a ray hits, and where a point is |
-//! | [`Preparation`], [`Stats`] | how the input was prepared, and a tree's figures |
-//! | [`Grid`] | the grid of a tree's exact numbers |
-//! | [`Error`], [`ErrorKind`] | why something failed, and at which polygon |
+//! # Which type do I need?
 //!
-//! | module | for |
-//! |---|---|
-//! | [`overlay`] | polygons that move, lines and points, in one order with a tree that stays |
-//! | [`partition`] | scenes too large for one tree: cells, each with a tree of its own |
-//! | [`mesh`] | vertex and index buffers |
-//! | [`iter`] | the iterators that the methods of a tree return |
+//! | to | use | example |
+//! |---|---|---|
+//! | paint polygons back to front | [`BspTree::back_to_front`], [`Fragment`] | |
+//! | draw translucent triangles on a GPU | [`BspTree::welded_mesh`], [`mesh::Triangles::write_back_to_front`] | `gpu_transparency` |
+//! | leave out what is out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
+//! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
+//! | order doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
+//! | build a tree every frame | [`FrameBuilder`] | |
+//! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers` |
+//! | draw a vector picture: SVG, hidden lines, plots | `drawing::VisibilityMap` | `hidden_lines`, `plot` |
+//! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
+//! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
+//! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
+//! | write a tree to a file, or read a model | `BspTree::write`, `scene::Scene::read_obj` | |
+//! | divide a scene that is too large for one tree | [`partition`] | |
+//! | check a picture against a depth buffer | `verify::verify` | |
+//!
+//! Input and options: [`Polygon`], [`Point`], [`BuildOptions`], [`Heuristic`], [`Tolerance`], [`Progress`],
+//! [`Viewpoint`]. A tree's parts and figures: [`Node`], [`Child`], [`Facing`], [`Grid`], [`Preparation`],
+//! [`Stats`]. What went wrong, and at which polygon: [`Error`], [`ErrorKind`].
 //!
 //! # Conventions
 //!
