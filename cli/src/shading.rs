@@ -1,31 +1,69 @@
-//! Shades of polygons in vector pictures: as in the painter's pictures, but constant over a polygon, so
-//! that the seams of its fragments do not show.
+//! Shades of polygons in vector pictures: one brightness for each plane, so that neither the triangles of a
+//! flat wall nor the pieces of a polygon differ.
 
 use binspace::glam::DVec3;
-use binspace::raster::brightness;
 use binspace::view::{Camera, Projection};
 
-/// A polygon's colour, darker the more obliquely it is seen.
+/// A polygon's colour, lit by a lamp above the viewer's left shoulder.
 pub(crate) fn shaded(colour: [u8; 3], polygon: &[DVec3], camera: &Camera) -> [u8; 3] {
-    let share = brightness_of(polygon, camera);
+    let share = brightness(normal_to_viewer(polygon, camera), camera);
     colour.map(|channel| (f64::from(channel) * share).round() as u8)
 }
 
-fn brightness_of(polygon: &[DVec3], camera: &Camera) -> f64 {
+/// 0.55 + 0.45 · (1 + n·l) / 2, where n is the normal on the side that the viewer sees, and l points to the
+/// lamp (half-Lambert shading).
+fn brightness(normal: DVec3, camera: &Camera) -> f64 {
+    let lamp = 0.5 * camera.up() - 0.35 * camera.right() - camera.forward();
+    0.55 + 0.45 * (0.5 + 0.5 * normal.dot(lamp.normalize()))
+}
+
+/// The unit normal of the side of a polygon that the viewer sees.
+fn normal_to_viewer(polygon: &[DVec3], camera: &Camera) -> DVec3 {
     let share = 1.0 / polygon.len() as f64;
     let middle: DVec3 = polygon.iter().map(|&corner| corner * share).sum();
     // Newell's normal, as polygons need not be planar.
     let arms = polygon.iter().map(|&corner| corner - middle);
     let next = arms.clone().cycle().skip(1);
     let normal: DVec3 = arms.zip(next).map(|(arm, next)| arm.cross(next)).sum();
-    let direction = match *camera.projection() {
-        Projection::Perspective { eye, .. } => (middle - eye).normalize_or_zero(),
-        Projection::Parallel { .. } => camera.forward(),
+    let to_viewer = match *camera.projection() {
+        Projection::Perspective { eye, .. } => eye - middle,
+        Projection::Parallel { .. } => -camera.forward(),
     };
-    brightness(normal.normalize_or_zero(), direction)
+    let normal = normal.normalize_or_zero();
+    if normal.dot(to_viewer) < 0.0 { -normal } else { normal }
 }
 
 /// A colour in SVG.
 pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shaded;
+    use binspace::glam::DVec3;
+    use binspace::view::Camera;
+
+    /// A wall as a fan of triangles, and the walls beside it.
+    #[test]
+    fn the_triangles_of_a_flat_wall_have_one_shade_and_walls_differ() {
+        let eye = DVec3::new(0.0, -5.0, 1.0);
+        let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 1.2, [80, 60]).unwrap();
+        let corner = |x: f64, z: f64| DVec3::new(x, 4.0, z);
+        let wall = [corner(-4.0, -2.0), corner(4.0, -2.0), corner(4.0, 3.0), corner(-4.0, 3.0)];
+        let middle = corner(0.3, 0.7);
+        let shades = [0, 1, 2, 3].map(|k| {
+            // Alternately from either side, as careless models have them.
+            let [a, b] = [wall[k], wall[(k + 1) % 4]];
+            let triangle = if k % 2 == 0 { [middle, a, b] } else { [middle, b, a] };
+            shaded([200; 3], &triangle, &camera)
+        });
+        assert!(shades.iter().all(|&shade| shade == shades[0]), "{shades:?}");
+        let side = |x: f64| [[x, -4.0, -1.0], [x, 4.0, -1.0], [x, 4.0, 3.0]].map(DVec3::from);
+        let floor = [[-4.0, -4.0, -1.0], [4.0, -4.0, -1.0], [4.0, 4.0, -1.0]].map(DVec3::from);
+        let [left, right] = [-4.0, 4.0].map(|x| shaded([200; 3], &side(x), &camera));
+        let mut all = [shades[0], left, right, shaded([200; 3], &floor, &camera)];
+        all.sort_unstable();
+        assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "{all:?}");
+    }
 }
