@@ -100,6 +100,7 @@ impl Error {
             | Kind::Tolerance(_)
             | Kind::Bounds
             | Kind::Viewport
+            | Kind::OpenEdge(_)
             | Kind::Places { .. } => ErrorKind::InvalidInput,
             Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices => ErrorKind::TooLarge,
             Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_) => {
@@ -174,6 +175,8 @@ pub(crate) enum Kind {
     Bounds,
     Viewport,
     OfCell,
+    /// The number of the corner where it begins.
+    OpenEdge(usize),
     OverlaidTree,
     MeshOfOtherTree,
     OtherRays,
@@ -258,8 +261,13 @@ impl fmt::Display for Error {
                 f.write_str("the viewport has a number that is NaN, infinite or too large")
             }
             Kind::OfCell => f.write_str(
-                "the tree is of one cell of a partition, but drawings need whole polygons: build one tree of \
-                 the scene",
+                "the tree is of one cell of a partition, but drawings and winding numbers need whole polygons: \
+                 build one tree of the scene",
+            ),
+            Kind::OpenEdge(corner) => write!(
+                f,
+                "{shape} {number} has an open edge, from its corner {corner}: no other edge runs back along it, \
+                 so there is no inside",
             ),
             Kind::OverlaidTree => f.write_str(
                 "the tree is not the one that the overlay was made for: make an overlay for it",

@@ -16,6 +16,7 @@
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `drawing::VisibilityMap` | `hidden_lines`, `plot` |
 //! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
+//! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
 //! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
 //! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
 //! | write a tree to a file, or read a model | `BspTree::write`, `scene::Scene::read_obj` | |

@@ -5,6 +5,7 @@ mod locate;
 mod ray;
 mod region;
 mod walk;
+mod winding;
 
 pub use hits::{Hit, Hits};
 pub use locate::Location;

@@ -115,7 +115,8 @@ use crate::faces::Preparation;
 ///
 /// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
 /// [`is_occluded`](Self::is_occluded) tells whether anything lies between two points, and
-/// [`locate`](Self::locate) in which leaf a point is, and in which polygons' planes.
+/// [`winding_number`](Self::winding_number) whether a point is inside a closed body, and
+/// [`locate`](Self::locate) in which leaf it is.
 /// [`fragments_in`](Self::fragments_in) gives what is in a box or in front of planes. All of
 /// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips
 /// between two polygons that share it (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
@@ -238,7 +239,7 @@ use crate::faces::Preparation;
 ///   order with the tree's.
 /// - Not a spatial index: for overlaps or nearest neighbours, or ray casts alone, take a bounding
 ///   volume hierarchy, which is much faster to build.
-/// - Not for solids: it does not tell inside from outside, and does no Boolean operations.
+/// - Not for solids: it does no Boolean operations.
 #[derive(Clone)]
 pub struct BspTree {
     pub(crate) faces: Faces,
@@ -257,6 +258,8 @@ pub struct BspTree {
     pub(crate) generation: u64,
     /// Made by the first query that needs them.
     pub(super) bounds: OnceLock<Bounds>,
+    /// Likewise: edges that keep bodies from being closed, by face and number.
+    pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
 /// A number that no tree of this process has had.
@@ -280,6 +283,7 @@ impl BspTree {
             cuts: 0,
             generation: next_generation(),
             bounds: OnceLock::new(),
+            open_edges: OnceLock::new(),
         }
     }
 
@@ -311,7 +315,7 @@ impl BspTree {
             return Err(error);
         }
         (self.faces, self.preparation) = (faces, preparation);
-        self.bounds = OnceLock::new();
+        (self.bounds, self.open_edges) = (OnceLock::new(), OnceLock::new());
         let Parts { nodes, records, vertices, positions, cuts } = parts;
         (self.records, self.vertices, self.positions) = (records, vertices, positions);
         self.cuts = cuts;
@@ -476,5 +480,6 @@ impl BspTree {
             + size_of_val(&*self.vertices)
             + size_of_val(&*self.positions)
             + self.bounds.get().map_or(0, |bounds| bounds.bytes())
+            + self.open_edges.get().map_or(0, |edges| size_of_val(&**edges))
     }
 }

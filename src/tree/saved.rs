@@ -156,6 +156,7 @@ impl BspTree {
             cuts,
             generation,
             bounds: OnceLock::new(),
+            open_edges: OnceLock::new(),
         })
     }
 

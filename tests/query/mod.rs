@@ -13,3 +13,4 @@ mod real_scenes;
 mod region;
 mod scaled_planes;
 mod slivers;
+mod winding;

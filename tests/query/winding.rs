@@ -1,0 +1,212 @@
+//! Winding numbers against signed crossings in integers: rays in directions in which they meet no edge.
+
+use testkit::prelude::*;
+
+type Point = [i128; 3];
+
+fn minus(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+fn dot(a: Point, b: Point) -> i128 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+/// Convex polygons of whole numbers.
+#[derive(Default)]
+struct Bodies(Vec<Vec<Point>>);
+
+/// Points have this many parts of the unit of the polygons.
+const PARTS: i128 = 64;
+
+impl Bodies {
+    /// A convex body as polygons of its corners' numbers, fronts outwards, or all turned inwards.
+    fn push(&mut self, corners: &[Point], polygons: &[&[usize]], is_inwards: bool) {
+        for polygon in polygons {
+            let mut outline: Vec<Point> = polygon.iter().map(|&k| corners[k]).collect();
+            if is_inwards {
+                outline.reverse();
+            }
+            self.0.push(outline);
+        }
+    }
+
+    fn cuboid(&mut self, [a, b]: [Point; 2], is_inwards: bool) {
+        let corner = |k: usize| -> Point {
+            std::array::from_fn(|i| if k >> i & 1 == 1 { a[i].max(b[i]) } else { a[i].min(b[i]) })
+        };
+        let corners: Vec<Point> = (0..8).map(corner).collect();
+        let sides: [&[usize]; 6] = [
+            &[0, 2, 3, 1],
+            &[4, 5, 7, 6],
+            &[0, 1, 5, 4],
+            &[2, 6, 7, 3],
+            &[0, 4, 6, 2],
+            &[1, 3, 7, 5],
+        ];
+        self.push(&corners, &sides, is_inwards);
+    }
+
+    fn tetrahedron(&mut self, mut corners: [Point; 4], is_inwards: bool) {
+        let [a, b, c, d] = corners;
+        if dot(cross(minus(b, a), minus(c, a)), minus(d, a)) < 0 {
+            corners.swap(0, 1);
+        }
+        let sides: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]];
+        self.push(&corners, &sides, is_inwards);
+    }
+
+    fn tree(&self, heuristic: Heuristic) -> BspTree {
+        let polygon = |outline: &Vec<Point>| -> Vec<[f64; 3]> {
+            outline.iter().map(|corner| corner.map(|c| c as f64)).collect()
+        };
+        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        options.build(self.0.iter().map(polygon)).unwrap()
+    }
+
+    /// The winding number around a point in parts of the unit; `None` on the boundary.
+    fn winding(&self, point: Point, dice: &mut Dice) -> Option<i32> {
+        'directions: loop {
+            let ahead: Point = [0; 3].map(|_| i128::from(dice.around_zero(1000) as i64));
+            let mut winding = 0;
+            for outline in &self.0 {
+                let corners: Vec<Point> =
+                    outline.iter().map(|&corner| minus(corner.map(|c| c * PARTS), point)).collect();
+                let normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+                let (way, off) = (dot(normal, ahead), dot(normal, corners[0]));
+                let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+                if off == 0 {
+                    // Around the point, seen along the normal.
+                    if edges().all(|(&a, &b)| dot(normal, cross(a, b)) >= 0) {
+                        return None;
+                    }
+                    // In the plane, beside the polygon: a ray out of it does not come back.
+                    if way == 0 {
+                        continue 'directions;
+                    }
+                    continue;
+                }
+                let sides: Vec<i128> =
+                    edges().map(|(&a, &b)| dot(ahead, cross(a, b)).signum()).collect();
+                let is_ahead = way.signum() == off.signum();
+                if sides.iter().all(|&side| side > 0) || sides.iter().all(|&side| side < 0) {
+                    if is_ahead && way != 0 {
+                        winding += way.signum() as i32;
+                    }
+                } else if sides.contains(&0) {
+                    continue 'directions;
+                }
+            }
+            return Some(winding);
+        }
+    }
+}
+
+#[test]
+fn winding_numbers_are_those_of_rays_in_integers() {
+    let mut dice = Dice(29);
+    let [mut boundary, mut inside, mut outside, mut overlaps, mut negative] = [0; 5];
+    for round in 0..times(12) {
+        let mut bodies = Bodies::default();
+        let mut corner = || [0; 3].map(|_| i128::from(dice.around_zero(20) as i64));
+        for k in 0..4 {
+            let (a, b) = (corner(), corner());
+            if (0..3).all(|i| a[i] != b[i]) {
+                bodies.cuboid([a, b], k == 3);
+            }
+            let corners = [corner(), corner(), corner(), corner()];
+            let [a, b, c, d] = corners;
+            if dot(cross(minus(b, a), minus(c, a)), minus(d, a)) != 0 {
+                bodies.tetrahedron(corners, k == 2);
+            }
+        }
+        let tree =
+            bodies.tree([Heuristic::Auto, Heuristic::First, Heuristic::FreePlanes][round % 3]);
+        assert_eq!(tree.open_edges().count(), 0);
+        for k in 0..400 {
+            let outline = &bodies.0[dice.below(bodies.0.len())];
+            let [a, b, c] = [0, 1, 2].map(|i| outline[i].map(|c| c * PARTS));
+            let [u, v] = [minus(b, a), minus(c, a)];
+            let point: Point = match k % 6 {
+                0 => a,
+                1 => std::array::from_fn(|i| a[i] + u[i] / 2),
+                2 => std::array::from_fn(|i| a[i] + (u[i] + v[i]) / 4),
+                3 => {
+                    let [s, t] = [0; 2].map(|_| i128::from(dice.around_zero(3) as i64));
+                    std::array::from_fn(|i| a[i] + s * u[i] + t * v[i])
+                }
+                // Above and below corners and edges, where the ray meets them.
+                4 => [a[0], a[1], a[2] + i128::from(dice.around_zero(900) as i64)],
+                // Between two corners, mostly of two bodies.
+                _ => {
+                    let other = bodies.0[dice.below(bodies.0.len())][0];
+                    std::array::from_fn(|i| (a[i] + other[i] * PARTS) / 2)
+                }
+            };
+            let expected = bodies.winding(point, &mut dice);
+            let found = tree.winding_number(point.map(|c| c as f64 / PARTS as f64)).unwrap();
+            assert_eq!(found, expected, "round {round}: {point:?} / {PARTS}");
+            match expected {
+                None => boundary += 1,
+                Some(0) => outside += 1,
+                Some(winding) => {
+                    inside += 1;
+                    overlaps += usize::from(winding.abs() > 1);
+                    negative += usize::from(winding < 0);
+                }
+            }
+        }
+    }
+    enough!(boundary > 800, inside > 200, outside > 500; "{boundary} {inside} {outside}");
+    enough!(overlaps > 30, negative > 30; "{overlaps} {negative}");
+}
+
+/// Curved bodies of a generator, with poles, and large coordinates.
+#[test]
+fn a_sphere_is_closed_and_has_an_inside() {
+    let tree = BspTree::build(scene::sphere(500).polygons()).unwrap();
+    assert_eq!(tree.open_edges().count(), 0);
+    let [low, high] = tree.bounds().unwrap();
+    let (middle, radius) = ((low + high) * 0.5, (high - low).max_element() * 0.5);
+    let mut dice = Dice(30);
+    for _ in 0..times(300) {
+        let way = dice.point(-1.0, 1.0).normalize_or(DVec3::X);
+        assert_eq!(tree.winding_number(middle + way * (0.9 * radius)), Ok(Some(1)), "{way}");
+        assert_eq!(tree.winding_number(middle + way * (1.1 * radius)), Ok(Some(0)), "{way}");
+    }
+    assert_eq!(tree.winding_number([f64::NAN; 3]), Ok(Some(0)));
+    assert_eq!(tree.winding_number([1e300; 3]), Ok(Some(0)));
+}
+
+#[test]
+fn open_edges_are_named() {
+    let mut bodies = Bodies::default();
+    bodies.cuboid([[0, 0, 0], [2, 2, 2]], false);
+    bodies.cuboid([[5, 5, 5], [9, 9, 9]], false);
+    // Without the top of the second: polygon 7 of 12.
+    bodies.0.remove(7);
+    let tree = bodies.tree(Heuristic::Auto);
+    let open: Vec<(usize, usize)> = tree.open_edges().collect();
+    assert_eq!(open.len(), 4);
+    for &(polygon, corner) in &open {
+        let outline = &bodies.0[polygon];
+        let ends = [outline[corner], outline[(corner + 1) % outline.len()]];
+        assert!(polygon >= 6 && ends.iter().all(|end| end[2] == 9), "{polygon} {ends:?}");
+    }
+    let error = tree.winding_number([1.0; 3]).unwrap_err();
+    assert_eq!(error.polygon(), Some(open[0].0));
+    assert!(error.to_string().contains("open edge"), "{error}");
+    // A sheet inside a body does not close it twice.
+    bodies.0.push(vec![[5, 5, 9], [9, 5, 9], [9, 9, 9], [5, 9, 9]]);
+    let tree = bodies.tree(Heuristic::Auto);
+    assert_eq!(tree.winding_number([6.0, 7.0, 8.0]), Ok(Some(1)));
+    bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
+    assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
+}
