@@ -100,9 +100,13 @@ impl<P: Point> Polygon for [P] {
     }
 
     fn precision(&self) -> f64 {
-        let numbers = self.iter().flat_map(|point| point.to_dvec3().abs().to_array());
         // Not `f64::max`, which takes more instructions because of NaN.
-        STEPS * P::PRECISION * numbers.fold(0.0, |most, c| if c > most { c } else { most })
+        let larger = |most: f64, c: f64| if c > most { c } else { most };
+        let [x, y, z] = self.iter().fold([0.0; 3], |[x, y, z], point| {
+            let point = point.to_dvec3().abs();
+            [larger(x, point.x), larger(y, point.y), larger(z, point.z)]
+        });
+        STEPS * P::PRECISION * larger(larger(x, y), z)
     }
 }
 

@@ -10,7 +10,7 @@ use super::choose::Tuning;
 use super::jobs::{self, Job};
 use super::options::BuildOptions;
 use super::piece::Piece;
-use super::subtree::{Memory, Shared};
+use super::subtree::{Builder, Shared};
 use crate::error::Error;
 use crate::exact::Clipper;
 use crate::exact::Faces;
@@ -114,7 +114,7 @@ pub(super) fn tree_of_faces(
         preparation.dropped = faces.dropped(preparation.polygons).count();
         watch.expect(faces.len())?;
         let shared = Shared::new(&faces, options, &Tuning::DEFAULT, watch)?;
-        jobs::run(&shared, job, &mut Memory::default())?
+        jobs::run(&shared, job, &mut Builder::default())?
     };
     watch.end()?;
     BspTree::new(faces, preparation, parts)
@@ -182,27 +182,23 @@ fn parts(
     watch: &Watch<'_>,
 ) -> Result<Parts, Error> {
     let shared = Shared::new(faces, options, tuning, watch)?;
-    divide_all(&shared, faces, &mut Memory::default(), watch)
+    divide_all(&shared, faces, &mut Builder::default(), watch)
 }
 
 /// Divides the set of all faces, down to the leaves.
 pub(super) fn divide_all(
     shared: &Shared<'_>,
     faces: &Faces,
-    memory: &mut Memory,
+    builder: &mut Builder,
     watch: &Watch<'_>,
 ) -> Result<Parts, Error> {
-    let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
+    let (mut pieces, mut arena) = (take(&mut builder.pieces), take(&mut builder.arena));
     pieces.clear();
     arena.clear();
     reserve(&mut pieces, faces.len())?;
-    let count = faces.len() as u32;
-    for start in (0..count).step_by(PIECES_AT_ONCE) {
-        let some = start..count.min(start + PIECES_AT_ONCE as u32);
-        watch.work(some.len())?;
-        pieces.extend(some.map(|face| Piece::whole(faces, face)));
-    }
-    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
+    watch.work(faces.len())?;
+    pieces.extend((0..faces.len() as u32).map(|face| Piece::whole(faces, face)));
+    jobs::run(shared, Job { pieces, arena, depth: 0 }, builder)
 }
 
 impl BspTree {

@@ -10,7 +10,7 @@ use super::jobs;
 use super::jobs::Job;
 use super::options::BuildOptions;
 use super::piece::Piece;
-use super::subtree::{Memory, Shared};
+use super::subtree::{Builder, Shared};
 use crate::error::Error;
 use crate::exact::{Faces, Vertex};
 use crate::faces::Preparer;
@@ -119,7 +119,7 @@ impl fmt::Debug for FrameBuilder {
 #[derive(Default)]
 pub(super) struct FrameMemory {
     preparer: Preparer,
-    memory: Memory,
+    builder: Builder,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
 }
@@ -139,9 +139,9 @@ impl FrameMemory {
         polygons: impl IntoIterator<Item = P>,
         arrange: Option<Arrange<'_>>,
     ) -> Result<(), Error> {
-        let Self { preparer, memory, nodes, sizes } = self;
+        let Self { preparer, builder, nodes, sizes } = self;
         let (mut faces, parts) = tree.take_parts();
-        memory.output.parts = Parts { nodes: take(nodes), ..parts };
+        builder.output.parts = Parts { nodes: take(nodes), ..parts };
         let watch = Watch::default();
         preparer.hold(options.bounds)?;
         preparer.are_flat = arrange.is_some();
@@ -157,7 +157,7 @@ impl FrameMemory {
         }
         let tuning = &Tuning::FRAMES;
         let shared = Shared::new(&faces, options, tuning, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
+        let parts = divide_all(&shared.with_positions(), &faces, builder, &watch)?;
         *nodes = tree.refill(faces, preparation, parts, sizes)?;
         Ok(())
     }
@@ -166,7 +166,7 @@ impl FrameMemory {
 /// Builds a tree of the pieces in each cell, in memory that it keeps.
 #[derive(Default)]
 pub(crate) struct OverlayBuilder {
-    memory: Memory,
+    builder: Builder,
 }
 
 impl OverlayBuilder {
@@ -183,23 +183,23 @@ impl OverlayBuilder {
         arena: &[Vertex],
         watch: &Watch<'_>,
     ) -> Result<Parts, Error> {
-        let Self { memory } = self;
+        let Self { builder } = self;
         let mut job =
-            Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
+            Job { pieces: take(&mut builder.pieces), arena: take(&mut builder.arena), depth: 0 };
         job.pieces.clear();
         job.arena.clear();
         reserve(&mut job.pieces, pieces.len())?;
         for piece in pieces {
-            job.pieces.push(piece.copied(arena, &mut job.arena)?);
+            job.pieces.push(piece.copied(arena, &mut job.arena));
         }
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
         let shared = Shared::new(faces, &options, &Tuning::FRAMES, watch)?;
-        jobs::run(&shared.with_positions(), job, memory)
+        jobs::run(&shared.with_positions(), job, builder)
     }
 
     /// Keeps the memory of a tree for the next.
     pub(crate) fn keep(&mut self, parts: Parts) {
-        self.memory.output.parts = parts;
+        self.builder.output.parts = parts;
     }
 }
