@@ -18,7 +18,7 @@ use crate::faces::{Preparation, Preparer};
 use crate::input::{Point, Polygon};
 use crate::memory::{push, reserve};
 use crate::partition::{Extent, Partition};
-use crate::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
+use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::BspTree;
 use crate::tree::parts::Parts;
 
@@ -123,22 +123,19 @@ pub(super) fn tree_of_faces(
 /// Cuts faces to their cell, and removes those that nothing is left of.
 fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut clipper, count) = (Clipper::new(faces), faces.len() as u32);
-    for start in (0..count).step_by(PIECES_AT_ONCE) {
-        let some = start..count.min(start + PIECES_AT_ONCE as u32);
-        watch.work(some.len())?;
-        for face in some {
-            let Some(outline) = clipper.clip(face) else { continue };
-            let mut piece = Piece::whole(faces, face);
-            if !outline.is_empty() {
-                piece = Piece::part(&piece, outline, arena.len());
-                reserve(&mut arena, outline.len())?;
-                arena.extend_from_slice(outline);
-            }
-            piece.face = kept.len() as u32;
-            push(&mut pieces, piece)?;
-            push(&mut kept, face)?;
+    let mut clipper = Clipper::new(faces);
+    for face in 0..faces.len() as u32 {
+        watch.work(1)?;
+        let Some(outline) = clipper.clip(face) else { continue };
+        let mut piece = Piece::whole(faces, face);
+        if !outline.is_empty() {
+            piece = Piece::part(&piece, outline, arena.len());
+            reserve(&mut arena, outline.len())?;
+            arena.extend_from_slice(outline);
         }
+        piece.face = kept.len() as u32;
+        push(&mut pieces, piece)?;
+        push(&mut kept, face)?;
     }
     faces.keep(&kept)?;
     faces.shrink_to_fit();

@@ -81,6 +81,11 @@ impl Piece {
         }
     }
 
+    /// How many vertices it has in the arena.
+    pub(crate) fn cut_len(&self) -> usize {
+        self.len as usize
+    }
+
     /// Its vertices in the arena; `None` if it was never cut.
     #[inline]
     pub(crate) fn cut_vertices<'a>(&self, arena: &'a [Vertex]) -> Option<&'a [Vertex]> {

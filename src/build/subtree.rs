@@ -4,6 +4,7 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning};
@@ -166,8 +167,9 @@ impl Builder {
     /// size that the sets still to be split need, however often one piece is cut.
     fn compact(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
         let mut arena = Vec::new();
+        // The pieces of sets that other jobs build are gone.
+        reserve(&mut arena, self.pieces.iter().map(Piece::cut_len).sum())?;
         for pending in &mut self.pending {
-            // Empty if another job builds the set.
             for piece in &mut self.pieces[pending.range.clone()] {
                 *piece = piece.copied(&self.arena, &mut arena);
             }
@@ -185,6 +187,7 @@ impl Builder {
         let mut arena = Vec::new();
         let mut pieces =
             if start == 0 { take(&mut self.pieces) } else { collect(self.pieces.drain(start..))? };
+        reserve(&mut arena, pieces.iter().map(Piece::cut_len).sum())?;
         for piece in &mut pieces {
             *piece = piece.copied(&self.arena, &mut arena);
         }
@@ -374,10 +377,9 @@ impl Builder {
                 division.classify(faces, (pieces, &self.arena), prepared, usize::MAX);
             }
             let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-            // The plane may not pass beside a piece that is larger than its own: where planes can be
-            // trusted, it may.
-            let least = match &shared.rules.tuning.frames {
-                Some(frames) if frames.is_coarse(faces) => {
+            // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
+            let least = match shared.rules.tuning.frames {
+                Some(_) => {
                     let own = pieces.iter().filter(|piece| piece.face == face);
                     own.map(size).fold(0.0, f64::max)
                 }
@@ -426,14 +428,30 @@ fn larger<'p>(
     let mut best: Option<(f64, &Piece)> = None;
     for piece in pieces {
         rules.watch.work(1)?;
-        let prepared = PreparedPlane::new(faces, PlaneId::face(piece.face));
-        if best.is_none_or(|(most, _)| size(piece) > most)
-            && prepared.classify(faces, face, None) == Side::Coplanar
-        {
+        let lies_on = || {
+            if is_far_off(faces, face, piece.face) {
+                return false;
+            }
+            let prepared = PreparedPlane::new(faces, PlaneId::face(piece.face));
+            prepared.classify(faces, face, None) == Side::Coplanar
+        };
+        if best.is_none_or(|(most, _)| size(piece) > most) && lies_on() {
             best = Some((size(piece), piece));
         }
     }
     Ok(best.map(|(_, piece)| piece))
+}
+
+/// Whether floats are certain that a corner of a face is further than the tolerance off the plane of another:
+/// many times the rounding, which is less than 2⁻³⁰ of the normal and of the arm, and at most a step.
+fn is_far_off(faces: &Faces, face: u32, other: u32) -> bool {
+    let [p, q, r] = faces.triangle(other).map(DVec3::from);
+    let (u, w, arm) = (q - p, r - p, DVec3::from(faces.corners(face)[0]) - p);
+    let normal = u.cross(w);
+    let (off, size) = (normal.dot(arm), normal.length_squared());
+    let is_certain = size > 2f64.powi(-36) * u.length_squared() * w.length_squared();
+    let most = 4.0 * faces.tolerance().powi(2) + 1.0 + 2f64.powi(-40) * arm.length_squared();
+    is_certain && off * off > most * size
 }
 
 /// What all jobs of a build may use together.

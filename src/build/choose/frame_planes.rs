@@ -1,11 +1,16 @@
-//! How frames choose planes for small sets: own planes first, as each tree is ordered once or twice.
+//! How frames choose planes for small sets: own planes first, as each tree is ordered once or twice; and
+//! whether two pieces cross.
+
+use std::cmp::Ordering;
+
+use glam::DVec3;
 
 use super::cost::{Cost, CostModel, Counts};
 use super::own::Shares;
 use super::set::Set;
 use super::tuning::{FrameTuning, Tuning};
 use crate::build::piece::{Division, Piece};
-use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, Side};
+use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 
 impl FrameTuning {
     /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
@@ -18,7 +23,7 @@ impl FrameTuning {
     }
 
     /// Whether planes of small pieces cannot be trusted.
-    pub(in crate::build) fn is_coarse(&self, faces: &Faces) -> bool {
+    fn is_coarse(&self, faces: &Faces) -> bool {
         faces.tolerance() > self.coarse * LATTICE_LIMIT
     }
 }
@@ -31,10 +36,10 @@ pub(super) struct OwnFirst {
 
 impl OwnFirst {
     /// The first plane of a few pieces that cuts nothing and divides the set evenly, or that cuts few
-    /// pieces, whose planes cut its own piece in turn. Of a set of few pieces, the best plane otherwise.
+    /// pieces, all of which cross its own. Of a set of few pieces, the best plane otherwise.
     ///
-    /// Says as well whether the plane is good enough to be taken without a search for axis planes: it cuts no
-    /// more than it has to, and can be trusted. Writes where the pieces lie against it.
+    /// Says as well whether the plane is good enough to be taken without a search for axis planes: it can be
+    /// trusted, and cuts no more than it has to. Writes where the pieces lie against it.
     pub(super) fn find(
         &mut self,
         set: &Set<'_>,
@@ -42,7 +47,7 @@ impl OwnFirst {
         frames: &FrameTuning,
         division: &mut Division,
     ) -> Option<(PlaneId, bool)> {
-        let tries_all = set.len() <= frames.table;
+        let tries_all = set.len() <= frames.all;
         let (tried, most) =
             if tries_all { (set.len(), usize::MAX) } else { (frames.probes, frames.crossings) };
         let (terms, shares) = (CostModel::small(set, tuning), Shares::of(set.size()));
@@ -56,8 +61,8 @@ impl OwnFirst {
             let counts = Counts::of(&self.division);
             let share = shares.get(&set.pieces[own]);
             let is_trusted = share >= least_share;
-            let is_even = || Cost::of(&counts).divides_evenly(set.len(), tuning.uneven);
-            if is_trusted && (is_even() || self.cuts_what_crosses(set, own, frames)) {
+            let is_even = Cost::of(&counts).divides_evenly(set.len(), tuning.uneven);
+            if is_trusted && (is_even || self.cuts_what_crosses(set, own, frames)) {
                 std::mem::swap(&mut self.division, division);
                 return Some((plane, true));
             }
@@ -70,21 +75,188 @@ impl OwnFirst {
         best.map(|(_, plane, is_good)| (plane, is_good))
     }
 
-    /// Whether the plane of a piece cuts few pieces, and all of them have to be cut, or the piece: their
-    /// planes cut it, and their boxes overlap.
+    /// Whether the plane of a piece cuts few pieces, and all of them cross the piece: any tree has to cut
+    /// them, or it.
     fn cuts_what_crosses(&self, set: &Set<'_>, own: usize, frames: &FrameTuning) -> bool {
         let (cuts, sides) = (self.division.count(Side::Spanning), &self.division.sides);
         let mut cut = (0..set.len()).filter(|&other| sides[other] == Side::Spanning);
         0 < cuts
             && cuts <= frames.crossings
             && cut.all(|other| {
-                overlap(&set.pieces[own], &set.pieces[other])
-                    && set.classify(&set.prepare(set.own_plane(other)), own) == Side::Spanning
+                let [own, other] = [own, other].map(|piece| &set.pieces[piece]);
+                crosses(set.faces, set.arena, own, other)
             })
     }
 }
 
-/// Whether the boxes of two pieces overlap.
-fn overlap(a: &Piece, b: &Piece) -> bool {
-    (0..3).all(|axis| a.min[axis] < b.max[axis] && b.min[axis] < a.max[axis])
+/// How far a plane may be off at a vertex, in the `size` of its rounded normal. The vertex is rounded by
+/// less than 1 lattice unit, and its difference from the plane's point, which is below 2⁵³, by ½. The
+/// normal's components are off by 2⁻⁵² of their shares of the size together, and their products and sums
+/// by as much again: 4 units.
+const PLANE_OFF: f64 = 6.0;
+/// How far a coordinate of the difference of two vertices may be off, in lattice units: each vertex is
+/// rounded by less than 1, and the difference by ½.
+const ARM_OFF: f64 = 2.5;
+/// How far the determinant of three vectors may be off by its own rounding, per product of the largest
+/// coordinate of each: six products of three factors, and their sums.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Whether two pieces certainly cross: no tree leaves both whole, except by its tolerance.
+///
+/// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and
+/// the segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
+/// orientation predicates”, 2003). Where rounding may decide that, as of pieces that only touch or lie
+/// nearly in one plane, they do not cross.
+fn crosses(faces: &Faces, arena: &[Vertex], a: &Piece, b: &Piece) -> bool {
+    if (0..3).any(|axis| a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) {
+        return false;
+    }
+    let Some(one) = Ends::of(faces, arena, a, b.face) else { return false };
+    let Some(other) = Ends::of(faces, arena, b, a.face) else { return false };
+    // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`, the
+    // last point of `a` is where it comes to the front of `b`, and the first of `b` where it comes to
+    // that of `a`.
+    let [p, q] = one.to_back;
+    is_positive(one.to_front, other.to_front) && is_positive([q, p], other.to_back)
+}
+
+/// The edges in which a convex outline passes a plane.
+struct Ends {
+    to_front: [DVec3; 2],
+    to_back: [DVec3; 2],
+}
+
+impl Ends {
+    /// Those of a piece and the plane of a face; `None` if the outline may not pass it.
+    fn of(faces: &Faces, arena: &[Vertex], piece: &Piece, plane: u32) -> Option<Self> {
+        let triangle = faces.triangle(plane);
+        let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
+        let (normal, through) = (DVec3::from(normal), DVec3::from(triangle[0]));
+        let (mut to_front, mut to_back) = (None, None);
+        let mut see = |(from, before): (DVec3, Ordering), (to, after): (DVec3, Ordering)| match (
+            before, after,
+        ) {
+            (Ordering::Less, Ordering::Greater) => to_front = Some([from, to]),
+            (Ordering::Greater, Ordering::Less) => to_back = Some([from, to]),
+            _ => {}
+        };
+        let (mut first, mut last) = (None, None);
+        piece.for_each_vertex(faces, arena, |vertex| {
+            let vertex = DVec3::from(vertex);
+            let distance = normal.dot(vertex - through);
+            let is_certain = distance.abs() > PLANE_OFF * size;
+            let side = if is_certain { distance.total_cmp(&0.0) } else { Ordering::Equal };
+            let here = (vertex, side);
+            match last {
+                None => first = Some(here),
+                Some(last) => see(last, here),
+            }
+            last = Some(here);
+        });
+        see(last?, first?);
+        Some(Self { to_front: to_front?, to_back: to_back? })
+    }
+}
+
+/// Whether the volume that two edges span is certainly positive.
+fn is_positive([p, q]: [DVec3; 2], [r, s]: [DVec3; 2]) -> bool {
+    let arms = [q - p, r - p, s - p];
+    let volume = arms[0].dot(arms[1].cross(arms[2]));
+    // Six products, in each of which every factor may be off.
+    let [a, b, c] = arms.map(|arm| arm.abs().max_element());
+    let (product, most) = (a * b * c, (a + ARM_OFF) * (b + ARM_OFF) * (c + ARM_OFF));
+    volume > 6.0 * (most - product) + ROUNDING * most
+}
+
+#[cfg(test)]
+mod crossing_tests {
+    use dashu_int::IBig;
+    use glam::{DQuat, DVec3, EulerRot};
+    use num_traits::FromPrimitive;
+
+    use super::crosses;
+    use crate::build::choose::tests::{Fixture, triangles};
+    use crate::random::SplitMix64;
+
+    fn cross(fixture: &Fixture) -> bool {
+        crosses(&fixture.faces, &[], &fixture.pieces[0], &fixture.pieces[1])
+    }
+
+    /// A square of side 2 in the plane z = 0, and one in the plane x = 0, moved along y and z.
+    #[test]
+    fn pieces_cross_where_an_edge_of_one_goes_through_the_other() {
+        let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
+        let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let level = square.map(|[x, y]| turn * DVec3::new(x, y, 0.0));
+        for (y, z, expected) in [
+            (0.1, 0.0, true),
+            (0.1, 0.9, true),
+            (1.9, 0.0, true),
+            (-1.9, -0.9, true),
+            (0.0, 1.1, false),
+            (2.1, 0.0, false),
+            (-2.1, 0.9, false),
+            (2.1, -1.1, false),
+        ] {
+            let upright = square.map(|[u, v]| turn * DVec3::new(0.0, u + y, v + z));
+            for polygons in [[level, upright], [upright, level]] {
+                assert_eq!(cross(&Fixture::new(&polygons, 1e-9)), expected, "{y} {z}");
+            }
+        }
+    }
+
+    /// The volume that a point spans with three others, in integers.
+    fn volume(point: &[IBig; 3], triangle: [&[IBig; 3]; 3]) -> IBig {
+        let [a, b, c] = triangle.map(|p| [0, 1, 2].map(|axis: usize| &p[axis] - &point[axis]));
+        let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+        &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
+    }
+
+    fn goes_through(one: &[[IBig; 3]], other: &[[IBig; 3]]) -> bool {
+        let sign = |value: IBig| value.signum();
+        (0..3).any(|k| {
+            let (p, q) = (&one[k], &one[(k + 1) % 3]);
+            let plane = [&other[0], &other[1], &other[2]];
+            let sides = [p, q].map(|end| sign(volume(end, plane)));
+            let turns = [0, 1, 2].map(|e| sign(volume(p, [q, &other[e], &other[(e + 1) % 3]])));
+            &sides[0] * &sides[1] == IBig::from(-1)
+                && !turns[0].is_zero()
+                && turns.iter().all(|turn| *turn == turns[0])
+        })
+    }
+
+    /// Triangles of every size, and such as miss each other by any power of two.
+    #[test]
+    fn what_certainly_crosses_does_so_in_integers() {
+        let mut random = SplitMix64::new(5);
+        let (mut certain, mut near) = (0, 0);
+        for round in 0..20_000 {
+            let size = 2f64.powf(random.range(-40.0, 0.0));
+            let [a, mut b] = [(); 2].map(|()| triangles(&mut random, 1, 1.0)[0]);
+            if round % 2 == 0 {
+                // The first with one corner moved off its plane, and each a little.
+                b = [a[0].lerp(a[1], 0.3), a[2].lerp(a[1], 0.2), a[2].lerp(a[0], 0.4)];
+                b = b.map(|corner| corner + random.point(-size, size));
+            } else {
+                // An edge that begins near an edge of the other.
+                b[0] = a[0].lerp(a[1], random.range(0.1, 0.9)) + random.point(-size, size);
+                b[1] = b[0] + random.point(-1.0, 1.0);
+            }
+            let fixture = Fixture::new(&[a, b], 0.0);
+            if fixture.pieces.len() < 2 {
+                continue;
+            }
+            let corners = [0, 1].map(|face| {
+                let integer = |c: &f64| IBig::from_f64(*c).unwrap();
+                let corners = fixture.faces.corners(face).iter();
+                corners.map(|p| p.each_ref().map(integer)).collect::<Vec<_>>()
+            });
+            let exactly =
+                goes_through(&corners[0], &corners[1]) || goes_through(&corners[1], &corners[0]);
+            assert!(exactly || !cross(&fixture), "{a:?} {b:?}");
+            certain += usize::from(cross(&fixture));
+            near += usize::from(exactly && !cross(&fixture));
+        }
+        assert!(certain > 2000 && near > 20 && near < certain / 4, "{certain} {near}");
+    }
 }

@@ -256,7 +256,7 @@ impl Splat {
 pub(crate) struct Set<'a> {
     pub(super) faces: &'a Faces,
     pub(super) pieces: &'a [Piece],
-    arena: &'a [Vertex],
+    pub(super) arena: &'a [Vertex],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
