@@ -65,8 +65,8 @@ macro_rules! changes {
 const MOST: usize = usize::MAX;
 
 const CHANGES: [Change; 31] = changes! {
-    frames: "table alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
-        "probes alone" => Some(FrameTuning { table: 0, crossings: 0, ..FrameTuning::FRAMES });
+    frames: "all planes alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
+        "probes alone" => Some(FrameTuning { all: 0, crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
@@ -81,8 +81,8 @@ const CHANGES: [Change; 31] = changes! {
 
 /// Those that frames have of their own.
 const OF_FRAMES: [Change; 11] = [
-    ("table", "0", |t| t.frames = Some(FrameTuning { table: 0, ..FrameTuning::FRAMES })),
-    ("table", "½", |t| t.frames = Some(FrameTuning { table: 16, ..FrameTuning::FRAMES })),
+    ("all", "0", |t| t.frames = Some(FrameTuning { all: 0, ..FrameTuning::FRAMES })),
+    ("all", "×2", |t| t.frames = Some(FrameTuning { all: 32, ..FrameTuning::FRAMES })),
     ("crossings", "0", |t| t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
     ("crossings", "½", |t| t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
     ("crossings", "all", |t| {

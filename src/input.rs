@@ -80,10 +80,13 @@ pub trait Polygon {
     /// By default it is four times [`Point::PRECISION`] of the polygon's largest coordinate, about the
     /// rounding of a point that was turned by a matrix.
     fn precision(&self) -> f64 {
-        let numbers = self.corners().flat_map(|point| point.to_dvec3().abs().to_array());
         // Not `f64::max`, which takes more instructions because of NaN.
-        let largest = numbers.fold(0.0, |most, c| if c > most { c } else { most });
-        STEPS * Self::Point::PRECISION * largest
+        let larger = |most: f64, c: f64| if c > most { c } else { most };
+        let [x, y, z] = self.corners().fold([0.0; 3], |[x, y, z], point| {
+            let point = point.to_dvec3().abs();
+            [larger(x, point.x), larger(y, point.y), larger(z, point.z)]
+        });
+        STEPS * Self::Point::PRECISION * larger(larger(x, y), z)
     }
 }
 

@@ -10,7 +10,7 @@ use super::choose::Tuning;
 use super::jobs::{self, Job};
 use super::options::BuildOptions;
 use super::piece::Piece;
-use super::subtree::{Memory, Shared};
+use super::subtree::{Builder, Shared};
 use crate::error::Error;
 use crate::exact::Clipper;
 use crate::exact::Faces;
@@ -18,7 +18,7 @@ use crate::faces::{Preparation, Preparer};
 use crate::input::{Point, Polygon};
 use crate::memory::{push, reserve};
 use crate::partition::{Extent, Partition};
-use crate::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
+use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::BspTree;
 use crate::tree::parts::Parts;
 
@@ -114,7 +114,7 @@ pub(super) fn tree_of_faces(
         preparation.dropped = faces.dropped(preparation.polygons).count();
         watch.expect(faces.len())?;
         let shared = Shared::new(&faces, options, &Tuning::DEFAULT, watch)?;
-        jobs::run(&shared, job, &mut Memory::default())?
+        jobs::run(&shared, job, &mut Builder::default())?
     };
     watch.end()?;
     BspTree::new(faces, preparation, parts)
@@ -123,22 +123,19 @@ pub(super) fn tree_of_faces(
 /// Cuts faces to their cell, and removes those that nothing is left of.
 fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut clipper, count) = (Clipper::new(faces), faces.len() as u32);
-    for start in (0..count).step_by(PIECES_AT_ONCE) {
-        let some = start..count.min(start + PIECES_AT_ONCE as u32);
-        watch.work(some.len())?;
-        for face in some {
-            let Some(outline) = clipper.clip(face) else { continue };
-            let mut piece = Piece::whole(faces, face);
-            if !outline.is_empty() {
-                piece = Piece::part(&piece, outline, arena.len());
-                reserve(&mut arena, outline.len())?;
-                arena.extend_from_slice(outline);
-            }
-            piece.face = kept.len() as u32;
-            push(&mut pieces, piece)?;
-            push(&mut kept, face)?;
+    let mut clipper = Clipper::new(faces);
+    for face in 0..faces.len() as u32 {
+        watch.work(1)?;
+        let Some(outline) = clipper.clip(face) else { continue };
+        let mut piece = Piece::whole(faces, face);
+        if !outline.is_empty() {
+            piece = Piece::part(&piece, outline, arena.len());
+            reserve(&mut arena, outline.len())?;
+            arena.extend_from_slice(outline);
         }
+        piece.face = kept.len() as u32;
+        push(&mut pieces, piece)?;
+        push(&mut kept, face)?;
     }
     faces.keep(&kept)?;
     faces.shrink_to_fit();
@@ -182,27 +179,23 @@ fn parts(
     watch: &Watch<'_>,
 ) -> Result<Parts, Error> {
     let shared = Shared::new(faces, options, tuning, watch)?;
-    divide_all(&shared, faces, &mut Memory::default(), watch)
+    divide_all(&shared, faces, &mut Builder::default(), watch)
 }
 
 /// Divides the set of all faces, down to the leaves.
 pub(super) fn divide_all(
     shared: &Shared<'_>,
     faces: &Faces,
-    memory: &mut Memory,
+    builder: &mut Builder,
     watch: &Watch<'_>,
 ) -> Result<Parts, Error> {
-    let (mut pieces, mut arena) = (take(&mut memory.pieces), take(&mut memory.arena));
+    let (mut pieces, mut arena) = (take(&mut builder.pieces), take(&mut builder.arena));
     pieces.clear();
     arena.clear();
     reserve(&mut pieces, faces.len())?;
-    let count = faces.len() as u32;
-    for start in (0..count).step_by(PIECES_AT_ONCE) {
-        let some = start..count.min(start + PIECES_AT_ONCE as u32);
-        watch.work(some.len())?;
-        pieces.extend(some.map(|face| Piece::whole(faces, face)));
-    }
-    jobs::run(shared, Job { pieces, arena, depth: 0 }, memory)
+    watch.work(faces.len())?;
+    pieces.extend((0..faces.len() as u32).map(|face| Piece::whole(faces, face)));
+    jobs::run(shared, Job { pieces, arena, depth: 0 }, builder)
 }
 
 impl BspTree {

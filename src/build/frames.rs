@@ -10,7 +10,7 @@ use super::jobs;
 use super::jobs::Job;
 use super::options::BuildOptions;
 use super::piece::Piece;
-use super::subtree::{Memory, Shared};
+use super::subtree::{Builder, Shared};
 use crate::error::Error;
 use crate::exact::{Faces, Vertex};
 use crate::faces::Preparer;
@@ -53,14 +53,28 @@ use crate::tree::parts::{Parts, RawNode};
 /// ```
 pub struct FrameBuilder {
     options: BuildOptions,
-    memory: FrameMemory,
     tree: BspTree,
+    // Lists that are kept for the next frame.
+    preparer: Preparer,
+    builder: Builder,
+    nodes: Vec<RawNode>,
+    sizes: Vec<Sizes>,
 }
+
+/// Puts faces into planes that several of them share.
+type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
 
 impl FrameBuilder {
     /// A builder with these options. Its tree is empty so far.
     pub fn new(options: BuildOptions) -> Self {
-        Self { options, memory: FrameMemory::default(), tree: BspTree::empty() }
+        Self {
+            options,
+            tree: BspTree::empty(),
+            preparer: Preparer::default(),
+            builder: Builder::default(),
+            nodes: vec![],
+            sizes: vec![],
+        }
     }
 
     /// Sets the options of the trees to come.
@@ -77,7 +91,7 @@ impl FrameBuilder {
         &mut self,
         polygons: impl IntoIterator<Item = P>,
     ) -> Result<&BspTree, Error> {
-        self.memory.rebuild(&mut self.tree, &self.options, polygons, None)?;
+        self.rebuild(polygons, None)?;
         Ok(&self.tree)
     }
 
@@ -90,7 +104,34 @@ impl FrameBuilder {
     ) -> Result<(), Error> {
         let mut arrange =
             |faces: &mut Faces| groups.try_for_each(|group| faces.put_into_one_plane(group));
-        self.memory.rebuild(&mut self.tree, &self.options, polygons, Some(&mut arrange))
+        self.rebuild(polygons, Some(&mut arrange))
+    }
+
+    /// Replaces the tree by one for a single view: with the positions of its vertices, and without the
+    /// layout that makes many orders fast. After an error the tree is empty.
+    ///
+    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
+    fn rebuild<P: Polygon>(
+        &mut self,
+        polygons: impl IntoIterator<Item = P>,
+        arrange: Option<Arrange<'_>>,
+    ) -> Result<(), Error> {
+        let Self { options, tree, preparer, builder, nodes, sizes } = self;
+        let BuildOptions { bounds, tolerance, max_fragments, .. } = *options;
+        let (mut faces, parts) = tree.take_parts();
+        builder.output.parts = Parts { nodes: take(nodes), ..parts };
+        let watch = Watch::default();
+        preparer.hold(bounds)?;
+        preparer.are_flat = arrange.is_some();
+        let preparation =
+            preparer.prepare(&mut faces, polygons, tolerance, max_fragments, &watch)?;
+        if let Some(arrange) = arrange {
+            arrange(&mut faces)?;
+        }
+        let shared = Shared::new(&faces, options, &Tuning::FRAMES, &watch)?;
+        let parts = divide_all(&shared.with_positions(), &faces, builder, &watch)?;
+        *nodes = tree.refill(faces, preparation, parts, sizes)?;
+        Ok(())
     }
 
     /// The last tree that was built.
@@ -102,7 +143,7 @@ impl FrameBuilder {
 impl Clone for FrameBuilder {
     /// A builder with the same options and tree, and no spare memory.
     fn clone(&self) -> Self {
-        Self { options: self.options, memory: FrameMemory::default(), tree: self.tree.clone() }
+        Self { tree: self.tree.clone(), ..Self::new(self.options) }
     }
 }
 
@@ -115,58 +156,10 @@ impl fmt::Debug for FrameBuilder {
     }
 }
 
-/// Memory that trees are built in, one frame after the other.
-#[derive(Default)]
-pub(super) struct FrameMemory {
-    preparer: Preparer,
-    memory: Memory,
-    nodes: Vec<RawNode>,
-    sizes: Vec<Sizes>,
-}
-
-/// Puts faces into planes that several of them share.
-pub(super) type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
-
-impl FrameMemory {
-    /// Replaces a tree by one for a single view: with the positions of its vertices, and without the
-    /// layout that makes many orders fast. After an error the tree is empty.
-    ///
-    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
-    pub(super) fn rebuild<P: Polygon>(
-        &mut self,
-        tree: &mut BspTree,
-        options: &BuildOptions,
-        polygons: impl IntoIterator<Item = P>,
-        arrange: Option<Arrange<'_>>,
-    ) -> Result<(), Error> {
-        let Self { preparer, memory, nodes, sizes } = self;
-        let (mut faces, parts) = tree.take_parts();
-        memory.output.parts = Parts { nodes: take(nodes), ..parts };
-        let watch = Watch::default();
-        preparer.hold(options.bounds)?;
-        preparer.are_flat = arrange.is_some();
-        let preparation = preparer.prepare(
-            &mut faces,
-            polygons,
-            options.tolerance,
-            options.max_fragments,
-            &watch,
-        )?;
-        if let Some(arrange) = arrange {
-            arrange(&mut faces)?;
-        }
-        let tuning = &Tuning::FRAMES;
-        let shared = Shared::new(&faces, options, tuning, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, memory, &watch)?;
-        *nodes = tree.refill(faces, preparation, parts, sizes)?;
-        Ok(())
-    }
-}
-
 /// Builds a tree of the pieces in each cell, in memory that it keeps.
 #[derive(Default)]
 pub(crate) struct OverlayBuilder {
-    memory: Memory,
+    builder: Builder,
 }
 
 impl OverlayBuilder {
@@ -183,23 +176,23 @@ impl OverlayBuilder {
         arena: &[Vertex],
         watch: &Watch<'_>,
     ) -> Result<Parts, Error> {
-        let Self { memory } = self;
+        let Self { builder } = self;
         let mut job =
-            Job { pieces: take(&mut memory.pieces), arena: take(&mut memory.arena), depth: 0 };
+            Job { pieces: take(&mut builder.pieces), arena: take(&mut builder.arena), depth: 0 };
         job.pieces.clear();
         job.arena.clear();
         reserve(&mut job.pieces, pieces.len())?;
         for piece in pieces {
-            job.pieces.push(piece.copied(arena, &mut job.arena)?);
+            job.pieces.push(piece.copied(arena, &mut job.arena));
         }
         // The budget counts all faces, the tree's among them.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
         let shared = Shared::new(faces, &options, &Tuning::FRAMES, watch)?;
-        jobs::run(&shared.with_positions(), job, memory)
+        jobs::run(&shared.with_positions(), job, builder)
     }
 
     /// Keeps the memory of a tree for the next.
     pub(crate) fn keep(&mut self, parts: Parts) {
-        self.memory.output.parts = parts;
+        self.builder.output.parts = parts;
     }
 }

@@ -1,18 +1,14 @@
 //! Large sets as jobs for other threads, and the outputs of all jobs joined depth first.
 
-use std::collections::VecDeque;
 #[cfg(feature = "parallel")]
 use std::sync::{Mutex, PoisonError};
 
 use super::piece::Piece;
-use super::subtree::{Memory, Shared, build};
-use crate::exact::{StoredVertex, Vertex};
-use crate::memory::{push, reserve};
+use super::subtree::{Builder, Shared};
+use crate::exact::Vertex;
+use crate::memory::reserve;
 use crate::tree::parts::{Parts, RawNode, Record};
-use crate::{Error, ErrorKind, memory};
-
-#[cfg(not(feature = "parallel"))]
-pub(super) use in_turn as run;
+use crate::{Error, ErrorKind};
 
 /// Where both sides of a plane have at least this many pieces, one side becomes a job of its own.
 /// Smaller: more copying; larger: threads wait for each other at the end.
@@ -24,14 +20,6 @@ pub(super) struct Job {
     pub(super) arena: Vec<Vertex>,
     /// How many nodes lie above it.
     pub(super) depth: usize,
-}
-
-impl Job {
-    /// Whether it is too small to hand any set over: neither side of a plane has more pieces.
-    #[cfg(feature = "parallel")]
-    pub(super) fn is_the_last(&self) -> bool {
-        self.pieces.len() < JOB
-    }
 }
 
 /// Whether one side of a plane becomes a job of its own, by the numbers of pieces on both sides: only
@@ -57,18 +45,19 @@ fn build_and_spawn<'s>(
     shared: &'s Shared<'s>,
     outputs: &'s Outputs,
     (number, job): (usize, Job),
-    memory: &mut Memory,
+    builder: &mut Builder,
 ) {
-    let output = build(shared, job, memory, |job| {
+    let mut hand_over = |job| {
         let mut listed = outputs.lock().unwrap_or_else(PoisonError::into_inner);
         let number = listed.len();
-        memory::push(&mut listed, None)?;
+        listed.push(None);
         drop(listed);
         scope.spawn(move |scope| {
-            build_and_spawn(scope, shared, outputs, (number, job), &mut Memory::default());
+            build_and_spawn(scope, shared, outputs, (number, job), &mut Builder::default());
         });
         Ok(number)
-    });
+    };
+    let output = builder.build(shared, job, Some(&mut hand_over));
     if output.is_err() {
         shared.stop();
     }
@@ -76,20 +65,24 @@ fn build_and_spawn<'s>(
 }
 
 /// Builds a job, and all jobs that it and they hand over, and joins them.
-#[cfg(feature = "parallel")]
-pub(super) fn run(shared: &Shared<'_>, job: Job, memory: &mut Memory) -> Result<Parts, Error> {
-    if job.is_the_last() || !crate::parallel_map::are_running() {
-        return in_turn(shared, job, memory);
+pub(super) fn run(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Result<Parts, Error> {
+    #[cfg(feature = "parallel")]
+    if job.pieces.len() >= JOB && crate::parallel_map::are_running() {
+        return run_in_parallel(shared, job, builder);
     }
+    Ok(builder.build(shared, job, None)?.parts)
+}
+
+#[cfg(feature = "parallel")]
+fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Result<Parts, Error> {
     let outputs = Mutex::new(vec![None]);
     if job.pieces.len() < ALONE {
-        rayon::in_place_scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), memory));
+        rayon::in_place_scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), builder));
     } else {
-        rayon::scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), memory));
+        rayon::scope(|scope| build_and_spawn(scope, shared, &outputs, (0, job), builder));
     }
     let outputs = outputs.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut finished = Vec::new();
-    memory::reserve(&mut finished, outputs.len())?;
     let mut cancelled = None;
     // The scope has waited for every job, so none is missing.
     for output in outputs.into_iter().flatten() {
@@ -101,26 +94,6 @@ pub(super) fn run(shared: &Shared<'_>, job: Job, memory: &mut Memory) -> Result<
         }
     }
     cancelled.map_or_else(|| assemble(finished), Err)
-}
-
-/// As above, one after the other.
-pub(super) fn in_turn(shared: &Shared<'_>, job: Job, memory: &mut Memory) -> Result<Parts, Error> {
-    let mut jobs = VecDeque::new();
-    let (mut next, mut outputs) = (Some(job), Vec::new());
-    while let Some(job) = next {
-        let done = outputs.len() + 1;
-        let output = build(shared, job, memory, |job| {
-            jobs.try_reserve(1).map_err(|_| Error::out_of_memory())?;
-            jobs.push_back(job);
-            Ok(done + jobs.len() - 1)
-        })?;
-        if outputs.is_empty() && jobs.is_empty() {
-            return Ok(output.parts);
-        }
-        memory::push(&mut outputs, output)?;
-        next = jobs.pop_front();
-    }
-    assemble(outputs)
 }
 
 /// The nodes and fragments that one job built.
@@ -140,26 +113,22 @@ struct Gap {
 }
 
 impl Output {
-    /// Appends a fragment.
+    /// Appends a fragment by its vertices, if it was cut, and their positions, if these are kept.
     pub(super) fn push(
         &mut self,
         face: u32,
-        vertices: impl ExactSizeIterator<Item = StoredVertex>,
+        cut: &[Vertex],
+        keeps_positions: bool,
     ) -> Result<(), Error> {
-        reserve(&mut self.parts.records, 1)?;
-        self.parts.records.push(Record { face, vertices: self.parts.vertices.len() as u32 });
-        reserve(&mut self.parts.vertices, vertices.len())?;
-        self.parts.vertices.extend(vertices);
-        Ok(())
-    }
-
-    /// Appends the positions of the last fragment's vertices.
-    pub(super) fn push_positions(
-        &mut self,
-        positions: impl ExactSizeIterator<Item = [f64; 3]>,
-    ) -> Result<(), Error> {
-        reserve(&mut self.parts.positions, positions.len())?;
-        self.parts.positions.extend(positions);
+        let Parts { records, vertices, positions, .. } = &mut self.parts;
+        reserve(records, 1)?;
+        records.push(Record { face, vertices: vertices.len() as u32 });
+        reserve(vertices, cut.len())?;
+        vertices.extend(cut.iter().map(Vertex::stored));
+        if keeps_positions {
+            reserve(positions, cut.len())?;
+            positions.extend(cut.iter().map(Vertex::position));
+        }
         Ok(())
     }
 
@@ -177,9 +146,15 @@ impl Output {
     }
 
     /// Records that the output of another job belongs here.
-    pub(super) fn continue_in(&mut self, job: usize) -> Result<(), Error> {
-        let (nodes, records) = (self.parts.nodes.len(), self.parts.records.len());
-        push(&mut self.gaps, Gap { nodes, records, vertices: self.parts.vertices.len(), job })
+    pub(super) fn continue_in(&mut self, job: usize) {
+        let gap = self.end(job);
+        self.gaps.push(gap);
+    }
+
+    /// Its end, as a place for the output of a job.
+    fn end(&self, job: usize) -> Gap {
+        let Parts { nodes, records, vertices, .. } = &self.parts;
+        Gap { nodes: nodes.len(), records: records.len(), vertices: vertices.len(), job }
     }
 
     /// Appends what another output has between two of its gaps.
@@ -199,7 +174,7 @@ impl Output {
 
 /// Joins the outputs of all jobs. The first is that of the root; gaps in the outputs refer to the
 /// others by their index.
-pub(super) fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
+fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     if outputs.len() == 1 {
         return Ok(outputs.pop().unwrap_or_default().parts);
     }
@@ -216,20 +191,14 @@ pub(super) fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     let mut stack = vec![start(0)];
     while let Some((from, next)) = stack.pop() {
         let output = &outputs[from.job];
-        let end = Gap {
-            nodes: output.parts.nodes.len(),
-            records: output.parts.records.len(),
-            vertices: output.parts.vertices.len(),
-            job: from.job,
-        };
         match output.gaps.get(next) {
             Some(&gap) => {
                 whole.append(output, from, gap);
-                push(&mut stack, (Gap { job: from.job, ..gap }, next + 1))?;
-                push(&mut stack, start(gap.job))?;
+                stack.push((Gap { job: from.job, ..gap }, next + 1));
+                stack.push(start(gap.job));
             }
             None => {
-                whole.append(output, from, end);
+                whole.append(output, from, output.end(from.job));
                 // Freed at once, so that the copies do not double the memory.
                 outputs[from.job] = Output::default();
             }

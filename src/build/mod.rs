@@ -1,8 +1,7 @@
 //! Building a tree.
 //!
 //! `driver` has the steps from polygons to a tree. `subtree` takes a set of pieces apart, by the planes that
-//! `choose` finds; `small_sets` does so in frames for sets of up to 32. `jobs` spreads large sets over
-//! threads and joins what they built.
+//! `choose` finds. `jobs` spreads large sets over threads and joins what they built.
 
 pub(crate) mod choose;
 pub(crate) mod driver;
@@ -10,7 +9,6 @@ pub(crate) mod frames;
 mod jobs;
 mod options;
 pub(crate) mod piece;
-mod small_sets;
 mod subtree;
 
 pub use frames::FrameBuilder;

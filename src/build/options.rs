@@ -156,10 +156,8 @@ pub enum Heuristic {
     /// are taken off one after the other in a single search.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries the planes of polygons first, which takes less
-    /// time. In sets of up to 255 polygons these are four, of which one is taken that cuts nothing and
-    /// divides the set evenly; and, where no free plane cuts nothing, a few in the middle, of which one
-    /// is taken that cuts only polygons that cross its own. In sets of up to 32 they are all, from a
-    /// table of where each polygon lies against the plane of each.
+    /// time: in sets of up to 16 polygons all of them, in sets of up to 255 four. It takes one that cuts
+    /// nothing and divides the set evenly, or one that cuts one or two polygons, which cross its own.
     #[default]
     Auto,
 }

@@ -81,10 +81,9 @@ impl Piece {
         }
     }
 
-    /// Whether it was never cut.
-    #[inline]
-    pub(crate) fn is_whole(&self) -> bool {
-        self.len == 0
+    /// How many vertices it has in the arena.
+    pub(crate) fn cut_len(&self) -> usize {
+        self.len as usize
     }
 
     /// Its vertices in the arena; `None` if it was never cut.
@@ -125,12 +124,11 @@ impl Piece {
     }
 
     /// The same piece, with its vertices copied from one arena to the end of another.
-    pub(crate) fn copied(self, from: &[Vertex], to: &mut Vec<Vertex>) -> Result<Self, Error> {
+    pub(crate) fn copied(self, from: &[Vertex], to: &mut Vec<Vertex>) -> Self {
         let start = to.len() as u32;
         let vertices = self.cut_vertices(from).unwrap_or_default();
-        reserve(to, vertices.len())?;
         to.extend_from_slice(vertices);
-        Ok(Self { start, ..self })
+        Self { start, ..self }
     }
 
     /// Whether a corner of the face lies on the box's lower side along an axis.
@@ -161,6 +159,52 @@ impl Piece {
     pub(crate) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let mut range = faces.corner_range(self.face);
         range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
+    }
+}
+
+/// Where the pieces of a set lie against a plane that divides them.
+#[derive(Debug, Default)]
+pub(crate) struct Division {
+    /// The plane; `None` if the pieces are not classified yet.
+    pub(crate) plane: Option<PreparedPlane>,
+    /// One for each piece.
+    pub(crate) sides: Vec<Side>,
+    /// How many pieces are on each side, by its number.
+    counts: [usize; 4],
+}
+
+impl Division {
+    /// Classifies the pieces against a plane. Ends early if it cuts more than `most`, and says so.
+    pub(crate) fn classify(
+        &mut self,
+        faces: &Faces,
+        (pieces, arena): (&[Piece], &[Vertex]),
+        plane: PreparedPlane,
+        most: usize,
+    ) -> bool {
+        (self.plane, self.counts) = (Some(plane), [0; 4]);
+        self.sides.clear();
+        self.sides.reserve_exact(pieces.len());
+        for piece in pieces {
+            let side = piece.side(faces, &plane, arena);
+            self.counts[side as usize] += 1;
+            self.sides.push(side);
+            if side == Side::Spanning && self.count(side) > most {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// How many pieces are on a side.
+    pub(crate) fn count(&self, side: Side) -> usize {
+        self.counts[side as usize]
+    }
+
+    /// Whether both sides of the plane have fewer pieces than the set.
+    pub(crate) fn makes_progress(&self) -> bool {
+        let [front, back, own, _] = self.counts;
+        back + own > 0 && front + own > 0
     }
 }
 

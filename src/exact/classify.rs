@@ -75,10 +75,15 @@ impl PreparedPlane {
                 let RoundedNormal { normal, size } = rounded;
                 let ([x, y, z], p) = (normal, corners[0]);
                 let offset = x * p[0] + y * p[1] + z * p[2];
-                let band = (faces.tolerance() * faces.normal_length(face, &rounded)).floor();
+                let band = floor(faces.tolerance() * faces.normal_length(face, &rounded));
                 PreparedPlane { plane, normal, offset, bound: FACE_ERROR * size, band }
             }
         }
+    }
+
+    /// The name of the plane.
+    pub(crate) fn id(&self) -> PlaneId {
+        self.plane
     }
 
     /// The signed distance of a position, times the length of the normal, rounded; in front it is
@@ -144,17 +149,13 @@ impl PreparedPlane {
         if self.plane == PlaneId::face(face) {
             return Side::Coplanar;
         }
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut see = |position| {
-            // Not `min` and `max`, which take more instructions because of NaN.
-            let s = self.distance(position);
-            low = if s < low { s } else { low };
-            high = if s > high { s } else { high };
+        let (low, high) = match (cut, faces.corners(face)) {
+            (Some(vertices), _) => self.extent(vertices.iter().map(|vertex| vertex.position)),
+            // Without a loop, as most faces have three or four corners.
+            (None, &[a, b, c]) => self.extent([a, b, c].into_iter()),
+            (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
+            (None, corners) => self.extent(corners.iter().copied()),
         };
-        match cut {
-            None => faces.corners(face).iter().for_each(|&corner| see(corner)),
-            Some(vertices) => vertices.iter().for_each(|vertex| see(vertex.position)),
-        }
         // Certainly off the plane, and certainly further than the tolerance from it.
         let (near, far) = (self.bound, self.band + self.bound);
         // The tolerance applies to the corners of the whole face. So a whole face may reach behind by
@@ -172,6 +173,16 @@ impl PreparedPlane {
         } else {
             self.classify_exactly(faces, face, cut)
         }
+    }
+
+    /// The least and the greatest distance of some positions, rounded.
+    #[inline]
+    fn extent(&self, positions: impl Iterator<Item = [f64; 3]>) -> (f64, f64) {
+        positions.map(|position| self.distance(position)).fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            // Not `min` and `max`, which take more instructions because of NaN.
+            |(low, high), s| (if s < low { s } else { low }, if s > high { s } else { high }),
+        )
     }
 
     /// The same, with every comparison certified.
@@ -206,6 +217,15 @@ impl PreparedPlane {
     pub fn side(&self, faces: &Faces, face: u32, vertex: &Vertex) -> Ordering {
         compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0)
     }
+}
+
+/// A number of at least 0, rounded down. Not `f64::floor`, which calls a function on processors without an
+/// instruction for it.
+#[inline]
+fn floor(value: f64) -> f64 {
+    /// From here on, all numbers are integers.
+    const WHOLE: f64 = (1u64 << 52) as f64;
+    if value < WHOLE { value as i64 as f64 } else { value }
 }
 
 /// The largest error of a face's plane at a rounded vertex, among those where the sign is wrong,

@@ -195,7 +195,9 @@ impl Default for PowerOfTwo {
 impl PowerOfTwo {
     pub(super) fn new(exponent: i32) -> Self {
         let halves = [exponent / 2, exponent - exponent / 2];
-        Self { factors: halves.map(|e| 2f64.powi(e)), inverses: halves.map(|e| 2f64.powi(-e)) }
+        // Each half is an exponent that `f64` has.
+        let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
+        Self { factors: halves.map(power), inverses: halves.map(|e| power(-e)) }
     }
 
     fn times(&self, value: f64) -> f64 {

@@ -226,7 +226,7 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
             nodes(builder.build(&scene).expect("a tree"), |node| {
                 if has_clean(node) {
                     let cuts = node.counts.splits > 0;
-                    let is_needed = || node.set.len() <= 32 && node.cuts_what_crosses();
+                    let is_needed = || node.set.len() <= 255 && node.cuts_what_crosses();
                     assert!(!cuts || is_needed(), "{} pieces, seed {seed}", node.set.len());
                     clean_of_frames += 1;
                     needed += usize::from(cuts);

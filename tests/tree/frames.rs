@@ -85,8 +85,8 @@ fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Cards that all go through each other, as many as a table of a small set has room for and more: its
-/// slots run out, and budgets are counted in it to the last piece and node.
+/// Cards that all go through each other, as many as a small set has whose planes are all tried, and more:
+/// budgets are counted to the last piece and node.
 #[test]
 fn crossing_cards_of_every_small_number_keep_their_budgets()
 -> Result<(), Box<dyn std::error::Error>> {

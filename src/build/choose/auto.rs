@@ -2,14 +2,14 @@
 
 use super::axis_planes::FreePlanes;
 use super::cost::{CostModel, PricedPlane};
-use super::frame_planes::{Middle, even_plane};
+use super::frame_planes::OwnFirst;
 use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
 use super::set::{LANES, Set};
-use super::tuning::{FrameTuning, Tuning};
+use super::tuning::Tuning;
 use super::{Choice, ChooseContext};
 use crate::Error;
-use crate::build::piece::Piece;
+use crate::build::piece::{Division, Piece};
 use crate::exact::{PlaneId, Side};
 use crate::progress::PIECES_AT_ONCE;
 
@@ -20,31 +20,38 @@ pub(super) struct Auto {
     sample: Sample,
     candidates: Candidates,
     peeler: Peeler,
+    own_first: OwnFirst,
 }
 
 impl Auto {
-    /// The first that applies of: the plane on which all pieces lie; of two pieces, the plane of one that
-    /// does not cut the other; in frames, an own plane that cuts nothing and divides evenly; a free plane
-    /// that cuts nothing; in frames, a plane in the middle that cuts only what crosses it; pieces that are
-    /// peeled off; the plane of least cost.
+    /// The first that applies of: in frames, an own plane that is good enough; the plane on which all pieces
+    /// lie; of two pieces, the plane of one that does not cut the other; a free plane that cuts nothing;
+    /// pieces that are peeled off; the plane of least cost. Writes where the pieces lie against the plane, if
+    /// that is known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         is_peeled: bool,
+        division: &mut Division,
     ) -> Result<Choice, Error> {
         let ChooseContext { tuning, watch, .. } = *rules;
+        if let Some(frames) = &tuning.frames
+            && set.len() < tuning.small
+            && let Some((plane, is_good)) = self.own_first.find(set, tuning, frames, division)
+        {
+            let free = if is_good { None } else { self.free.clean(set, tuning) };
+            if free.is_some() {
+                division.plane = None;
+            }
+            return Ok(Choice::Split(free.map_or(plane, |free| free.plane)));
+        }
+        division.plane = None;
         if let Some(plane) = self.common_plane(set, tuning) {
             return Ok(Choice::Split(plane));
         }
         if set.len() == 2
             && let Some(plane) = plane_of_pair(set)
-        {
-            return Ok(Choice::Split(plane));
-        }
-        let frames = tuning.frames.filter(|_| set.len() < tuning.small);
-        if let Some(frames) = frames
-            && let Some(plane) = even_plane(set, tuning, &frames)
         {
             return Ok(Choice::Split(plane));
         }
@@ -58,40 +65,10 @@ impl Auto {
         {
             return Ok(Choice::Split(free.plane));
         }
-        if let Some(frames) = frames
-            && let Some(plane) = self.plane_in_the_middle(set, tuning, &frames)
-        {
-            return Ok(Choice::Split(plane));
-        }
         if set.len() < tuning.small {
             Ok(self.best_of_small(rules, set, free, is_peeled))
         } else {
             self.best_of_large(rules, set, free)
-        }
-    }
-
-    /// A free plane that cuts nothing, if nothing or only what has to be cut is in the middle of the set;
-    /// else the plane there that cuts only what has to be cut.
-    fn plane_in_the_middle(
-        &mut self,
-        set: &Set<'_>,
-        tuning: &Tuning,
-        frames: &FrameTuning,
-    ) -> Option<PlaneId> {
-        if frames.probes == 0 {
-            return None;
-        }
-        let middle = Middle::of(set, frames);
-        if !matches!(middle, Middle::Taken)
-            && set.len() >= tuning.clean_below
-            && let Some(gap) = self.free.clean(set, tuning)
-        {
-            // Through a corner that was cut off: only sorting finds it.
-            return Some(gap.plane);
-        }
-        match middle {
-            Middle::Crossing(plane) => Some(plane),
-            Middle::Gap | Middle::Taken => None,
         }
     }
 

@@ -5,7 +5,8 @@ use std::ops::AddAssign;
 
 use super::set::Set;
 use super::tuning::Tuning;
-use crate::exact::PlaneId;
+use crate::build::piece::Division;
+use crate::exact::{PlaneId, Side};
 
 /// How many pieces lie in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +17,11 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    pub(super) fn of(division: &Division) -> Self {
+        let count = |side| division.count(side) as u32;
+        Self { front: count(Side::Front), back: count(Side::Back), splits: count(Side::Spanning) }
+    }
+
     pub(super) fn imbalance(&self) -> u32 {
         self.front.abs_diff(self.back)
     }

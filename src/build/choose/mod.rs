@@ -15,6 +15,7 @@ mod set;
 mod tuning;
 
 use super::options::{DEFAULT_WEIGHTS, Heuristic};
+use super::piece::Division;
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::progress::Watch;
@@ -22,7 +23,6 @@ use crate::random::mix;
 use auto::Auto;
 use own::Scored;
 
-pub(super) use frame_planes::{Best, crosses};
 pub(super) use peel::Peeled;
 pub(super) use set::Set;
 pub use tuning::{FrameTuning, Tuning};
@@ -37,13 +37,15 @@ pub(super) struct Chooser {
 impl Chooser {
     /// Chooses what to do with a set of at least one piece. `is_peeled`: it is what peeling left; then
     /// peeling is not tried again if the set is small. Not every plane chosen makes progress; the
-    /// builder checks.
+    /// builder checks. Writes where the pieces lie against the plane, or nothing if that is not known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
         set: &Set<'_>,
         is_peeled: bool,
+        division: &mut Division,
     ) -> Result<Choice, Error> {
+        division.plane = None;
         let most = rules.tuning.own_planes;
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
         Ok(Choice::Split(match rules.heuristic {
@@ -79,13 +81,8 @@ impl Chooser {
                 };
                 free.map_or(set.own_plane(0), |free| free.plane)
             }
-            Heuristic::Auto => return self.auto.choose(rules, set, is_peeled),
+            Heuristic::Auto => return self.auto.choose(rules, set, is_peeled, division),
         }))
-    }
-
-    /// A free plane that cuts nothing.
-    pub(super) fn clean(&mut self, rules: &ChooseContext<'_>, set: &Set<'_>) -> Option<PlaneId> {
-        self.auto.free.clean(set, rules.tuning).map(|free| free.plane)
     }
 
     /// The own plane of least weighted sum.
@@ -105,9 +102,6 @@ impl Chooser {
     }
 }
 
-/// The most pieces of a set that is divided from a table: half as many as a table has room for.
-pub(in crate::build) const MOST_IN_TABLE: usize = 32;
-
 /// What is to be done with a set.
 #[derive(Debug)]
 pub(in crate::build) enum Choice {
@@ -124,16 +118,6 @@ pub(in crate::build) struct ChooseContext<'a> {
     pub(in crate::build) tuning: &'a Tuning,
     /// Once a build is cancelled, any plane is chosen, quickly.
     pub(in crate::build) watch: &'a Watch<'a>,
-}
-
-impl<'a> ChooseContext<'a> {
-    /// How a set is divided from a table of all pieces against all planes; `None` if it is not.
-    pub(in crate::build) fn tabled(&self, pieces: usize) -> Option<&'a FrameTuning> {
-        let frames = self.tuning.frames.as_ref()?;
-        let is_tabled =
-            self.heuristic == Heuristic::Auto && pieces <= frames.table.min(MOST_IN_TABLE);
-        is_tabled.then_some(frames)
-    }
 }
 
 #[cfg(test)]

@@ -153,15 +153,8 @@ impl Candidates {
 #[derive(Debug, Default)]
 pub(super) struct Scored {
     sketch: PackedPieces,
-    tried: Vec<Tried>,
-}
-
-/// A piece whose plane is tried, and how that divides the set.
-#[derive(Debug)]
-struct Tried {
-    piece: usize,
-    plane: PackedPlane,
-    counts: Counts,
+    /// Each tried piece, and how its plane divides the set.
+    tried: Vec<(usize, PackedPlane, Counts)>,
 }
 
 impl Scored {
@@ -178,11 +171,8 @@ impl Scored {
         sketch.reset(set);
         tried.clear();
         tried.reserve(candidates.min(set.len()));
-        tried.extend(set.sample(candidates).map(|piece| Tried {
-            piece,
-            plane: sketch.plane(set, piece),
-            counts: Counts::default(),
-        }));
+        let planes = set.sample(candidates).map(|piece| (piece, sketch.plane(set, piece)));
+        tried.extend(planes.map(|(piece, plane)| (piece, plane, Counts::default())));
         for start in (0..set.len()).step_by(PIECES_AT_ONCE) {
             let part = start..set.len().min(start + PIECES_AT_ONCE);
             if watch.work(part.len() * tried.len()).is_err() {
@@ -190,15 +180,14 @@ impl Scored {
             }
             sketch.clear();
             sketch.extend(set, part.clone());
-            for Tried { plane, counts, .. } in &mut *tried {
+            for (_, plane, counts) in &mut *tried {
                 *counts += sketch.count(plane, 0..part.len().div_ceil(LANES));
             }
         }
-        let score = |tried: &Tried| {
-            let piece = &set.pieces[tried.piece];
-            score(&tried.counts, (0..3).any(|axis| piece.min[axis] == piece.max[axis]))
-        };
-        let scores = tried.iter().map(|tried| (score(tried), tried.piece));
+        let scores = tried.iter().map(|&(own, _, counts)| {
+            let Piece { min, max, .. } = set.pieces[own];
+            (score(&counts, (0..3).any(|axis| min[axis] == max[axis])), own)
+        });
         let best = scores.min_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         set.own_plane(best.map_or(0, |(_, piece)| piece))
     }

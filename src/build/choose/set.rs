@@ -5,8 +5,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::cost::Counts;
-use super::frame_planes::crosses;
-use crate::build::piece::Piece;
+use crate::build::piece::{Division, Piece};
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
 
 /// Pieces compared with a plane at once.
@@ -257,7 +256,7 @@ impl Splat {
 pub(crate) struct Set<'a> {
     pub(super) faces: &'a Faces,
     pub(super) pieces: &'a [Piece],
-    arena: &'a [Vertex],
+    pub(super) arena: &'a [Vertex],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
@@ -291,13 +290,6 @@ impl<'a> Set<'a> {
     /// The size of the bounding box.
     pub(super) fn size(&self) -> [f64; 3] {
         std::array::from_fn(|axis| self.max[axis] - self.min[axis])
-    }
-
-    /// The middle of the longest side of the bounding box, and the axis along which that is.
-    pub(super) fn middle(&self) -> (usize, f64) {
-        let size = self.size();
-        let axis = (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
-        (axis, 0.5 * self.min[axis] + 0.5 * self.max[axis])
     }
 
     /// Whether a plane perpendicular to an axis may cut nothing and yet leave pieces on both sides.
@@ -334,12 +326,6 @@ impl<'a> Set<'a> {
         (normal, piece.point(self.faces, self.arena))
     }
 
-    /// Whether the plane of a piece cuts another, and the two certainly cross.
-    pub(super) fn crosses(&self, piece: usize, other: usize) -> bool {
-        self.classify(&self.prepare(self.own_plane(piece)), other) == Side::Spanning
-            && crosses(self.faces, self.arena, &self.pieces[piece], &self.pieces[other])
-    }
-
     /// The plane of a piece's face.
     pub(super) fn own_plane(&self, piece: usize) -> PlaneId {
         PlaneId::face(self.pieces[piece].face)
@@ -352,6 +338,11 @@ impl<'a> Set<'a> {
     /// Where a piece lies against a plane, exactly.
     pub(super) fn classify(&self, prepared: &PreparedPlane, piece: usize) -> Side {
         self.pieces[piece].side(self.faces, prepared, self.arena)
+    }
+
+    /// Where all pieces lie against a plane. `false` if it cuts more than `most`.
+    pub(super) fn divide(&self, plane: PlaneId, most: usize, division: &mut Division) -> bool {
+        division.classify(self.faces, (self.pieces, self.arena), self.prepare(plane), most)
     }
 
     /// Calls a function with each vertex of a piece, in lattice units, rounded.
@@ -369,7 +360,8 @@ impl<'a> Set<'a> {
     pub(super) fn sample(&self, count: usize) -> impl Iterator<Item = usize> + use<> {
         let n = self.len();
         let count = count.min(n);
-        (0..count).map(move |i| i * n / count)
+        // Division takes long.
+        (0..count).map(move |i| if count == n { i } else { i * n / count })
     }
 }
 

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3, EulerRot};
 use super::set::Set;
 use super::tuning::Tuning;
 use super::{Choice, ChooseContext, Chooser};
-use crate::build::piece::{Piece, Splitter};
+use crate::build::piece::{Division, Piece, Splitter};
 use crate::build::{BuildOptions, FrameBuilder, Heuristic};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 use crate::progress::Watch;
@@ -112,7 +112,8 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
         let fixture = Fixture::new(&prism(sides), 1e-9);
         let rules = ChooseContext { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
         let mut chooser = Chooser::default();
-        let choice = chooser.choose(&rules, &fixture.set(), false).unwrap();
+        let choice =
+            chooser.choose(&rules, &fixture.set(), false, &mut Division::default()).unwrap();
         let Choice::Peel(peeled) = choice else { panic!("{sides} sides: {choice:?}") };
         assert_eq!(peeled.layers().len(), tuning.own_planes, "{sides} sides");
     }
@@ -129,7 +130,10 @@ fn a_sample_is_spread_over_the_set() {
 fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
     let rules = ChooseContext { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
-    match Chooser::default().choose(&rules, &fixture.set(), false).unwrap() {
+    match Chooser::default()
+        .choose(&rules, &fixture.set(), false, &mut Division::default())
+        .unwrap()
+    {
         Choice::Split(plane) => plane,
         Choice::Peel(_) => panic!("own planes alone are chosen"),
     }

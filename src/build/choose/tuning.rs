@@ -67,19 +67,16 @@ impl Tuning {
 /// The numbers that decide how frames divide small sets quickly.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// The most pieces of a set that is divided down to the leaves from a table of each piece against each
-    /// plane; 32 at most. Too large: the table takes longer than it saves. Too small: planes are chosen
-    /// again for every set. The table tries own planes first, so trees are built faster. Trees of axis
-    /// planes have fewer parts in their layout, so they are ordered faster.
-    pub table: usize,
-    /// The most pieces that a plane may cut to be taken from a table at once. It must cut at least one, and
-    /// each of them must cross the plane's own piece: any tree has to cut one of the two. Too large:
-    /// polygons that cross at random are cut by worse planes. Too small: all planes of rings are compared
-    /// again and again.
+    /// The most pieces of a set of which all planes are compared, before axis planes. Too large: that takes
+    /// longer than to search for other planes. Too small: sets are searched for axis planes again and again.
+    pub all: usize,
+    /// The most pieces that a plane may cut to be taken at once. It must cut at least one, and each of them
+    /// must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons that cross at
+    /// random are cut by worse planes. Too small: all planes of rings are compared again and again.
     pub crossings: usize,
-    /// Own planes of a small set that are tried first, and taken at once if they cut nothing and
-    /// divide the set evenly. More: time where each plane cuts something; fewer: stacks of layers are
-    /// searched for the best plane, though any will do.
+    /// Own planes of a larger set of fewer than `small` pieces that are tried first, and taken at once if they
+    /// cut nothing and divide the set evenly, or as above. More: time where each plane cuts something; fewer:
+    /// stacks of layers are searched for the best plane, though any will do.
     pub probes: usize,
     /// The share of its set's box that a piece has to fill for its plane to be trusted at once, where
     /// the tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie
@@ -96,5 +93,5 @@ pub struct FrameTuning {
 impl FrameTuning {
     /// That of frames.
     pub const FRAMES: Self =
-        Self { table: 32, crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
+        Self { all: 16, crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
 }
