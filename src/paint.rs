@@ -1,7 +1,7 @@
 //! Painting a tree's fragments, with exact coverage of every pixel.
 
 use crate::exact::EdgeLine;
-use crate::raster::{Image, Layers, Order, Outline, Painter, Piece, Rays, blend, for_each_shaded};
+use crate::raster::{Image, Layers, Outline, Painter, Piece, Rays, blend, for_each_shaded};
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
@@ -26,19 +26,17 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
 ///
 /// If the rays were made for another grid.
 pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
-    paint_list(tree, order, Order::BackToFront, rays, None)
+    paint_list(Painter::new(rays, tree.faces()), tree, order, None)
 }
 
 /// Paints fragments of a tree one after the other, and records which faces cover which pixels.
 /// Numbers that name no fragment are skipped.
 pub(crate) fn paint_list(
+    mut painter: Painter<'_>,
     tree: &BspTree,
     list: &[u32],
-    order: Order,
-    rays: &Rays,
     mut layers: Option<&mut Layers>,
 ) -> Image {
-    let mut painter = Painter::new(rays, tree.faces(), order);
     let mut pieces = Pieces::default();
     for &index in list.iter().filter(|&&index| (index as usize) < tree.len()) {
         let fragment = tree.fragment(index);

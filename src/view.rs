@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use glam::DVec3;
+use glam::{DMat4, DVec3, DVec4};
 
 use crate::random::SplitMix64;
 use crate::viewpoint::{Frustum, Viewpoint};
@@ -167,6 +167,57 @@ impl Camera {
             Projection::Perspective { eye, .. } => Viewpoint::Eye(eye),
             Projection::Parallel { direction, .. } => Viewpoint::Direction(direction),
         }
+    }
+
+    /// The eye; `None` for a parallel camera.
+    pub fn eye(&self) -> Option<DVec3> {
+        match self.projection {
+            Projection::Perspective { eye, .. } => Some(eye),
+            Projection::Parallel { .. } => None,
+        }
+    }
+
+    /// The view-projection matrix: from the world to clip coordinates, with x to the right, y upwards, and
+    /// depths from 0 at the distance `near` to 1 at `far`, as WebGPU, Vulkan (y aside), Metal and Direct3D
+    /// have them. Distances are along the direction of view, from the eye, or from the centre of a
+    /// parallel camera, where they may be negative.
+    ///
+    /// ```
+    /// use binspace::glam::DVec3;
+    /// use binspace::view::Camera;
+    ///
+    /// let eye = DVec3::new(0.0, -5.0, 2.0);
+    /// let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 1.0, [640, 480])?;
+    /// let point = DVec3::new(0.4, 0.3, 0.7);
+    /// let clip = camera.matrix(0.1, 100.0).project_point3(point);
+    /// let [x, y] = camera.project(point).expect("in front of the eye");
+    /// assert!(((0.5 + 0.5 * clip.x) * 640.0 - x).abs() < 1e-9);
+    /// assert!(((0.5 - 0.5 * clip.y) * 480.0 - y).abs() < 1e-9);
+    /// assert!(clip.z > 0.0 && clip.z < 1.0);
+    /// # Ok::<(), binspace::view::CameraError>(())
+    /// ```
+    pub fn matrix(&self, near: f64, far: f64) -> DMat4 {
+        let [half_width, half_height] =
+            self.size.map(|side| 0.5 * f64::from(side) * self.pixel_size());
+        let row = |axis: DVec3, origin: DVec3, scale: f64, offset: f64| -> DVec4 {
+            (axis * scale).extend(offset - axis.dot(origin) * scale)
+        };
+        let depth = 1.0 / (far - near);
+        let rows = match self.projection {
+            Projection::Perspective { eye, .. } => [
+                row(self.right, eye, 1.0 / half_width, 0.0),
+                row(self.up, eye, 1.0 / half_height, 0.0),
+                row(self.forward, eye, far * depth, -near * far * depth),
+                row(self.forward, eye, 1.0, 0.0),
+            ],
+            Projection::Parallel { centre, .. } => [
+                row(self.right, centre, 1.0 / half_width, 0.0),
+                row(self.up, centre, 1.0 / half_height, 0.0),
+                row(self.forward, centre, depth, -near * depth),
+                DVec4::W,
+            ],
+        };
+        DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose()
     }
 
     /// The picture's width and height in pixels.
@@ -493,6 +544,31 @@ mod camera_tests {
         let camera = Camera::parallel(DVec3::NEG_Z, up, DVec3::ONE, 4.0, [10, 20]).unwrap();
         assert!(near(camera.project(DVec3::new(1.0, 3.0, 9.0)).unwrap(), [5.0, 0.0]));
         assert!(near(camera.project(DVec3::new(2.0, 1.0, -9.0)).unwrap(), [10.0, 10.0]));
+    }
+
+    /// The matrix puts points where the camera does, and depths between those of the two planes.
+    #[test]
+    fn the_matrix_projects_as_the_camera_does() {
+        let eye = DVec3::new(3.0, -7.0, 2.0);
+        let size = [640, 360];
+        for camera in [
+            Camera::perspective(eye, DVec3::ONE, DVec3::Z, 0.9, size).unwrap(),
+            Camera::parallel(-eye, DVec3::Z, DVec3::ONE, 12.0, size).unwrap(),
+        ] {
+            let matrix = camera.matrix(0.5, 40.0);
+            let from = camera.eye().unwrap_or(DVec3::ONE);
+            let mut random = SplitMix64::new(5);
+            for _ in 0..100 {
+                let point = from + camera.forward() * 20.0 + random.point(-6.0, 6.0);
+                let clip = matrix.project_point3(point);
+                let [x, y] = camera.project(point).unwrap();
+                assert!(near([(0.5 + 0.5 * clip.x) * 640.0, (0.5 - 0.5 * clip.y) * 360.0], [x, y]));
+            }
+            for (distance, depth) in [(0.5, 0.0), (40.0, 1.0)] {
+                let at = from + camera.forward() * distance + camera.right();
+                assert!((matrix.project_point3(at).z - depth).abs() < 1e-12, "{camera:?}");
+            }
+        }
     }
 
     #[test]

@@ -38,5 +38,5 @@ pub(crate) use rays::{RayOrigin, VERTEX_ERROR};
 #[doc(hidden)]
 pub use self::{
     coverage::{Outline, Piece},
-    painter::{Order, Painter, for_each_run},
+    painter::{Painter, for_each_run},
 };

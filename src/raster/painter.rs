@@ -10,21 +10,12 @@ use super::judge::{Comparison, DepthImage, Verdict};
 use super::rays::Rays;
 use crate::exact::Faces;
 
-/// The order in which pieces are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
-    /// A later piece is drawn over earlier ones.
-    BackToFront,
-    /// A later piece shows only where no earlier one does.
-    FrontToBack,
-}
-
-/// Draws pieces one by one.
+/// Draws pieces one by one: a later piece over earlier ones.
 #[derive(Debug)]
 pub struct Painter<'a> {
     rays: &'a Rays,
     faces: &'a Faces,
-    order: Order,
+    is_front_to_back: bool,
     image: Image,
 }
 
@@ -34,9 +25,15 @@ impl<'a> Painter<'a> {
     /// # Panics
     ///
     /// If the rays were made for another grid.
-    pub fn new(rays: &'a Rays, faces: &'a Faces, order: Order) -> Self {
+    pub fn new(rays: &'a Rays, faces: &'a Faces) -> Self {
         rays.expect(faces);
-        Self { rays, faces, order, image: Image::new(rays.size()) }
+        Self { rays, faces, is_front_to_back: false, image: Image::new(rays.size()) }
+    }
+
+    /// The same for pieces that come front to back: a later piece shows only where no earlier one does.
+    #[must_use]
+    pub fn front_to_back(self) -> Self {
+        Self { is_front_to_back: true, ..self }
     }
 
     /// Draws a piece.
@@ -49,16 +46,15 @@ impl<'a> Painter<'a> {
         let Some(coverage) = Coverage::new(self.rays, self.faces, piece.face, piece.outline) else {
             return;
         };
-        let (image, order) = (&mut self.image, self.order);
+        let (image, is_front_to_back) = (&mut self.image, self.is_front_to_back);
         coverage.for_each_run(&mut |y, columns| {
             image.drawn += columns.len() as u64;
             also(y, columns.clone());
             let pixels = &mut image.row(y)[columns.start as usize..columns.end as usize];
-            match order {
-                Order::BackToFront => pixels.fill(piece.face),
-                Order::FrontToBack => {
-                    pixels.iter_mut().filter(|p| **p == NONE).for_each(|p| *p = piece.face);
-                }
+            if is_front_to_back {
+                pixels.iter_mut().filter(|p| **p == NONE).for_each(|p| *p = piece.face);
+            } else {
+                pixels.fill(piece.face);
             }
         });
     }

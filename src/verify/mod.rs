@@ -5,7 +5,8 @@ use std::fmt;
 
 use crate::paint::{Pieces, paint_list};
 use crate::raster::{
-    Comparison, DepthImage, Image, Layers, Order, Rays, compare_by, covers, is_open, zbuffer_layers,
+    Comparison, DepthImage, Image, Layers, Painter, Rays, compare_by, covers, is_open,
+    zbuffer_layers,
 };
 use crate::tree::{BspTree, Fragment};
 use crate::view::{Camera, CameraError};
@@ -93,7 +94,7 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let faces = tree.faces();
     let (far_first, near_first) = (&orders.0[0], &orders.0[FIRST_NEAR]);
     let mut layers = Layers::new(&rays);
-    let painted = paint_list(tree, far_first, Order::BackToFront, &rays, Some(&mut layers));
+    let painted = paint_list(Painter::new(&rays, faces), tree, far_first, Some(&mut layers));
     let (truth, all) = zbuffer_layers(&rays, faces);
     let against_truth = |image: &Image| compare_by_planes(tree, &rays, image, truth.image());
     let comparison = against_truth(&painted);
@@ -102,7 +103,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let front_to_back = if near_first.iter().rev().eq(far_first) {
         comparison.clone()
     } else {
-        against_truth(&paint_list(tree, near_first, Order::FrontToBack, &rays, None))
+        let painter = Painter::new(&rays, faces).front_to_back();
+        against_truth(&paint_list(painter, tree, near_first, None))
     };
     let miscounted = layers.differences(&all);
     let orders = orders.check(tree.len());

@@ -3,7 +3,7 @@
 use binspace::drawing::Drawing;
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
-use binspace::raster::{Order, Painter, compare, picture, zbuffer};
+use binspace::raster::{Painter, compare, picture, zbuffer};
 use binspace::{Ray, paint, raster};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::prelude::*;
@@ -169,7 +169,7 @@ fn rays_of_another_grid_are_refused() {
     let piece = || raster::Piece { face: 0, outline: raster::Outline::Whole };
     let calls: [&dyn Fn(); 10] = [
         &|| ignore(zbuffer(&rays, faces)),
-        &|| ignore(Painter::new(&rays, faces, Order::BackToFront)),
+        &|| ignore(Painter::new(&rays, faces)),
         &|| ignore(compare(&rays, faces, image, image)),
         &|| ignore(picture(&rays, faces, image, raster::colour_of, [0; 3])),
         &|| raster::for_each_run(&rays, faces, piece(), |_, _| {}),

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use testkit::prelude::*;
 
 use binspace::overlay::{Overlay, Shape};
-use binspace::raster::{Order, Outline, Painter, Piece, compare, for_each_run, zbuffer};
+use binspace::raster::{Outline, Painter, Piece, compare, for_each_run, zbuffer};
 
 use testkit::fragment_pixels::with_piece;
 use testkit::judge::{Verdict, ensure};
@@ -39,7 +39,7 @@ impl Judged {
     ) -> Verdict {
         let Ok(rays) = Rays::new(camera, faces) else { return Ok(()) };
         let order = forms(tree, overlay, camera)?;
-        let mut painter = Painter::new(&rays, faces, Order::BackToFront);
+        let mut painter = Painter::new(&rays, faces);
         let mut painted: HashMap<(u32, u32, u32), usize> = HashMap::new();
         for &number in &order {
             let shape = overlay.shape(number);

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::faces;
 use crate::exact::{EdgeLine, Faces, PlaneId};
 use crate::raster::{
-    Comparison, Image, NONE, Order, Outline, Painter, Piece, Rays, Verdict, colour_of, compare,
-    depth_map, difference, is_open, picture, zbuffer,
+    Comparison, Image, NONE, Outline, Painter, Piece, Rays, Verdict, colour_of, compare, depth_map,
+    difference, is_open, picture, zbuffer,
 };
 use crate::view::Camera;
 
@@ -38,7 +38,7 @@ fn whole<'a>(order: &'a [u32]) -> impl Iterator<Item = Piece<'a>> {
 
 /// Paints pieces given from back to front.
 fn paint<'p>(rays: &Rays, faces: &Faces, pieces: impl IntoIterator<Item = Piece<'p>>) -> Image {
-    let mut painter = Painter::new(rays, faces, Order::BackToFront);
+    let mut painter = Painter::new(rays, faces);
     pieces.into_iter().for_each(|piece| painter.draw(piece));
     painter.finish()
 }
@@ -72,7 +72,7 @@ fn later_pieces_cover_earlier_ones() {
     assert_eq!(drawn(image.faces()), "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA");
     assert_eq!((image.covered(), image.drawn()), (36, 36 + 15));
     assert_eq!(drawn(paint(&rays, &faces, whole(&[1, 0])).faces()), "AAAAAA ".repeat(6).trim());
-    let mut painter = Painter::new(&rays, &faces, Order::FrontToBack);
+    let mut painter = Painter::new(&rays, &faces).front_to_back();
     whole(&[1, 0]).for_each(|piece| painter.draw(piece));
     assert_eq!(painter.finish().faces(), image.faces());
 }

@@ -6,7 +6,7 @@ use crate::exact::{EdgeLine, PlaneId};
 use crate::paint::paint_list;
 use crate::random::SplitMix64;
 use crate::raster::tests::oracle::{Height, height, meets, meets_piece};
-use crate::raster::{Order, Rays, Verdict, compare_by, zbuffer};
+use crate::raster::{Painter, Rays, Verdict, compare_by, zbuffer};
 use crate::tree::BspTree;
 use crate::verify::compare_by_planes;
 use crate::view::Camera;
@@ -73,7 +73,7 @@ fn fragment_of(tree: &BspTree, rays: &Rays, face: u32, pixel: [u32; 2]) -> u32 {
 fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]) {
     let faces = tree.faces();
     let rays = Rays::new(camera, faces).unwrap();
-    let painted = paint_list(tree, order, Order::BackToFront, &rays, None);
+    let painted = paint_list(Painter::new(&rays, tree.faces()), tree, order, None);
     let truth = zbuffer(&rays, faces).into_image();
     let strict = compare_by(&rays, faces, [&painted, &truth], 0.0, |_, _| false);
     let by_planes = compare_by_planes(tree, &rays, &painted, &truth);

@@ -1,7 +1,7 @@
 //! Who hides whom against rays, permutations and pictures.
 
 use binspace::internals::{Eye, SplitMix64};
-use binspace::raster::{Order, Outline, Painter, Piece, compare, zbuffer};
+use binspace::raster::{Outline, Painter, Piece, compare, zbuffer};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 use num_traits::One;
@@ -116,7 +116,7 @@ fn nothing_that_hides_in_a_picture_is_overlooked() {
     for a in 0..faces.len() as u32 {
         for b in 0..faces.len() as u32 {
             let draw = |only: &[u32]| {
-                let mut painter = Painter::new(&rays, &faces, Order::BackToFront);
+                let mut painter = Painter::new(&rays, &faces);
                 only.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
                 painter.finish()
             };
@@ -134,7 +134,7 @@ fn nothing_that_hides_in_a_picture_is_overlooked() {
 }
 
 fn wrong(rays: &Rays, faces: &Faces, order: &[u32]) -> usize {
-    let mut painter = Painter::new(rays, faces, Order::BackToFront);
+    let mut painter = Painter::new(rays, faces);
     order.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
     compare(rays, faces, &painter.finish(), zbuffer(rays, faces).image()).wrong()
 }

@@ -6,7 +6,7 @@ use super::{Method, MethodError, Painted, Prepared, Space};
 use crate::{Accuracy, Tree, accuracy};
 use binspace::internals::{Faces, Tuning, tree_of};
 use binspace::paint::paint_order;
-use binspace::raster::{Order, Outline, Painter, Piece, Rays};
+use binspace::raster::{Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Preparation};
 
@@ -119,7 +119,7 @@ impl Prepared for Ready<Tree> {
         let begin = Instant::now();
         self.tree.back_to_front_into(camera.viewpoint(), &mut self.order);
         let order: Duration = begin.elapsed();
-        let mut painter = Painter::new(rays, self.tree.faces(), Order::BackToFront);
+        let mut painter = Painter::new(rays, self.tree.faces());
         let mut vertices = Vec::new();
         for &fragment in &self.order {
             vertices.clear();

@@ -6,7 +6,7 @@ use super::front_faces::shown;
 use super::space::CameraSpace;
 use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
-use binspace::raster::{Order, Outline, Painter, Piece, Rays};
+use binspace::raster::{Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 
 /// Paints faces in the order of the depths of their centroids, the means of their corners, the
@@ -73,7 +73,7 @@ impl Prepared for Ready<'_> {
         let space = CameraSpace::new(camera, self.faces.lattice());
         sort(&self.centroids, &space, &shown(rays, self.faces), &mut self.keys);
         let order = begin.elapsed();
-        let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
+        let mut painter = Painter::new(rays, self.faces);
         for &(_, face) in &self.keys {
             painter.draw(Piece { face, outline: Outline::Whole });
         }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::front_faces::shown;
 use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
-use binspace::raster::{Order, Outline, Painter, Piece, Rays};
+use binspace::raster::{Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 
 /// Paints faces in the order of the input: what all other methods are measured against.
@@ -33,7 +33,7 @@ struct Ready<'a> {
 impl Prepared for Ready<'_> {
     fn paint(&mut self, _: &Camera, rays: &Rays) -> Result<Painted, MethodError> {
         let begin = Instant::now();
-        let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
+        let mut painter = Painter::new(rays, self.faces);
         let (is_shown, mut pieces) = (shown(rays, self.faces), 0);
         for face in (0..self.faces.len() as u32).filter(|&face| is_shown(face)) {
             painter.draw(Piece { face, outline: Outline::Whole });

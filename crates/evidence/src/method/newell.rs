@@ -15,7 +15,7 @@ use super::front_faces::shown;
 use super::space::CameraSpace;
 use super::{Method, MethodError, Painted, Prepared, Space};
 use binspace::internals::Faces;
-use binspace::raster::{Order, Outline, Painter, Piece, Rays};
+use binspace::raster::{Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 
 pub use self::decisions::Decisions;
@@ -69,7 +69,7 @@ impl Prepared for Ready<'_> {
         self.pieces.take(&space, self.faces, is_shown);
         let (sorted, _) = Sorter::new(self.method, &space, &mut self.pieces)?.sort()?;
         let order = begin.elapsed();
-        let mut painter = Painter::new(rays, self.faces, Order::BackToFront);
+        let mut painter = Painter::new(rays, self.faces);
         let mut vertices = Vec::new();
         for &piece in &sorted {
             let (face, whole) = self.pieces.source(piece);

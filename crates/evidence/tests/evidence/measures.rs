@@ -1,6 +1,6 @@
 //! The measures of error, against pictures and trees with known faults.
 
-use binspace::raster::{Order, Outline, Painter, Piece, zbuffer};
+use binspace::raster::{Outline, Painter, Piece, zbuffer};
 use binspace_evidence::measure::{PictureError, area_error, extent};
 use binspace_evidence::{Accuracy, Family, Tree, accuracy};
 use testkit::prelude::*;
@@ -20,7 +20,7 @@ fn stack() -> (Faces, Rays) {
 
 fn judged(order: &[u32], pieces: Outline<'_>) -> PictureError {
     let (faces, rays) = stack();
-    let mut painter = Painter::new(&rays, &faces, Order::BackToFront);
+    let mut painter = Painter::new(&rays, &faces);
     for &face in order {
         painter.draw(Piece { face, outline: pieces });
     }
