@@ -1,7 +1,6 @@
 //! Bounding boxes of a tree's subtrees and fragments, their normals, and half-spaces held against boxes.
 
 use std::cmp::Ordering;
-use std::convert::Infallible;
 use std::ops::Range;
 
 use glam::{DVec3, Vec3, Vec4};
@@ -10,7 +9,6 @@ use super::order::eye::{Planes, rounded};
 use super::{BspTree, Child, Fragment, Node};
 use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
-use crate::parallel_map;
 use crate::viewpoint::{Facing, Viewpoint};
 
 /// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common. They take
@@ -31,9 +29,6 @@ pub(crate) struct Bounds {
     pub(super) planes: Planes,
 }
 
-/// How many fragments one thread takes at a time: whole blocks.
-const FRAGMENTS_A_THREAD: usize = 256 * BLOCK;
-
 /// A cut vertex is within three roundings of its exact position, each at most this share of a
 /// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
 const SHARE: f64 = 2.0 * f64::EPSILON;
@@ -48,7 +43,7 @@ impl BspTree {
     /// tree: about 90 bytes a fragment. So does the first call of [`Node::bounds`],
     /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
     /// [`fragments_in`](Self::fragments_in), or the first [culled](crate::Order::culled) order. Call it
-    /// after building to spend that time then.
+    /// after building to spend that time then. Other threads that need the boxes meanwhile wait for them.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -121,7 +116,10 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
 
 impl Bounds {
     fn new(tree: &BspTree) -> Self {
-        let blocks = fragment_blocks(tree);
+        // On this thread alone: another thread may wait for the boxes, and rayon's would wait for one another.
+        let boxes = |first| (first..tree.len()).map(|i| tree.fragment(i as u32).flat_bounds());
+        let blocks: Vec<Block> =
+            (0..tree.len()).step_by(BLOCK).map(|first| Block::new(boxes(first))).collect();
         let mut nodes = vec![NOTHING; tree.nodes.len()];
         let mut normals = vec![Normals::NONE; tree.nodes.len()];
         let faces: Vec<Vec4> = (0..tree.faces.len() as u32)
@@ -196,18 +194,6 @@ impl Bounds {
             + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
             + self.planes.bytes()
     }
-}
-
-/// The boxes of the fragments.
-fn fragment_blocks(tree: &BspTree) -> Vec<Block> {
-    let starts = (0..tree.len()).step_by(FRAGMENTS_A_THREAD);
-    let Ok(parts) = parallel_map::map(starts.collect(), |start| {
-        let end = (start + FRAGMENTS_A_THREAD).min(tree.len());
-        let boxes = |first| (first..end).map(|number| tree.fragment(number as u32).flat_bounds());
-        let blocks = (start..end).step_by(BLOCK).map(|first| Block::new(boxes(first)));
-        Ok::<Vec<Block>, Infallible>(blocks.collect())
-    });
-    parts.concat()
 }
 
 /// The least coordinates of a box, then the largest.

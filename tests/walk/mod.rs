@@ -6,6 +6,7 @@ mod nodes;
 mod occlusion;
 mod order;
 mod sides;
+mod threads;
 
 use testkit::prelude::*;
 use testkit::scenes::{cells, polygons};
