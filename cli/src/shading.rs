@@ -1,20 +1,29 @@
 //! Shades of polygons in vector pictures: one brightness for each plane, so that neither the triangles of a
 //! flat wall nor the pieces of a polygon differ.
+//!
+//! Along a direction it is that of the painter's pictures, lit by a lamp at the eye. From an eye, such a lamp
+//! shades a plane unevenly, so there the lamp is far away, above the viewer's left shoulder.
 
 use binspace::glam::DVec3;
-use binspace::view::{Camera, Projection};
+use binspace::raster;
+use binspace::view::Camera;
 
-/// A polygon's colour, lit by a lamp above the viewer's left shoulder.
+/// A polygon's colour as it is lit.
 pub(crate) fn shaded(colour: [u8; 3], polygon: &[DVec3], camera: &Camera) -> [u8; 3] {
     let share = brightness(normal_to_viewer(polygon, camera), camera);
     colour.map(|channel| (f64::from(channel) * share).round() as u8)
 }
 
-/// 0.55 + 0.45 · (1 + n·l) / 2, where n is the normal on the side that the viewer sees, and l points to the
-/// lamp (half-Lambert shading).
+/// The brightness of a plane, given the unit normal on the side that the viewer sees. From an eye it is
+/// 0.55 + 0.45 · (1 + n·l) / (1 + m·l), at most 1: n is the normal, l points to the lamp, and m to the viewer, whom a
+/// plane of full brightness faces (half-Lambert shading).
 fn brightness(normal: DVec3, camera: &Camera) -> f64 {
-    let lamp = 0.5 * camera.up() - 0.35 * camera.right() - camera.forward();
-    0.55 + 0.45 * (0.5 + 0.5 * normal.dot(lamp.normalize()))
+    if camera.eye().is_none() {
+        return raster::brightness(normal, camera.forward());
+    }
+    let lamp = (0.5 * camera.up() - 0.35 * camera.right() - camera.forward()).normalize();
+    let share = (1.0 + normal.dot(lamp)) / (1.0 - camera.forward().dot(lamp));
+    0.55 + 0.45 * share.min(1.0)
 }
 
 /// The unit normal of the side of a polygon that the viewer sees.
@@ -25,10 +34,7 @@ fn normal_to_viewer(polygon: &[DVec3], camera: &Camera) -> DVec3 {
     let arms = polygon.iter().map(|&corner| corner - middle);
     let next = arms.clone().cycle().skip(1);
     let normal: DVec3 = arms.zip(next).map(|(arm, next)| arm.cross(next)).sum();
-    let to_viewer = match *camera.projection() {
-        Projection::Perspective { eye, .. } => eye - middle,
-        Projection::Parallel { .. } => -camera.forward(),
-    };
+    let to_viewer = camera.eye().map_or(-camera.forward(), |eye| eye - middle);
     let normal = normal.normalize_or_zero();
     if normal.dot(to_viewer) < 0.0 { -normal } else { normal }
 }
