@@ -332,6 +332,8 @@ const PARTS: usize = 64;
 const STRETCH: usize = 1 << 12;
 /// To sort a list takes, for each of its items, as long as a build takes to examine so many pieces.
 const SORTED: usize = 6;
+/// So many items are sorted between two looks for cancellation.
+const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
@@ -413,14 +415,19 @@ impl Drop for Done<'_, '_> {
     }
 }
 
-/// Sorts a list, stably, unless it was cancelled before.
+/// Sorts a list, stably, unless it is cancelled: parts first, so that little is left to do for the whole.
 pub(super) fn sort_by<T>(
     list: &mut [T],
     watch: &Watch<'_>,
     compare: impl Fn(&T, &T) -> Ordering,
 ) -> Result<(), Error> {
-    watch.work(list.len() * SORTED)?;
-    list.sort_by(compare);
+    for part in list.chunks_mut(SORTED_AT_ONCE) {
+        watch.work(part.len() * SORTED)?;
+        part.sort_by(&compare);
+    }
+    if list.len() > SORTED_AT_ONCE {
+        list.sort_by(compare);
+    }
     Ok(())
 }
 

@@ -30,12 +30,16 @@ pub(super) struct Ordered {
 /// again and again; smaller: more is clipped (and given back one by one).
 const CLIPPED_AT_ONCE: usize = 64;
 
+/// So many pairs are looked at in each component, or so many times all of its pairs, to give nodes back. Too small: more
+/// is clipped; too large: the time of components of many thousand nodes.
+const LOOKED_AT: [usize; 2] = [1 << 22, 32];
+
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
 /// nodes alone.
 ///
-/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
-/// those are given back that close no cycle, so that none is clipped in vain. (To clip as few as
-/// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
+/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides. Then those are given
+/// back that close no cycle, as far as searches for cycles come in a time proportional to that of the pairs. (To
+/// clip as few as possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
 pub(super) fn order(
     nodes: usize,
     pairs: &[Pair],
@@ -102,10 +106,15 @@ pub(super) fn order_by_rank(
 ) -> Result<Ordered, Error> {
     let count = ranks.len();
     let of = |node: u32| &ranks[node as usize];
-    let is_cut = |ranks: &Ranks| ranks.all[0] != ranks.all[1];
-    let around = match ranks.iter().any(is_cut) {
-        true => pairs(&|Pair { below, above }| of(below).is_around(of(above)))?,
-        false => vec![],
+    let cut = ranks.iter().filter(|ranks| ranks.all[0] != ranks.all[1]).count();
+    // The chain tells little then, and leads through nearly all polygons.
+    if 2 * cut > count {
+        let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
+        return order(count, &pairs(&|_| true)?, &firsts, &|_| true, watch);
+    }
+    let around = match cut {
+        0 => vec![],
+        _ => pairs(&|Pair { below, above }| of(below).is_around(of(above)))?,
     };
     // The places where polygons end.
     let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
@@ -227,8 +236,10 @@ impl Graph<'_> {
             self.component[*node? as usize] = nodes[0];
         }
         sort_by(&mut clipped, self.watch, |&a, &b| self.above_count(a).cmp(&self.above_count(b)))?;
+        let pairs: usize = nodes.iter().map(|&node| self.above_count(node) as usize).sum();
+        let mut left = LOOKED_AT[0].max(LOOKED_AT[1] * pairs);
         for node in clipped {
-            if !self.closes_cycle(node, nodes[0])? {
+            if left > 0 && !self.closes_cycle(node, nodes[0], &mut left)? {
                 self.is_clipped[node as usize] = false;
             }
         }
@@ -238,11 +249,19 @@ impl Graph<'_> {
         Ok(())
     }
 
-    fn closes_cycle(&mut self, start: u32, component: u32) -> Result<bool, Error> {
+    /// Whether a node would close a cycle if it were given back; or `left` pairs are not enough to tell.
+    fn closes_cycle(
+        &mut self,
+        start: u32,
+        component: u32,
+        left: &mut usize,
+    ) -> Result<bool, Error> {
         let mut reached = std::mem::take(&mut self.search.reached);
         let (mut stack, mut is_closed) = (vec![start], false);
         while let Some(node) = stack.pop() {
             self.watch.work(VISITED)?;
+            *left = left.saturating_sub(self.above_count(node) as usize);
+            is_closed |= *left == 0;
             for above in each(self.watch, 1, self.above(node)) {
                 let above = above?;
                 if node != start && !self.holds(Pair { below: node, above }) {

@@ -42,7 +42,7 @@ pub(super) struct Growth(f64);
 /// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a cone, or
 /// along a line, as the columns of a terrain do that is seen along its rows: halving would go on and on around it.
 /// Too small: long lists remain; too large: many parts with the same pieces.
-const MOST: f64 = 3.0;
+const MOST: f64 = 4.0;
 
 impl Growth {
     pub(super) const NONE: Self = Self(1.0);
