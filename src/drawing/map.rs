@@ -28,6 +28,11 @@ use crate::tree::BspTree;
 /// if and only if some of it shows, however small; and where two polygons of one plane overlap, the one
 /// shows that the tree's order paints last.
 ///
+/// Edges go through the corners as given, so that nothing shows between neighbours that share an edge, though corners
+/// of polygons that are not quite flat were moved onto a plane, by the tolerance at most: the planes decide what
+/// is in front. (Where the corners as given are no convex polygon in the picture, or more than eight, edges go
+/// through the corners as moved.)
+///
 /// Time is O(n log n) for n fragments in most scenes, and what shows adds to it, not what is hidden;
 /// memory likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the
 /// map is the same, bit for bit.
