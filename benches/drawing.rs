@@ -109,7 +109,7 @@ fn scene(name: &str) -> Option<Scene> {
     let count: u32 = count.parse().expect("a number");
     let round = |height: f64| {
         let mut scene = Scene::new(name.to_owned(), DVec3::Z);
-        fan(count as usize, height).into_iter().for_each(|corners| _ = scene.push(corners, 0));
+        fan(count as usize, height).into_iter().for_each(|corners| scene.push(corners, 0));
         Some(scene)
     };
     match kind {

@@ -28,10 +28,10 @@ use crate::tree::BspTree;
 /// if and only if some of it shows, however small; and where two polygons of one plane overlap, the one
 /// shows that the tree's order paints last.
 ///
-/// Edges go through the corners as given, so that nothing shows between neighbours that share an edge, though corners
-/// of polygons that are not quite flat were moved onto a plane, by the tolerance at most: the planes decide what
-/// is in front. (Where the corners as given are no convex polygon in the picture, or more than eight, edges go
-/// through the corners as moved.)
+/// Polygons that are flat but for rounding have their edges through the corners as given, so that nothing shows
+/// between neighbours that share an edge; the planes onto which corners were moved decide what is in front. Edges
+/// of other polygons that are not quite flat, of those that are not convex as given in the picture, or that have more than
+/// eight corners, go through the corners as moved.
 ///
 /// Time is O(n log n) for n fragments in most scenes, and what shows adds to it, not what is hidden;
 /// memory likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the

@@ -237,11 +237,16 @@ const ROUNDING: f64 = 8.0;
 
 impl Frame<'_> {
     /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in the
-    /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead.
+    /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if
+    /// they were moved by more than [`NEAR_VERTEX`]: the picture would differ from that of the faces as moved, which decide
+    /// what is in front.
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], is_positive: bool) -> bool {
         let Frame { rays, faces } = self;
         let n = given.len();
-        if n > FEW_CORNERS_AS_GIVEN {
+        let is_far = |(given, at): (&[f64; 3], &[f64; 3])| {
+            difference(*given, *at).iter().any(|off| off.abs() > NEAR_VERTEX)
+        };
+        if n > FEW_CORNERS_AS_GIVEN || given.iter().zip(faces.corners(face)).any(is_far) {
             return false;
         }
         let is_front = is_positive == rays.is_perspective();
