@@ -138,7 +138,7 @@ impl Cell {
     /// On which side of a half's line each corner lies. Floats tell it where the line's value at the rounded corner is
     /// larger than its error and what it can change by on the way from there to the corner: the length of the way times
     /// that of the slope.
-    fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
+    pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
             let Corner { at, radius } = side.start;
@@ -154,7 +154,7 @@ impl Cell {
     }
 
     /// The part whose corners have a sign, with a new side along the line.
-    fn part(
+    pub(super) fn part(
         &self,
         lines: &LineTable<'_>,
         half: HalfPlane,

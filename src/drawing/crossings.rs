@@ -14,7 +14,7 @@ use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
 use super::sight::{ProjectedSegment, parts};
 use super::stock::{OutlineCache, Primitives, View};
-use super::tile::{CUT, IN_VAIN, LINES, NARROWED, Tile, VISITED, found_in, in_vain};
+use super::tile::{CUT, Growth, LINES, NARROWED, Tile, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -486,7 +486,7 @@ type Aabb = [[f64; 3]; 2];
 struct Block {
     bounds: Aabb,
     faces: Vec<u32>,
-    in_vain: u32,
+    growth: Growth,
 }
 
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
@@ -507,7 +507,7 @@ pub(super) fn straddling(
             all = around(all, boxes[face as usize]);
         }
     }
-    let all = Block { bounds: all, faces: seen, in_vain: 0 };
+    let all = Block { bounds: all, faces: seen, growth: Growth::NONE };
     let halves = |block: &Block, _: &mut Found| block.halves(&boxes, watch);
     let leaf = |block: &Block, found: &mut Found| {
         for (i, &a) in block.faces.iter().enumerate() {
@@ -544,7 +544,7 @@ impl Faces {
 impl Block {
     /// Both halves, across the longest side; `None` of one that is not halved.
     fn halves(&self, boxes: &[Aabb], watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
-        if self.faces.len() <= FEW || self.in_vain == IN_VAIN {
+        if self.faces.len() <= FEW || self.growth.is_too_much() {
             return Ok(None);
         }
         let [low, high] = self.bounds;
@@ -552,7 +552,7 @@ impl Block {
         let longest = (0..3).max_by(|a, b| length(a).total_cmp(&length(b)));
         let axis = longest.unwrap_or_default();
         let middle = 0.5 * (low[axis] + high[axis]);
-        let part = || Self { bounds: self.bounds, faces: vec![], in_vain: 0 };
+        let part = || Self { bounds: self.bounds, faces: vec![], growth: Growth::NONE };
         let mut parts = [part(), part()];
         parts[0].bounds[1][axis] = middle;
         parts[1].bounds[0][axis] = middle;
@@ -567,7 +567,8 @@ impl Block {
             }
         }
         let counts = parts.each_ref().map(|part| part.faces.len());
-        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.faces.len(), counts);
+        let growth = self.growth.after(self.faces.len(), counts);
+        parts.iter_mut().for_each(|part| part.growth = growth);
         Ok(Some(parts))
     }
 }

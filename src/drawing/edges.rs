@@ -9,8 +9,9 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::crossings::{FaceEdge, InnerEdges};
+use super::leaf::Visible;
 use super::lines::{LineTable, Table};
-use super::map::{VisibilityMap, Visible, each, finish_item, sort_by};
+use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::overlaid::{LineRun, sights};
 use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
 use super::stock::OutlineCache;

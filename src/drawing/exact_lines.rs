@@ -1,5 +1,4 @@
-//! On which side of a line of the picture two others meet, and where: by one float, by pairs of floats, by
-//! integers.
+//! On which side of a line of the picture two others meet, and where: in floats and in integers.
 //!
 //! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels
 //! from the centre of the first one, with k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the
@@ -9,10 +8,6 @@
 //!
 //! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361; the
 //! determinant of three lines has less than 1088.
-//!
-//! Corners of faces that are not quite flat are moved onto their planes, so that edges of neighbours pass
-//! each other by a rounding. One float cannot tell on which side; a pair of floats nearly always can, in a
-//! tenth of the time that integers take.
 
 use std::cmp::Ordering;
 
@@ -30,9 +25,7 @@ impl LineTable<'_> {
         if half.line() == first.line() || half.line() == second.line() || self.share_point(lines) {
             return Ordering::Equal;
         }
-        let side = self
-            .twofold_side(lines)
-            .unwrap_or_else(|| orientation(lines.map(|half| self.exact(half)).each_ref()));
+        let side = orientation(lines.map(|half| self.exact(half)).each_ref());
         let flips = lines.iter().filter(|half| half.is_negative()).count();
         if flips % 2 == 1 { side.reverse() } else { side }
     }
@@ -59,19 +52,6 @@ impl LineTable<'_> {
         let through = lines.map(|half| half.number().map(|line| self.through[line as usize]));
         let [Some(a), Some(b), Some(c)] = through else { return false };
         a.iter().any(|point| *point != NOWHERE && b.contains(point) && c.contains(point))
-    }
-
-    /// The orientation of three lines by pairs of floats, if that is certain. Not if none is an edge of a
-    /// face of which corners were moved: others that floats cannot tell apart go through one point.
-    fn twofold_side(&self, lines: [HalfPlane; 3]) -> Option<Ordering> {
-        let known = lines.map(|half| self.twofold.get(&half.number()?));
-        if known.iter().all(Option::is_none) {
-            return None;
-        }
-        let twofold: [DoubleDouble; 3] = std::array::from_fn(|i| {
-            known[i].copied().unwrap_or_else(|| DoubleDouble::of(&self.exact(lines[i])))
-        });
-        orientation_in_pairs(twofold.each_ref())
     }
 }
 
@@ -289,174 +269,5 @@ impl Rounded {
     #[inline]
     pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
         self.k[0] + (self.k[1] * x + self.k[2] * y)
-    }
-}
-
-/// A number, and what was left when it was rounded (Dekker, “A floating-point technique for extending the
-/// available precision”, 1971).
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Pair(f64, f64);
-
-/// The coefficients of a line, times a power of two that brings the largest to 1 or 2. Each is off by at most
-/// 2⁻¹⁰⁵ of itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DoubleDouble([Pair; 3]);
-
-/// Error bound of the orientation, as a share of the magnitudes of its six terms: a term is a product of
-/// three coefficients by two roundings to pairs, of which each is off by at most 2⁻¹⁰² of the product, and
-/// takes part in three sums. Smaller: a wrong side passes; larger: integers decide what pairs could.
-const ERROR: f64 = 1.0 / (1u128 << 98) as f64;
-/// What is lost where products leave the range of `f64`.
-const LOST: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
-
-impl DoubleDouble {
-    pub(super) fn of(line: &ExactLine) -> Self {
-        let high = line.map(Int::to_f64);
-        let largest = high.iter().fold(0.0f64, |largest, k| largest.max(k.abs()));
-        let exponent = if largest > 0.0 { -exponent_of(largest) } else { 0 };
-        Self(std::array::from_fn(|i| {
-            let low = (line[i] - Int::from_f64(high[i])).to_f64();
-            Pair(scaled(high[i], exponent), scaled(low, exponent))
-        }))
-    }
-
-    /// The same with its signs changed, if `flip`.
-    pub(super) fn flipped(self, flip: bool) -> Self {
-        if flip { Self(self.0.map(|Pair(high, low)| Pair(-high, -low))) } else { self }
-    }
-}
-
-/// On which side of a third line two lines meet, times the sign of the turn from the first to the
-/// second; `None` if that is not certain.
-pub(super) fn orientation_in_pairs([a, b, c]: [&DoubleDouble; 3]) -> Option<Ordering> {
-    let (mut sum, mut size) = (Pair(0.0, 0.0), 0.0);
-    for (i, j, k) in [(1, 2, 0), (2, 0, 1), (0, 1, 2)] {
-        let (left, right) = (a.0[i].times(b.0[j]), a.0[j].times(b.0[i]));
-        size += (left.0.abs() + right.0.abs()) * c.0[k].0.abs();
-        sum = sum.plus(left.plus(Pair(-right.0, -right.1)).times(c.0[k]));
-    }
-    let bound = ERROR * size + LOST;
-    // The higher part has the sign: the lower is at most half a step of it.
-    if sum.0 > bound {
-        Some(Ordering::Greater)
-    } else if sum.0 < -bound {
-        Some(Ordering::Less)
-    } else {
-        None
-    }
-}
-
-impl Pair {
-    #[inline]
-    fn plus(self, other: Self) -> Self {
-        let sum = self.0 + other.0;
-        // What the sum lost, exactly (Knuth).
-        let taken = sum - self.0;
-        let lost = (self.0 - (sum - taken)) + (other.0 - taken);
-        Self::normal(sum, lost + (self.1 + other.1))
-    }
-
-    #[inline]
-    fn times(self, other: Self) -> Self {
-        let product = self.0 * other.0;
-        let ([a, b], [c, d]) = (halves(self.0), halves(other.0));
-        let lost = ((a * c - product) + a * d + b * c) + b * d;
-        Self::normal(product, lost + (self.0 * other.1 + self.1 * other.0))
-    }
-
-    /// A large number and a small one as a pair.
-    #[inline]
-    fn normal(large: f64, small: f64) -> Self {
-        let sum = large + small;
-        Self(sum, small - (sum - large))
-    }
-}
-
-/// A number as the sum of two of half as many digits, whose products are exact (Veltkamp).
-#[inline]
-fn halves(value: f64) -> [f64; 2] {
-    let far = value * ((1u64 << 27) + 1) as f64;
-    let high = far - (far - value);
-    [high, value - high]
-}
-
-#[cfg(test)]
-mod tests;
-
-#[cfg(test)]
-mod twofold_tests {
-
-    use super::*;
-    use crate::random::SplitMix64;
-
-    /// Numbers of some bits, of either sign.
-    fn number(random: &mut SplitMix64, bits: u32) -> i128 {
-        let value = u128::from(random.next()) << 64 | u128::from(random.next());
-        (value as i128) >> (127 - bits)
-    }
-
-    fn line(random: &mut SplitMix64, bits: u32) -> ExactLine {
-        std::array::from_fn(|_| Int::from(number(random, bits)))
-    }
-
-    /// Any line through where two others meet, moved aside by a number of few bits.
-    fn through([a, b]: [&ExactLine; 2], random: &mut SplitMix64, aside: u32) -> ExactLine {
-        let [p, q] = [40, 40].map(|bits| Int::<1>::from(number(random, bits) as i64));
-        let aside = Int::<6>::from(number(random, aside));
-        std::array::from_fn(|i| {
-            let sum: Int<6> = a[i].times::<1, 6>(&p) + b[i].times::<1, 6>(&q);
-            if i == 0 { sum + aside } else { sum }
-        })
-    }
-
-    #[test]
-    fn what_is_certain_is_right_and_most_near_ones_are_certain() {
-        let mut random = SplitMix64::new(5);
-        // By how many bits lines are moved aside that have 120 or more; how many must be certain.
-        for (aside, least) in [(0, 0), (20, 0), (60, 950), (100, 1000)] {
-            let mut certain = 0;
-            for _ in 0..1000 {
-                let [a, b] = [80, 80].map(|bits| line(&mut random, bits));
-                let c = through([&a, &b], &mut random, aside);
-                let lines = [&a, &b, &c];
-                let exact = orientation(lines);
-                let twofold = lines.map(DoubleDouble::of);
-                if let Some(side) = orientation_in_pairs(twofold.each_ref()) {
-                    assert_eq!(side, exact, "{lines:?}");
-                    certain += 1;
-                }
-            }
-            assert!(certain >= least, "{aside} bits: {certain}");
-        }
-    }
-
-    /// Lines through one point are never told apart, however their coefficients differ in size.
-    #[test]
-    fn lines_through_one_point_are_not_certain() {
-        let mut random = SplitMix64::new(6);
-        for bits in [3, 50, 90, 120] {
-            for shift in [0, 100, 200] {
-                let a = line(&mut random, bits).map(|k| k.shifted::<6>(shift));
-                let b = line(&mut random, 90);
-                let sum: ExactLine = std::array::from_fn(|i| a[i] + b[i]);
-                let twofold = [&a, &b, &sum].map(DoubleDouble::of);
-                assert_eq!(orientation_in_pairs(twofold.each_ref()), None, "{bits} {shift}");
-            }
-        }
-    }
-
-    #[test]
-    fn numbers_of_the_whole_range_are_pairs() {
-        let mut random = SplitMix64::new(7);
-        for shift in [0, 30, 120, 230] {
-            let line = line(&mut random, 125).map(|k| k.shifted::<6>(shift));
-            let DoubleDouble(pairs) = DoubleDouble::of(&line);
-            let largest = pairs.iter().fold(0.0f64, |most, pair| most.max(pair.0.abs()));
-            assert!((1.0..2.0 + 1e-9).contains(&largest), "{largest}");
-            for Pair(high, low) in pairs {
-                assert!(low.abs() <= high.abs() * f64::EPSILON / 2.0, "{high} {low}");
-            }
-            assert!(pairs.iter().any(|pair| pair.1 != 0.0));
-        }
     }
 }

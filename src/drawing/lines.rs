@@ -7,7 +7,7 @@ use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use smallvec::SmallVec;
 
-use super::exact_lines::{DoubleDouble, ExactLine, Frame, ROUNDING, Rounded, compare, is_opposite};
+use super::exact_lines::{ExactLine, Frame, ROUNDING, Rounded, compare, is_opposite};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PlaneKind};
 use crate::random::mix;
@@ -30,9 +30,6 @@ pub(super) struct LineTable<'t> {
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NOWHERE`] for none.
     pub(super) through: Vec<[u32; 2]>,
-    /// Edges of faces of which corners were moved, by their numbers: floats often cannot tell on which side
-    /// of them others meet.
-    pub(super) twofold: Table<u32, DoubleDouble>,
     /// The half of each key on which it is positive.
     halves: Table<Key, HalfPlane>,
     /// All lines, by where they are.
@@ -43,8 +40,8 @@ pub(super) struct LineTable<'t> {
     points: Table<[u64; 3], u32>,
     /// The numbers of where corners were moved to.
     moved: Table<u32, u32>,
-    /// A corner of each number.
-    corners: Vec<u32>,
+    /// A corner of each number, and where it is.
+    corners: Vec<(u32, [f64; 3])>,
 }
 
 impl<'t> LineTable<'t> {
@@ -57,7 +54,6 @@ impl<'t> LineTable<'t> {
             keys: vec![],
             rounded: vec![],
             through: vec![],
-            twofold: Table::default(),
             halves: Table::default(),
             feet: LineIndex::default(),
             cuts: Table::default(),
@@ -162,12 +158,13 @@ impl<'t> LineTable<'t> {
         face: u32,
         k: u32,
         is_positive: bool,
+        is_as_given: bool,
     ) -> Result<HalfPlane, Error> {
         let faces = self.frame.faces;
         let range = faces.corner_range(face);
         let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
         let [a, b] = [k, next].map(|k| range.start as u32 + k);
-        let flattened = faces.dominant_axis(face);
+        let flattened = faces.dominant_axis(face).filter(|_| !is_as_given);
         let certain = faces.reference_triangle(face);
         if let Some(axis) = flattened
             && !(certain.contains(&a) && certain.contains(&b))
@@ -178,36 +175,26 @@ impl<'t> LineTable<'t> {
             let mut points = [a, b];
             for point in &mut points {
                 let is_certain = certain.contains(point);
-                *point = if is_certain { self.point(*point) } else { self.moved(*point) };
+                *point = match is_certain {
+                    true => self.point(*point, faces.corner(*point)),
+                    false => self.moved(*point),
+                };
             }
-            let half = self.half(Key::Upright(face, k), points)?;
-            self.keep_twofold(half);
-            return Ok(half.flipped(flip));
+            return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
         }
-        let points = [self.point(a), self.point(b)];
+        let is_moved = faces.dominant_axis(face).is_some();
+        let points = [a, b].map(|corner| match is_moved {
+            true => self.point(corner, faces.given_corner(corner)),
+            false => self.point(corner, faces.corner(corner)),
+        });
         let is_front = is_positive == self.frame.rays.is_perspective();
-        let half = self.edge_between(points)?;
-        if flattened.is_some() {
-            self.keep_twofold(half);
-        }
-        Ok(half.flipped(is_front))
+        Ok(self.edge_between(points)?.flipped(is_front))
     }
 
     /// The half on which the edge from one point to another is positive.
     fn edge_between(&mut self, [a, b]: [u32; 2]) -> Result<HalfPlane, Error> {
         let points = [a.min(b), a.max(b)];
         Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
-    }
-
-    /// Keeps a line in pairs of floats, if it is not kept yet.
-    fn keep_twofold(&mut self, half: HalfPlane) {
-        match half.number() {
-            Some(line) if !self.twofold.contains_key(&line) => {
-                let twofold = DoubleDouble::of(&self.exact_of(self.key(line)));
-                insert(&mut self.twofold, line, twofold);
-            }
-            _ => {}
-        }
     }
 
     /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front; by
@@ -255,18 +242,18 @@ impl<'t> LineTable<'t> {
         let start = faces.corner_range(face).start as u32;
         let on = (start..).zip(own).filter(|(_, corner)| is_on(corner));
         for (place, (corner, _)) in found.iter_mut().zip(on) {
-            *place = self.point(corner);
+            *place = self.point(corner, faces.corner(corner));
         }
         found
     }
 
-    fn point(&mut self, corner: u32) -> u32 {
-        let place = self.frame.faces.corner(corner).map(|c| (c + 0.0).to_bits());
+    fn point(&mut self, corner: u32, at: [f64; 3]) -> u32 {
+        let place = at.map(|c| (c + 0.0).to_bits());
         if let Some(&number) = self.points.get(&place) {
             return number;
         }
         let number = self.corners.len() as u32;
-        self.corners.push(corner);
+        self.corners.push((corner, at));
         self.points.insert(place, number);
         number
     }
@@ -278,7 +265,7 @@ impl<'t> LineTable<'t> {
             return number;
         }
         let number = self.corners.len() as u32;
-        self.corners.push(corner);
+        self.corners.push((corner, self.frame.faces.corner(corner)));
         self.moved.insert(corner, number);
         number
     }
@@ -361,10 +348,10 @@ impl LineTable<'_> {
     fn adopted_line(&mut self, other: &Self, line: u32) -> Result<HalfPlane, Error> {
         let mut points = other.through[line as usize];
         for point in points.iter_mut().filter(|point| **point != NOWHERE) {
-            let corner = other.corners[*point as usize];
+            let (corner, at) = other.corners[*point as usize];
             *point = match other.moved.get(&corner) == Some(point) {
                 true => self.moved(corner),
-                false => self.point(corner),
+                false => self.point(corner, at),
             };
         }
         // Edges are positive by the order of their points, and the other list may number these the other way.
@@ -376,18 +363,10 @@ impl LineTable<'_> {
             Key::Edge(_) => (Key::Edge(points), false),
             key => (key, false),
         };
-        let count = self.keys.len();
         let own = match self.halves.get(&key) {
             Some(&own) => own,
             None => self.new_half(key, other.rounded[line as usize].flipped(flip), points)?,
         };
-        match other.twofold.get(&line) {
-            Some(twofold) if count < self.keys.len() => {
-                self.twofold.insert(count as u32, twofold.flipped(flip));
-            }
-            Some(_) => self.keep_twofold(own),
-            None => {}
-        }
         Ok(own.flipped(flip))
     }
 
@@ -454,11 +433,16 @@ pub(super) enum Key {
 
 impl Key {
     /// The line in floats, in a picture that reaches so far. Points have the numbers of these corners.
-    pub(super) fn rounded(self, frame: &Frame<'_>, corners: &[u32], reach: [f64; 2]) -> Rounded {
+    pub(super) fn rounded(
+        self,
+        frame: &Frame<'_>,
+        corners: &[(u32, [f64; 3])],
+        reach: [f64; 2],
+    ) -> Rounded {
         let Frame { rays, faces } = frame;
         let sheet = |plane| Sheet::new(rays, faces, plane);
         let (k, error) = match self {
-            Self::Edge(points) => return rounded_edge(frame, ends(frame, corners, points), reach),
+            Self::Edge(points) => return rounded_edge(frame, ends(corners, points), reach),
             Self::Upright(face, k) => {
                 let ([a, b], axis) = upright(frame, face, k);
                 sheet(PlaneId::face(face)).cut(&Sheet::upright(rays, a, b, axis))
@@ -472,9 +456,9 @@ impl Key {
     }
 
     /// The line in integers.
-    pub(super) fn exact(self, frame: &Frame<'_>, corners: &[u32]) -> ExactLine {
+    pub(super) fn exact(self, frame: &Frame<'_>, corners: &[(u32, [f64; 3])]) -> ExactLine {
         match self {
-            Self::Edge(points) => frame.edge(ends(frame, corners, points)),
+            Self::Edge(points) => frame.edge(ends(corners, points)),
             Self::Upright(face, k) => {
                 let (ends, axis) = upright(frame, face, k);
                 frame.sheet(PlaneId::face(face)).cut(&frame.upright(ends, axis))
@@ -492,8 +476,8 @@ pub(super) fn rounded_edge(frame: &Frame<'_>, ends: [[f64; 3]; 2], reach: [f64; 
 }
 
 /// The ends of an edge.
-fn ends(frame: &Frame<'_>, corners: &[u32], points: [u32; 2]) -> [[f64; 3]; 2] {
-    points.map(|point| frame.faces.corner(corners[point as usize]))
+fn ends(corners: &[(u32, [f64; 3])], points: [u32; 2]) -> [[f64; 3]; 2] {
+    points.map(|point| corners[point as usize].1)
 }
 
 /// The ends of a face's edge `k`, and the axis along which they were moved onto the face's plane.
@@ -506,12 +490,6 @@ fn upright(frame: &Frame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
 
 /// A table whose keys are made of numbers. Nothing depends on the order of its entries.
 pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
-
-/// Adds an entry.
-pub(super) fn insert<K: Eq + Hash, V>(table: &mut Table<K, V>, key: K, value: V) {
-    table.reserve(1);
-    table.insert(key, value);
-}
 
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -10,10 +10,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::ControlFlow;
 
-use super::cell::{Cell, Rect, Side, are_apart};
+use super::cell::{Cell, Side};
+use super::leaf::{Leaf, SHORT, Visible};
 use super::lines::Adopted;
-use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
-use super::tile::{CUT, IN_VAIN, LINES, List, Tile, found_in, in_vain};
+use super::stock::{OutlineCache, Primitives};
+use super::tile::{CUT, Growth, LINES, List, Tile, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -26,6 +27,11 @@ use crate::tree::BspTree;
 /// integers, and a corner is where two of them meet, never a rounded point. So a polygon is in the map
 /// if and only if some of it shows, however small; and where two polygons of one plane overlap, the one
 /// shows that the tree's order paints last.
+///
+/// Polygons that are flat but for rounding have their edges through the corners as given, so that nothing shows
+/// between neighbours that share an edge; the planes onto which corners were moved decide what is in front. Edges
+/// of other polygons that are not quite flat, of those that are not convex as given in the picture, or that have more than
+/// eight corners, go through the corners as moved.
 ///
 /// Time is O(n log n) for n fragments in most scenes, and what shows adds to it, not what is hidden;
 /// memory likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the
@@ -242,51 +248,18 @@ impl MapCell<'_> {
     }
 }
 
-/// A part of what is visible: all of it in the picture, with nothing opaque before it. Where all items
-/// are opaque, none of it is shown by another.
-#[derive(Clone, Debug)]
-pub(super) struct Visible {
-    pub(super) item: u32,
-    pub(super) cell: Cell,
-}
-
-/// A tile that was not halved, and what is visible in it.
-#[derive(Debug)]
-pub(super) struct Leaf {
-    pub(super) tile: Tile,
-    pub(super) cells: Vec<Visible>,
-}
-
-/// Tiles with longer lists are halved. Smaller: more tiles, and more cells cut by their borders (16:
-/// half as much again for all of a drawing of a scan); larger: more cells compared with more items,
-/// though 128 would win another 2 to 4 %.
-const SHORT: usize = 64;
-
 /// A tile with the pieces that may show in it.
 #[derive(Debug)]
 struct TileList {
     tile: Tile,
     list: List,
-    /// How often it was halved in vain: both parts had nearly all items.
-    in_vain: u32,
+    growth: Growth,
 }
 
 /// What a thread finds in its part of the picture, with the lines that it needed.
 struct Found<'t> {
     rims: OutlineCache<'t>,
     leaves: Vec<Leaf>,
-}
-
-/// A part of a tile where nothing shows so far.
-struct Open {
-    cell: Cell,
-    around: Rect,
-}
-
-impl Open {
-    fn new(cell: Cell) -> Self {
-        Self { around: cell.around(), cell }
-    }
 }
 
 /// What is visible of all items, in the order of the tiles, by lines that are made for it: two phases.
@@ -302,13 +275,13 @@ pub(super) fn visible<'t>(
         if part.list.items.is_empty() {
             return Ok(());
         }
-        let leaf = part.leaf(stock, &mut found.rims, watch)?;
-        found.leaves.push(leaf);
+        let TileList { tile, list, .. } = part;
+        found.leaves.push(Leaf::new(*tile, &list.items, stock, &mut found.rims, watch)?);
         Ok(())
     };
     let mut rims = OutlineCache::new(stock);
     let list = List::of_all(stock, &mut rims, picture, watch)?;
-    let all = TileList { tile: picture, list, in_vain: 0 };
+    let all = TileList { tile: picture, list, growth: Growth::NONE };
     let mut leaves = Vec::new();
     let shares = found_in(all, new, halves, leaf, watch)?;
     let count = shares.len();
@@ -343,76 +316,17 @@ impl TileList {
         let first = self.list.narrowed(stock, rims, tiles[0], watch)?;
         let second = self.list.narrowed(stock, rims, tiles[1], watch)?;
         let counts = [&first, &second].map(|list| list.items.len());
-        let in_vain = in_vain(self.in_vain, self.list.items.len(), counts);
+        let growth = self.growth.after(self.list.items.len(), counts);
         Ok(Some([
-            Self { tile: tiles[0], list: first, in_vain: in_vain[0] },
-            Self { tile: tiles[1], list: second, in_vain: in_vain[1] },
+            Self { tile: tiles[0], list: first, growth },
+            Self { tile: tiles[1], list: second, growth },
         ]))
     }
 
     /// Whether the tile need not be halved.
     fn is_leaf(&self) -> bool {
         let items = &self.list.items;
-        items.len() <= SHORT || self.in_vain == IN_VAIN || self.tile.is_tiny()
-    }
-
-    /// Takes what each piece shows from what is left open of the tile.
-    fn leaf<'t>(
-        &self,
-        stock: &Primitives<'t>,
-        rims: &mut OutlineCache<'t>,
-        watch: &Watch<'_>,
-    ) -> Result<Leaf, Error> {
-        let Self { tile, list, .. } = self;
-        let sides = tile.sides();
-        let mut open = vec![Open::new(Cell::rectangle(&rims.lines, tile.low, tile.high))];
-        let (mut left, mut outside) = (Vec::new(), Vec::new());
-        let mut cells = Vec::new();
-        for &item in &list.items {
-            if open.is_empty() {
-                break;
-            }
-            watch.work(open.len() * CUT)?;
-            let of_item = &stock.items[item as usize].around;
-            // Where nothing of the piece is, there is no need for its lines.
-            if open.iter().all(|open| are_apart(&open.around, of_item)) {
-                continue;
-            }
-            let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
-            // Of others it is counted above.
-            if halves.len() > FEW_CORNERS {
-                watch.work(open.len() * halves.len())?;
-            }
-            let (lines, is_opaque) = (&rims.lines, stock.is_opaque(item));
-            let mut i = 0;
-            while let Some(Open { cell, around }) = open.get(i) {
-                let shown = match are_apart(around, of_item) {
-                    true => None,
-                    false => {
-                        cell.within(lines, &halves, is_opaque.then_some(&mut outside), watch)?
-                    }
-                };
-                match shown {
-                    Some(cell) if !is_opaque => {
-                        cells.push(Visible { item, cell });
-                        i += 1;
-                    }
-                    Some(cell) => {
-                        cells.push(Visible { item, cell });
-                        open.swap_remove(i);
-                        left.reserve(outside.len());
-                        left.append(&mut outside);
-                    }
-                    None => {
-                        outside.clear();
-                        i += 1;
-                    }
-                }
-            }
-            open.reserve(left.len());
-            open.extend(left.drain(..).map(Open::new));
-        }
-        Ok(Leaf { tile: *tile, cells })
+        items.len() <= SHORT || self.growth.is_too_much() || self.tile.is_tiny()
     }
 }
 
@@ -423,6 +337,8 @@ const PARTS: usize = 64;
 const STRETCH: usize = 1 << 12;
 /// To sort a list takes, for each of its items, as long as a build takes to examine so many pieces.
 const SORTED: usize = 6;
+/// So many items are sorted between two looks for cancellation.
+const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
@@ -504,14 +420,19 @@ impl Drop for Done<'_, '_> {
     }
 }
 
-/// Sorts a list, stably, unless it was cancelled before.
+/// Sorts a list, stably, unless it is cancelled: parts first, so that little is left to do for the whole.
 pub(super) fn sort_by<T>(
     list: &mut [T],
     watch: &Watch<'_>,
     compare: impl Fn(&T, &T) -> Ordering,
 ) -> Result<(), Error> {
-    watch.work(list.len() * SORTED)?;
-    list.sort_by(compare);
+    for part in list.chunks_mut(SORTED_AT_ONCE) {
+        watch.work(part.len() * SORTED)?;
+        part.sort_by(&compare);
+    }
+    if list.len() > SORTED_AT_ONCE {
+        list.sort_by(compare);
+    }
     Ok(())
 }
 

@@ -47,6 +47,7 @@ mod crossings;
 mod edges;
 mod exact_lines;
 mod join;
+mod leaf;
 mod lines;
 mod map;
 mod order;

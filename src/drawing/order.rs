@@ -9,8 +9,9 @@ use std::collections::{BinaryHeap, HashSet};
 use std::hash::BuildHasherDefault;
 
 use super::cell::{NOWHERE, Rect, are_apart};
+use super::leaf::{Leaf, Visible};
 use super::lines::{LineTable, Mixer};
-use super::map::{Leaf, Visible, each, sort_by, sort_unique};
+use super::map::{each, sort_by, sort_unique};
 use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
@@ -29,12 +30,16 @@ pub(super) struct Ordered {
 /// again and again; smaller: more is clipped (and given back one by one).
 const CLIPPED_AT_ONCE: usize = 64;
 
+/// So many pairs are looked at in each component, or so many times all of its pairs, to give nodes back. Too small: more
+/// is clipped; too large: the time of components of many thousand nodes.
+const LOOKED_AT: [usize; 2] = [1 << 22, 32];
+
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
 /// nodes alone.
 ///
-/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides, and then
-/// those are given back that close no cycle, so that none is clipped in vain. (To clip as few as
-/// possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
+/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides. Then those are given
+/// back that close no cycle, as far as searches for cycles come in a time proportional to that of the pairs. (To
+/// clip as few as possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
 pub(super) fn order(
     nodes: usize,
     pairs: &[Pair],
@@ -60,6 +65,106 @@ pub(super) fn cycles(
     graph.components(&all)?;
     let number = |&component: &u32| (component != NONE).then_some(component);
     Ok(graph.component.iter().map(number).collect())
+}
+
+/// Where the pieces of a polygon that shows are in the tree's order, back to front: the first and the last one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ranks {
+    /// Of all pieces.
+    pub(super) all: [u32; 2],
+    /// Of those that show.
+    pub(super) shown: [u32; 2],
+}
+
+impl Ranks {
+    /// Whether all pieces of a polygon come before what shows of another.
+    const fn is_before(&self, above: &Self) -> bool {
+        self.all[1] < above.shown[0]
+    }
+
+    /// Whether some come before what shows of another, and some after.
+    const fn is_around(&self, above: &Self) -> bool {
+        self.all[0] < above.shown[1] && !self.is_before(above)
+    }
+}
+
+/// An order of opaque polygons by the places of their pieces in the tree's order. `pairs` finds those pairs that
+/// are wanted.
+///
+/// Where `below` has to be drawn before `above`, a piece of it is behind one that shows. So either all of its
+/// pieces are (`is_before`), or it has pieces on both sides (`is_around`). Pairs of the first kind need not be
+/// found: all of them are asked for, though most do not overlap, by a chain of nodes for the places
+/// in the tree's order, which are no polygons. That alone has no cycle, as along it the last piece moves on. Pairs
+/// of the second kind are found; only polygons in several pieces have some.
+///
+/// An order of the strongly connected components of both kinds together keeps all pairs between components. Within one, the
+/// chain may ask for what no picture needs: there all pairs are found instead.
+pub(super) fn order_by_rank(
+    ranks: &[Ranks],
+    mut pairs: impl FnMut(&(dyn Fn(Pair) -> bool + Sync)) -> Result<Vec<Pair>, Error>,
+    watch: &Watch<'_>,
+) -> Result<Ordered, Error> {
+    let count = ranks.len();
+    let of = |node: u32| &ranks[node as usize];
+    let cut = ranks.iter().filter(|ranks| ranks.all[0] != ranks.all[1]).count();
+    // The chain tells little then, and leads through nearly all polygons.
+    if 2 * cut > count {
+        let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
+        return order(count, &pairs(&|_| true)?, &firsts, &|_| true, watch);
+    }
+    let around = match cut {
+        0 => vec![],
+        _ => pairs(&|Pair { below, above }| of(below).is_around(of(above)))?,
+    };
+    // The places where polygons end.
+    let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
+    sort_unique(&mut ends, watch)?;
+    let place = |end: usize| (count + end) as u32;
+    let mut all = around.clone();
+    for ranked in each(watch, VISITED, (0..).zip(ranks)) {
+        let (node, ranks) = ranked?;
+        let end = ends.partition_point(|&end| end < ranks.all[1]);
+        all.push(Pair { below: node, above: place(end) });
+        let before = ends.partition_point(|&end| end < ranks.shown[0]);
+        all.extend(before.checked_sub(1).map(|end| Pair { below: place(end), above: node }));
+    }
+    all.extend((1..ends.len()).map(|end| Pair { below: place(end - 1), above: place(end) }));
+    sort_unique(&mut all, watch)?;
+    let of_nodes: Vec<u32> =
+        ranks.iter().map(|ranks| ranks.shown[0]).chain(ends.iter().copied()).collect();
+    let component = cycles(of_nodes.len(), &all, watch)?;
+    let component = |node: u32| component[node as usize];
+    let group = |node: u32| component(node).unwrap_or(node);
+    let mut between = Vec::with_capacity(all.len());
+    for pair in each(watch, 1, &all) {
+        let pair = pair?.map(group);
+        if pair.below != pair.above {
+            between.push(pair);
+        }
+    }
+    sort_unique(&mut between, watch)?;
+    let outer = order(of_nodes.len(), &between, &of_nodes, &|_| true, watch)?.order;
+    if (0..count as u32).all(|node| component(node).is_none()) {
+        let order = outer.into_iter().filter(|&node| (node as usize) < count).collect();
+        return Ok(Ordered { order, is_clipped: vec![false; count] });
+    }
+    let is_within = |&Pair { below, above }: &Pair| {
+        component(below).is_some() && component(below) == component(above)
+    };
+    let mut within = pairs(&|pair| is_within(&pair) && of(pair.below).is_before(of(pair.above)))?;
+    within.extend(around.into_iter().filter(is_within));
+    sort_unique(&mut within, watch)?;
+    let Ordered { mut order, is_clipped } =
+        order(count, &within, &of_nodes[..count], &|_| true, watch)?;
+    let mut places: Vec<u32> = vec![0; of_nodes.len()];
+    for placed in each(watch, 1, (0..).zip(&outer)) {
+        let (place, &group) = placed?;
+        places[group as usize] = place;
+    }
+    // Stable: within a component, the order of its own pairs.
+    let place = |node: u32| places[group(node) as usize];
+    sort_by(&mut order, watch, |&a, &b| place(a).cmp(&place(b)))?;
+    Ok(Ordered { order, is_clipped })
 }
 
 impl Graph<'_> {
@@ -131,8 +236,10 @@ impl Graph<'_> {
             self.component[*node? as usize] = nodes[0];
         }
         sort_by(&mut clipped, self.watch, |&a, &b| self.above_count(a).cmp(&self.above_count(b)))?;
+        let pairs: usize = nodes.iter().map(|&node| self.above_count(node) as usize).sum();
+        let mut left = LOOKED_AT[0].max(LOOKED_AT[1] * pairs);
         for node in clipped {
-            if !self.closes_cycle(node, nodes[0])? {
+            if left > 0 && !self.closes_cycle(node, nodes[0], &mut left)? {
                 self.is_clipped[node as usize] = false;
             }
         }
@@ -142,11 +249,19 @@ impl Graph<'_> {
         Ok(())
     }
 
-    fn closes_cycle(&mut self, start: u32, component: u32) -> Result<bool, Error> {
+    /// Whether a node would close a cycle if it were given back; or `left` pairs are not enough to tell.
+    fn closes_cycle(
+        &mut self,
+        start: u32,
+        component: u32,
+        left: &mut usize,
+    ) -> Result<bool, Error> {
         let mut reached = std::mem::take(&mut self.search.reached);
         let (mut stack, mut is_closed) = (vec![start], false);
         while let Some(node) = stack.pop() {
             self.watch.work(VISITED)?;
+            *left = left.saturating_sub(self.above_count(node) as usize);
+            is_closed |= *left == 0;
             for above in each(self.watch, 1, self.above(node)) {
                 let above = above?;
                 if node != start && !self.holds(Pair { below: node, above }) {
@@ -368,13 +483,14 @@ struct LeafReaches<'l> {
     translucent: Reaches,
 }
 
-/// All pairs, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does not show; in
-/// pairs, opaque polygons have that, translucent items their own.
+/// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
+/// not show; in pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
     stock: &Primitives<'_>,
     rims: &OutlineCache<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
+    is_wanted: &(dyn Fn(Pair) -> bool + Sync),
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
@@ -395,8 +511,9 @@ pub(super) fn pairs<'l>(
         }
     }
     let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, &rims.lines, watch);
-    let leaf =
-        |part: &LeafReaches<'l>, found: &mut Found| part.leaf(stock, rims, place, found, watch);
+    let leaf = |part: &LeafReaches<'l>, found: &mut Found| {
+        part.leaf(stock, rims, place, is_wanted, found, watch)
+    };
     let all = LeafReaches { leaves, reaches, translucent };
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
@@ -430,6 +547,7 @@ impl<'l> LeafReaches<'l> {
         stock: &Primitives<'_>,
         rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
+        is_wanted: &(dyn Fn(Pair) -> bool + Sync),
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
@@ -461,13 +579,14 @@ impl<'l> LeafReaches<'l> {
             }
             let above = place(stock.face(*item));
             let around = cell.around();
-            for reach in each(watch, CUT, &below) {
+            for reach in each(watch, VISITED, &below) {
                 let reach = reach?;
                 let pair = Pair { below: place(reach.number), above };
                 let is_apart = are_apart(&around, &stock.views[reach.number as usize].around);
-                if is_apart || pair.below == above || found.contains(&pair) {
+                if is_apart || pair.below == above || !is_wanted(pair) || found.contains(&pair) {
                     continue;
                 }
+                watch.work(CUT)?;
                 if cell.meets(&rims.lines, reaches.halves_of(reach), watch)? {
                     add(found, pair);
                 }

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::cell::are_apart;
 use super::edges::SHORTEST;
+use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
-use super::map::{Leaf, VisibilityMap, Visible, each, sort_by};
+use super::map::{VisibilityMap, each, sort_by};
 use super::order::{Found, Pair, add, around};
 use super::sight::{Pass, Passes, Passing, Pieces, ProjectedSegment, Spot, kept, parts, passes};
 use super::stock::{OutlineCache, Primitives};

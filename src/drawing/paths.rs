@@ -9,9 +9,10 @@ use std::ops::Range;
 
 use super::cell::{Cell, Corner, Side};
 use super::exact_lines::{ROUNDING, Rounded};
+use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable};
-use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
-use super::order::{Ordered, order, pairs};
+use super::map::{VisibilityMap, each, finish_item, sort_by};
+use super::order::{Ordered, Pair, Ranks, order_by_rank, pairs};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
 use super::stock::Primitives;
 use super::tile::{CUT, Tile, VISITED};
@@ -400,9 +401,10 @@ impl VisibilityMap<'_> {
         let size = self.size();
         let shown = Nodes::of(stock, leaves, watch)?;
         let place = |face: u32| shown.places[face as usize];
-        let pairs = pairs(stock, rims, leaves, &place, watch)?;
-        let Ordered { order, is_clipped } =
-            order(shown.polygons.len(), &pairs, &shown.ranks, &|_| true, watch)?;
+        let pairs = |is_wanted: &(dyn Fn(Pair) -> bool + Sync)| {
+            pairs(stock, rims, leaves, &place, is_wanted, watch)
+        };
+        let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
         let cells = shown.cells(stock, leaves, &is_clipped, watch)?;
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
         let count = shares.len();
@@ -444,29 +446,37 @@ struct Nodes {
     places: Vec<u32>,
     /// The faces of each polygon that the camera sees, whether they show or not.
     faces: Vec<Vec<u32>>,
-    /// How many items lie behind the polygon.
-    ranks: Vec<u32>,
+    ranks: Vec<Ranks>,
 }
 
 impl Nodes {
     fn of(stock: &Primitives<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
         let faces = stock.frame.faces;
-        let most = stock.polygons_end(watch)?;
-        let mut last: Vec<Option<u32>> = ((0..most).map(|_| None)).collect();
+        let none = Ranks { all: [u32::MAX, 0], shown: [u32::MAX, 0] };
+        let mut ranks = vec![none; stock.polygons_end(watch)?];
+        let rank = |item: u32| stock.items.len() as u32 - item;
+        let extend = |[first, last]: [u32; 2], rank: u32| [first.min(rank), last.max(rank)];
+        for item in each(watch, 1, 0..stock.items.len() as u32) {
+            let item = item?;
+            let Ranks { all, .. } = &mut ranks[stock.polygon(item)];
+            *all = extend(*all, rank(item));
+        }
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let item = visible?.item;
-            let last = &mut last[stock.polygon(item)];
-            *last = (*last).max(Some(item));
+            let Ranks { shown, .. } = &mut ranks[stock.polygon(item)];
+            *shown = extend(*shown, rank(item));
         }
         let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
-        let mut numbers: Vec<u32> = ((0..most).map(|_| u32::MAX)).collect();
-        for named in each(watch, 1, last.iter().enumerate()) {
-            let (polygon, last) = named?;
-            let Some(last) = last else { continue };
+        let mut numbers: Vec<u32> = vec![u32::MAX; ranks.len()];
+        for named in each(watch, 1, ranks.iter().enumerate()) {
+            let (polygon, ranks) = named?;
+            if ranks.shown[1] == 0 {
+                continue;
+            }
             numbers[polygon] = shown.polygons.len() as u32;
             shown.polygons.push(polygon);
             shown.faces.push(vec![]);
-            shown.ranks.push(stock.items.len() as u32 - last);
+            shown.ranks.push(*ranks);
         }
         for face in each(watch, 1, 0..faces.len() as u32) {
             let face = face?;

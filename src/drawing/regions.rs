@@ -3,8 +3,9 @@
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
+use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable, Table};
-use super::map::{Leaf, VisibilityMap, Visible, each, finish_item, sort_by};
+use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
 use super::stock::Primitives;
 use super::tile::{CUT, VISITED};

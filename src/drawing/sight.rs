@@ -9,7 +9,7 @@ use super::edges::SHORTEST;
 use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
 use super::lines::LineTable;
 use super::map::each;
-use super::tile::{CUT, IN_VAIN, NARROWED, Reaches, Tile, found_in, in_vain};
+use super::tile::{CUT, Growth, NARROWED, Reaches, Tile, found_in};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
@@ -419,7 +419,7 @@ struct TilePasses {
     reaches: Reaches,
     sights: Vec<u32>,
     spots: Vec<u32>,
-    in_vain: u32,
+    growth: Growth,
 }
 
 /// All passes that are wanted, by whether the piece is in front: a phase.
@@ -433,7 +433,7 @@ pub(super) fn passes(
     let reaches = std::mem::take(&mut pieces.reaches);
     let sights: Vec<_> = (0..passing.sights.len() as u32).collect();
     let spots: Vec<_> = (0..passing.spots.len() as u32).collect();
-    let all = TilePasses { tile, reaches, sights, spots, in_vain: 0 };
+    let all = TilePasses { tile, reaches, sights, spots, growth: Growth::NONE };
     let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
     let leaf = |part: &TilePasses, found: &mut Passes| {
         part.leaf(&pieces, passing, &is_wanted, found, watch)
@@ -457,7 +457,7 @@ impl TilePasses {
 
     fn is_leaf(&self) -> bool {
         let is_done = self.sights.is_empty() && self.spots.is_empty() || self.open() <= FEW;
-        is_done || self.in_vain == IN_VAIN || self.tile.is_tiny()
+        is_done || self.growth.is_too_much() || self.tile.is_tiny()
     }
 
     /// Both halves of the tile; `None` of a leaf.
@@ -474,7 +474,8 @@ impl TilePasses {
         let narrowed = |tile| self.narrowed(pieces, passing, tile, watch);
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let counts = [parts[0].open(), parts[1].open()];
-        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, self.open(), counts);
+        let growth = self.growth.after(self.open(), counts);
+        parts.iter_mut().for_each(|part| part.growth = growth);
         Ok(Some(parts))
     }
 
@@ -491,7 +492,7 @@ impl TilePasses {
         let sights = kept(&self.sights, may_meet, watch)?;
         let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].around());
         let spots = kept(&self.spots, is_near, watch)?;
-        Ok(Self { tile, reaches, sights, spots, in_vain: 0 })
+        Ok(Self { tile, reaches, sights, spots, growth: Growth::NONE })
     }
 
     /// Adds the passes in the tile.

@@ -12,7 +12,7 @@ use crate::exact::{Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use crate::memory::place;
 use crate::parallel_map;
 use crate::progress::Watch;
-use crate::raster::{Rays, Sheet, VERTEX_ERROR, normal_of};
+use crate::raster::{RayOrigin, Rays, Sheet, VERTEX_ERROR, normal_of};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
@@ -34,6 +34,8 @@ pub(super) struct View {
     pub(super) is_positive: bool,
     /// Whether it hides what is behind it.
     pub(super) is_opaque: bool,
+    /// Whether its edges in the picture go through its corners as given.
+    pub(super) is_as_given: bool,
     /// The last of its items, if it has some.
     pub(super) last: u32,
 }
@@ -54,6 +56,9 @@ pub(super) struct Primitives<'t> {
 const SHARE: usize = 1024;
 /// Faces and cells of more corners count as that much work.
 pub(super) const FEW_CORNERS: usize = 32;
+/// Edges of faces of more corners, of which some were moved, do not go through the corners as given: to find out whether
+/// they may, takes time that grows with the square of their number.
+const FEW_CORNERS_AS_GIVEN: usize = 8;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
@@ -99,7 +104,8 @@ impl<'t> Primitives<'t> {
             return None;
         }
         let item = |around| Item { face, fragment: fragment.index(), around };
-        if fragment.is_whole() {
+        // Where corners were moved, what the edges in the picture bound may reach beyond the fragment.
+        if fragment.is_whole() || self.frame.faces.dominant_axis(face).is_some() {
             return Some(item(around));
         }
         self.around(&self.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
@@ -115,12 +121,24 @@ impl<'t> Primitives<'t> {
 
     fn view(&self, face: u32) -> View {
         let Frame { rays, faces } = &self.frame;
-        let unseen = View { around: NOWHERE, is_positive: false, is_opaque: false, last: 0 };
+        let unseen = View {
+            around: NOWHERE,
+            is_positive: false,
+            is_opaque: false,
+            is_as_given: false,
+            last: 0,
+        };
         let opacity = self.opacity(face);
         if opacity == 0.0 {
             return unseen;
         }
-        let Some(around) = self.around(faces.corners(face), VERTEX_ERROR) else {
+        let moved = match faces.dominant_axis(face) {
+            Some(_) => faces.given_corners(face),
+            None => SmallVec::new(),
+        };
+        let corners: SmallVec<[[f64; 3]; 8]> =
+            faces.corners(face).iter().chain(&moved).copied().collect();
+        let Some(around) = self.around(&corners, VERTEX_ERROR) else {
             return unseen;
         };
         let plane = PlaneId::face(face);
@@ -130,7 +148,8 @@ impl<'t> Primitives<'t> {
         if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
             return unseen;
         }
-        View { around, is_positive, is_opaque: opacity == 1.0, last: 0 }
+        let is_as_given = self.frame.is_convex_as_given(face, &moved, is_positive);
+        View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, last: 0 }
     }
 
     /// Whether the picture may show some of a face.
@@ -217,6 +236,39 @@ pub(super) const NEAR_VERTEX: f64 = (1u64 << 20) as f64;
 const ROUNDING: f64 = 8.0;
 
 impl Frame<'_> {
+    /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in the
+    /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if
+    /// they were moved by more than [`NEAR_VERTEX`]: the picture would differ from that of the faces as moved, which decide
+    /// what is in front.
+    fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], is_positive: bool) -> bool {
+        let Frame { rays, faces } = self;
+        let n = given.len();
+        let is_far = |(given, at): (&[f64; 3], &[f64; 3])| {
+            difference(*given, *at).iter().any(|off| off.abs() > NEAR_VERTEX)
+        };
+        if n > FEW_CORNERS_AS_GIVEN || given.iter().zip(faces.corners(face)).any(is_far) {
+            return false;
+        }
+        let is_front = is_positive == rays.is_perspective();
+        let from_eye = |point: [f64; 3]| match rays.pencil {
+            RayOrigin::From { .. } => rays.origin_from(point).map(|c| -c),
+            RayOrigin::Along { direction } => direction.map(|c| c as f64),
+        };
+        let is_certain =
+            |(normal, size): ([f64; 3], [f64; 3]), ray: [f64; 3], is_negative: bool| {
+                let value = if is_negative { -sum(normal, ray) } else { sum(normal, ray) };
+                value > 8.0 * f64::EPSILON * sum(size, ray.map(f64::abs))
+            };
+        let at = |k: usize| given[if k < n { k } else { k - n }];
+        (0..n).all(|k| {
+            let (a, ray) = (at(k), from_eye(at(k)));
+            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, is_front))
+        }) && (!rays.is_perspective() || {
+            let normal = normal_of(faces.triangle(face));
+            given.iter().all(|&corner| is_certain(normal, from_eye(corner), is_positive))
+        })
+    }
+
     /// The vertices of a fragment, each to within [`NEAR_VERTEX`]: by floats where they can tell, else by integers.
     pub(super) fn near_vertices(&self, fragment: &Fragment<'_>) -> SmallVec<[[f64; 3]; 8]> {
         let (faces, face) = (self.faces, fragment.face());
@@ -444,10 +496,10 @@ impl<'t> OutlineCache<'t> {
             return Ok(ends);
         }
         let Self { lines, halves, .. } = self;
-        let View { is_positive, .. } = stock.views[face as usize];
+        let View { is_positive, is_as_given, .. } = stock.views[face as usize];
         let start = place(halves.len())?;
         for k in 0..stock.frame.faces.corners(face).len() as u32 {
-            halves.push(lines.edge(face, k, is_positive)?);
+            halves.push(lines.edge(face, k, is_positive, is_as_given)?);
         }
         let ends = [start, place(halves.len())?];
         self.of_faces.insert(face, ends);

@@ -27,11 +27,36 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles that were halved in vain so often are leaves. Many items may meet along a line of the picture,
-/// as the columns of a terrain do that is seen along its rows: halving would go on and on along it.
-pub(super) const IN_VAIN: u32 = 3;
-/// Tiles of this size, in steps, are not halved: 2⁻¹⁸ of a pixel.
-const TINY: i64 = 64;
+/// Tiles of this size, in steps, are not halved: 2⁻⁴ of a pixel. Too small: tiles around a vertex of many faces are
+/// halved again and again; too large: many small pieces are in one tile.
+const TINY: i64 = 1 << 20;
+
+/// How many times as many pieces the parts of a tile have together as the tile had before it was halved,
+/// the same for the parts of a part, and so on: the product. Pieces that reach into both parts are in both.
+///
+/// All parts of a picture together have at most as many pieces as the picture, times the largest product among
+/// them: dividing the pieces of each part by its product, the sum does not increase where a part is halved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Growth(f64);
+
+/// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a cone, or
+/// along a line, as the columns of a terrain do that is seen along its rows: halving would go on and on around it.
+/// Too small: long lists remain; too large: many parts with the same pieces.
+const MOST: f64 = 4.0;
+
+impl Growth {
+    pub(super) const NONE: Self = Self(1.0);
+
+    /// That of parts with so many pieces of a part that had `all`.
+    pub(super) fn after(self, all: usize, parts: [usize; 2]) -> Self {
+        let growth = (parts[0] + parts[1]) as f64 / all.max(1) as f64;
+        Self((self.0 * growth).max(1.0))
+    }
+
+    pub(super) fn is_too_much(self) -> bool {
+        self.0 >= MOST
+    }
+}
 
 impl Tile {
     /// All of a picture.
@@ -41,11 +66,12 @@ impl Tile {
         Self { low: [-half; 2], high }
     }
 
-    /// Its halves, across its longer side.
+    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. What a camera looks
+    /// at is often right in the middle of the picture, and what lies on a border by chance is told by integers.
     pub(super) fn halves(&self) -> [Self; 2] {
         let size = [0, 1].map(|axis: usize| self.high[axis] - self.low[axis]);
         let axis = usize::from(size[1] > size[0]);
-        let middle = self.low[axis] + size[axis] / 2;
+        let middle = (self.low[axis] + size[axis] / 32 * 17) | 1;
         let mut parts = [*self; 2];
         parts[0].high[axis] = middle;
         parts[1].low[axis] = middle;
@@ -69,17 +95,6 @@ impl Tile {
     pub(super) fn sides(&self) -> Rect {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
     }
-}
-
-/// How often both parts of a tile were halved in vain, of so many items: both have nearly all of them.
-/// A part that has many more than half of them keeps the count.
-pub(super) fn in_vain(before: u32, all: usize, parts: [usize; 2]) -> [u32; 2] {
-    let is_in_vain = parts.iter().all(|part| part * 8 >= all * 7);
-    parts.map(|part| match is_in_vain {
-        true => before + 1,
-        false if part * 8 >= all * 6 => before,
-        false => 0,
-    })
 }
 
 impl LineTable<'_> {

@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::join::Groups;
+use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
-use super::map::{Leaf, Reporter, Visible, each, finish_item, sort_by, sort_unique};
+use super::map::{Reporter, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Ordered, Pair, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
 use super::stock::{OutlineCache, Primitives};
-use super::tile::{CUT, IN_VAIN, LINES, Reaches, Tile, VISITED, found_in, in_vain};
+use super::tile::{CUT, Growth, LINES, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Progress;
@@ -181,7 +182,7 @@ pub(super) fn mixed(
         let polygon = faces.polygon(face);
         first.get(polygon).copied().unwrap_or(u32::MAX)
     };
-    let pairs = pairs(stock, rims, leaves, &place, watch)?;
+    let pairs = pairs(stock, rims, leaves, &place, &|_| true, watch)?;
     let mut blended: Vec<Pair> = Vec::new();
     for pair in each(watch, 1, &pairs) {
         let pair = *pair?;
@@ -199,8 +200,7 @@ pub(super) fn mixed(
 struct TileStack {
     tile: Tile,
     reaches: Reaches,
-    /// How often it was halved in vain: both parts had nearly all items that do not cover them.
-    in_vain: u32,
+    growth: Growth,
 }
 
 /// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
@@ -220,7 +220,7 @@ pub(super) fn overlaps(
         let item = item?;
         reaches.push(item, rims.known_item(stock, item))?;
     }
-    let all = TileStack { tile: picture, reaches, in_vain: 0 };
+    let all = TileStack { tile: picture, reaches, growth: Growth::NONE };
     let halves = |part: &TileStack, _: &mut Found| part.halves(stock, &rims.lines, watch);
     let leaf = |part: &TileStack, found: &mut Found| part.leaf(stock, &rims.lines, found, watch);
     let all = all.narrowed(stock, &rims.lines, picture, watch)?;
@@ -231,7 +231,7 @@ impl TileStack {
     fn is_leaf(&self) -> bool {
         let between = self.reaches.list.split(|reach| reach.covers());
         let most = between.map(<[_]>::len).max().unwrap_or(0);
-        most <= FEW || self.in_vain == IN_VAIN || self.tile.is_tiny()
+        most <= FEW || self.growth.is_too_much() || self.tile.is_tiny()
     }
 
     /// Both halves of the tile; `None` of a leaf.
@@ -249,7 +249,8 @@ impl TileStack {
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
         let counts = [open(&parts[0]), open(&parts[1])];
-        [parts[0].in_vain, parts[1].in_vain] = in_vain(self.in_vain, open(self), counts);
+        let growth = self.growth.after(open(self), counts);
+        parts.iter_mut().for_each(|part| part.growth = growth);
         Ok(Some(parts))
     }
 
@@ -262,7 +263,7 @@ impl TileStack {
     ) -> Result<Self, Error> {
         let around = |item: u32| stock.items[item as usize].around;
         let reaches = self.reaches.narrowed(lines, &tile.sides(), around, watch)?;
-        Ok(Self { tile, reaches, in_vain: 0 })
+        Ok(Self { tile, reaches, growth: Growth::NONE })
     }
 
     /// Adds the pairs of the tile.

@@ -286,7 +286,7 @@ impl Rays {
     ///
     /// (An integer beyond 2⁵³, rounded, less a coordinate of at most 2⁵¹.)
     #[inline]
-    pub(super) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
             RayOrigin::From { eye, shift: 0 } => std::array::from_fn(|i| eye[i] as f64 - point[i]),
             RayOrigin::From { eye, shift } => {

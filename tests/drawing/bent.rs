@@ -290,3 +290,27 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
     }
     enough!(compared > 300; "{compared}");
 }
+
+/// Neighbours have their common edges in the picture where the corners are as given, so that nothing shows between
+/// them, though the tree moved corners onto the planes of their quads.
+#[test]
+fn through_a_closed_globe_of_bent_quads_nothing_shows() {
+    let scene = Builtin::Sphere.build(Some(2_000), 1);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    assert!(tree.preparation().flattened > 500, "{:?}", tree.preparation());
+    let polygons: Vec<_> = scene.polygons().collect();
+    let mut dice = Dice(28);
+    for _ in 0..20 {
+        let eye = dice.point(-1.0, 1.0).normalize() * (1.5 + 3.0 * dice.share());
+        let up = DVec3::new(0.1, 0.2, 1.0);
+        let camera = Camera::perspective(eye, DVec3::ZERO, up, 1.4, [320, 240]).unwrap();
+        let map = map_of(&tree, &camera);
+        for shown in map.polygons() {
+            let corners = &polygons[shown.polygon];
+            let [a, b, c] = [corners[0], corners[1], corners[2]];
+            let outwards = (c - a).cross(*corners.last().unwrap() - b).normalize();
+            // Of quads seen edge-on, rounding tells whether they show.
+            assert!(outwards.dot((eye - a).normalize()) > -1e-9, "{eye}: {shown:?}");
+        }
+    }
+}

@@ -8,6 +8,7 @@ mod borders;
 mod coincidences;
 mod crossings;
 mod extremes;
+mod fans;
 mod grid_crossings;
 mod hidden;
 mod hidden_crossings;

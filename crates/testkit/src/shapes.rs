@@ -149,3 +149,13 @@ pub fn ulps_from(value: f64, steps: i32) -> f64 {
     let step = |v: f64| if steps > 0 { v.next_up() } else { v.next_down() };
     (0..steps.abs()).fold(value, |v, _| step(v))
 }
+
+/// Triangles around one vertex at a height above their circle: a cone, or a flat fan.
+pub fn fan(sides: usize, height: f64) -> Vec<Corners> {
+    let corner = |k: usize| {
+        let angle = std::f64::consts::TAU * (k % sides) as f64 / sides as f64;
+        DVec3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let tip = DVec3::new(0.0, 0.0, height);
+    (0..sides).map(|k| vec![tip, corner(k), corner(k + 1)]).collect()
+}
