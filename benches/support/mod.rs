@@ -123,7 +123,7 @@ pub fn triangulated(scene: &Scene) -> Scene {
 fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {
     let mut mapped = Scene::new(name, scene.up());
     for corners in scene.polygons() {
-        let corners = <[DVec3; 3]>::try_from(&corners.points()[..]).expect("a triangle");
+        let corners = <[DVec3; 3]>::try_from(corners.points()).expect("a triangle");
         mapped.push(polygon(corners), 0);
     }
     mapped

@@ -307,8 +307,8 @@ fn through_a_closed_globe_of_bent_quads_nothing_shows() {
         let map = map_of(&tree, &camera);
         for shown in map.polygons() {
             let corners = &polygons[shown.polygon];
-            let [a, b, c] = [corners[0], corners[1], corners[2]];
-            let outwards = (c - a).cross(*corners.last().unwrap() - b).normalize();
+            let [a, b, c] = [corners.points()[0], corners.points()[1], corners.points()[2]];
+            let outwards = (c - a).cross(*corners.points().last().unwrap() - b).normalize();
             // Of quads seen edge-on, rounding tells whether they show.
             assert!(outwards.dot((eye - a).normalize()) > -1e-9, "{eye}: {shown:?}");
         }
