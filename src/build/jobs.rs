@@ -5,10 +5,10 @@ use std::sync::{Mutex, PoisonError};
 
 use super::piece::Piece;
 use super::subtree::{Builder, Shared};
+use crate::Error;
 use crate::exact::Vertex;
 use crate::memory::reserve;
 use crate::tree::parts::{Parts, RawNode, Record};
-use crate::{Error, ErrorKind};
 
 /// Where both sides of a plane have at least this many pieces, one side becomes a job of its own.
 /// Smaller: more copying; larger: threads wait for each other at the end.
@@ -89,7 +89,7 @@ fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Resu
         match output {
             Ok(output) => finished.push(output),
             // What another job's error has stopped says nothing of that error.
-            Err(error) if error.kind() == ErrorKind::Cancelled => cancelled = Some(error),
+            Err(error) if error.kind() == crate::ErrorKind::Cancelled => cancelled = Some(error),
             Err(error) => return Err(error),
         }
     }

@@ -6,6 +6,7 @@
 pub(crate) mod choose;
 pub(crate) mod driver;
 pub(crate) mod frames;
+#[cfg_attr(not(feature = "parallel"), expect(dead_code, reason = "one thread hands no sets over"))]
 mod jobs;
 mod options;
 pub(crate) mod piece;

@@ -77,7 +77,8 @@ fn read_too_much() {
         let error = error.expect("a limit");
         assert_eq!(error.polygon(), Some(1));
         assert!(error.to_string().contains("corners"), "{error}");
-        assert_eq!(read.get(), 3 + MAX_CORNERS + 1);
+        // The precision of the triangle before takes another look at its corners.
+        assert_eq!(read.get(), 2 * 3 + MAX_CORNERS + 1);
         assert!(bytes < 300 << 20, "{bytes} bytes");
     }
 
