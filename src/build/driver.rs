@@ -18,7 +18,7 @@ use crate::faces::{Preparation, Preparer};
 use crate::input::{Point, Polygon};
 use crate::memory::{push, reserve};
 use crate::partition::{Extent, Partition};
-use crate::progress::{Progress, Watch, one_at_a_time};
+use crate::progress::{PIECES_AT_ONCE, Progress, Watch, one_at_a_time};
 use crate::tree::BspTree;
 use crate::tree::parts::Parts;
 
@@ -193,8 +193,11 @@ pub(super) fn divide_all(
     pieces.clear();
     arena.clear();
     reserve(&mut pieces, faces.len())?;
-    watch.work(faces.len())?;
-    pieces.extend((0..faces.len() as u32).map(|face| Piece::whole(faces, face)));
+    for first in (0..faces.len()).step_by(PIECES_AT_ONCE) {
+        let some = first..faces.len().min(first + PIECES_AT_ONCE);
+        watch.work(some.len())?;
+        pieces.extend(some.map(|face| Piece::whole(faces, face as u32)));
+    }
     jobs::run(shared, Job { pieces, arena, depth: 0 }, builder)
 }
 

@@ -14,7 +14,7 @@ use super::cell::{Cell, Side};
 use super::leaf::{Leaf, SHORT, Visible};
 use super::lines::Adopted;
 use super::stock::{OutlineCache, Primitives};
-use super::tile::{CUT, Growth, LINES, List, Tile, found_in};
+use super::tile::{CUT, Growth, LINES, List, TINY, Tile, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -326,7 +326,7 @@ impl TileList {
     /// Whether the tile need not be halved.
     fn is_leaf(&self) -> bool {
         let items = &self.list.items;
-        items.len() <= SHORT || self.growth.is_too_much() || self.tile.is_tiny()
+        items.len() <= SHORT || self.growth.is_too_much() || self.tile.is_within(TINY)
     }
 }
 

@@ -9,7 +9,7 @@ use super::edges::SHORTEST;
 use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
 use super::lines::LineTable;
 use super::map::each;
-use super::tile::{CUT, Growth, NARROWED, Reaches, Tile, found_in};
+use super::tile::{CUT, Growth, NARROWED, Reaches, TINIEST, Tile, found_in};
 use crate::Error;
 use crate::exact::{Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
@@ -457,7 +457,7 @@ impl TilePasses {
 
     fn is_leaf(&self) -> bool {
         let is_done = self.sights.is_empty() && self.spots.is_empty() || self.open() <= FEW;
-        is_done || self.growth.is_too_much() || self.tile.is_tiny()
+        is_done || self.growth.is_too_much() || self.tile.is_within(TINIEST)
     }
 
     /// Both halves of the tile; `None` of a leaf.

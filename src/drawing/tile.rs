@@ -27,9 +27,11 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles of this size, in steps, are not halved: 2⁻⁴ of a pixel. Too small: tiles around a vertex of many faces are
-/// halved again and again; too large: many small pieces are in one tile.
-const TINY: i64 = 1 << 20;
+/// Tiles of this size, in steps, are not halved where long lists are divided afterwards: 2⁻⁴ of a pixel. Too small:
+/// tiles around a vertex of many faces are halved again and again; too large: many small pieces are in one tile.
+pub(super) const TINY: i64 = 1 << 20;
+/// Nor are others of this size: 2⁻¹⁸ of a pixel.
+pub(super) const TINIEST: i64 = 1 << 6;
 
 /// How many times as many pieces the parts of a tile have together as the tile had before it was halved,
 /// the same for the parts of a part, and so on: the product. Pieces that reach into both parts are in both.
@@ -86,9 +88,9 @@ impl Tile {
         }
     }
 
-    /// Whether it is too small to be halved.
-    pub(super) fn is_tiny(&self) -> bool {
-        (0..2).all(|axis| self.high[axis] - self.low[axis] <= TINY)
+    /// Whether it is at most so many steps wide and high.
+    pub(super) fn is_within(&self, size: i64) -> bool {
+        (0..2).all(|axis| self.high[axis] - self.low[axis] <= size)
     }
 
     /// Its sides in pixels: exact.

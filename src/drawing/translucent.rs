@@ -12,7 +12,7 @@ use super::order::{Found, Ordered, Pair, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
 use super::stock::{OutlineCache, Primitives};
-use super::tile::{CUT, Growth, LINES, Reaches, Tile, VISITED, found_in};
+use super::tile::{CUT, Growth, LINES, Reaches, TINIEST, Tile, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Progress;
@@ -231,7 +231,7 @@ impl TileStack {
     fn is_leaf(&self) -> bool {
         let between = self.reaches.list.split(|reach| reach.covers());
         let most = between.map(<[_]>::len).max().unwrap_or(0);
-        most <= FEW || self.growth.is_too_much() || self.tile.is_tiny()
+        most <= FEW || self.growth.is_too_much() || self.tile.is_within(TINIEST)
     }
 
     /// Both halves of the tile; `None` of a leaf.

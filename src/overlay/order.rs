@@ -12,12 +12,13 @@ use smallvec::{SmallVec, smallvec};
 use super::Overlay;
 use super::replace::Shape;
 use crate::error::Error;
-use crate::exact::{Faces, PlaneId};
+use crate::exact::{Eye, Faces, PlaneId};
+use crate::tree::bounds::around;
 use crate::tree::culling::Cull;
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
-use crate::tree::{BspTree, Culling, Sides};
-use crate::viewpoint::{Facing, Viewpoint};
+use crate::tree::{BspTree, Culling};
+use crate::viewpoint::Viewpoint;
 
 /// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
 /// A branch comes after the one that it is attached to.
@@ -257,37 +258,26 @@ impl<'a> OverlayOrder<'a> {
         if !overlay.is_empty() {
             overlay.insert(&View::new(tree, viewpoint), numbers);
             if let Some(culling) = culling {
-                let cull = Cull::new(tree, viewpoint, culling);
+                let (cull, lattice) = (Cull::new(tree, viewpoint, culling), tree.faces.lattice());
+                let eye = Eye::new(viewpoint, lattice);
                 numbers.retain(|&number| match overlay.shape(number) {
-                    Some(shape) => shape.is_kept(viewpoint, culling),
                     None => cull.shows(number),
+                    Some(Shape::Fragment(piece)) => {
+                        let plane = overlay.faces.plane(PlaneId::face(piece.face()));
+                        cull.shows_other(&piece.flat_bounds(), Some(plane.facing(&eye)))
+                    }
+                    Some(Shape::Segment(segment)) => {
+                        cull.shows_other(&around(lattice, segment.ends()), None)
+                    }
+                    Some(Shape::Marker(marker)) => {
+                        cull.shows_other(&around(lattice, [marker.position()]), None)
+                    }
                 });
             }
         }
         if is_front_to_back {
             numbers.reverse();
         }
-    }
-}
-
-impl Shape<'_> {
-    fn is_kept(&self, viewpoint: Viewpoint, culling: &Culling) -> bool {
-        let (bounds, is_drawn) = match self {
-            Self::Fragment(piece) => {
-                let is_drawn = match culling.sides {
-                    Sides::Both => true,
-                    Sides::Front => piece.facing(viewpoint) == Facing::Front,
-                    Sides::Back => piece.facing(viewpoint) == Facing::Back,
-                };
-                (piece.bounds(), is_drawn)
-            }
-            Self::Segment(segment) => {
-                let [a, b] = segment.ends();
-                ([a.min(b), a.max(b)], true)
-            }
-            Self::Marker(marker) => ([marker.position(); 2], true),
-        };
-        is_drawn && culling.frustum.meets(bounds)
     }
 }
 

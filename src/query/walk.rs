@@ -216,7 +216,7 @@ impl<'t> Boxes<'t> {
     fn new(query: &RayQuery, tree: &'t BspTree) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [reach, speed] = [query.reach * unit, query.speed * unit];
-        if ![reach, speed].iter().all(|size| SIZES.contains(size)) {
+        if !SIZES.contains(&reach) || speed > 0.0 && !SIZES.contains(&speed) {
             return None;
         }
         let slack = PARAMETER_ERROR * reach;

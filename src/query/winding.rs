@@ -20,8 +20,8 @@ impl BspTree {
     /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` on the
     /// boundary; the polygons there are those that `hits(Ray::between(point, point))` returns.
     ///
-    /// Bodies may intersect themselves and each other, and may be nested. It is exact for the point as it
-    /// is given, except for points within the tolerance of polygons that were
+    /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the point as
+    /// you give it, except for points within the tolerance of polygons that were
     /// [flattened](crate::Preparation::flattened). A point with a NaN or infinite coordinate is outside.
     ///
     /// ```
@@ -48,8 +48,8 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If an edge of a polygon is not the edge of another one in the opposite direction: the error names
-    /// the polygon, and [`open_edges`](Self::open_edges) returns all of them. If the tree is of a cell.
+    /// If no edges of other polygons run back along an edge: the error names its polygon, and
+    /// [`open_edges`](Self::open_edges) returns all such edges. If the tree is of a cell.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
@@ -69,16 +69,15 @@ impl BspTree {
     }
 
     /// The edges that keep bodies from being closed, in the order of polygons: each with the index of its
-    /// polygon and the number of the corner where it begins. An edge is closed by an equal edge in the
-    /// opposite direction; edges that a polygon without area would close are open, as such polygons are
-    /// [dropped](Self::dropped). O(n log n) for the first call, which keeps them.
+    /// polygon and the number of the corner where it begins. An edge is closed by edges that run back along
+    /// it, one or several in a row. O(n log n) for the first call, which keeps them.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)
         })
     }
 
-    /// The same by face and number of the edge.
+    /// These edges by the number of their face and of the edge in it.
     fn open_edges_of_faces(&self) -> &[[u32; 2]] {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
@@ -146,29 +145,85 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if is_below { winding } else { 0 }
 }
 
-/// The edges of faces, by face and number, without an equal edge in the opposite direction.
+/// An edge between lattice points: where it begins and ends, and its face and number.
+type Edge = ([i64; 3], [i64; 3], [u32; 2]);
+
+/// The edges of faces, by face and number, that other edges do not run back along.
 fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
-    let bits = |point: [f64; 3]| point.map(|c| c.to_bits());
-    let mut edges = Vec::with_capacity(faces.corner_count());
+    let mut edges: Vec<Edge> = Vec::with_capacity(faces.corner_count());
     for face in 0..faces.len() as u32 {
         let range = faces.corner_range(face);
-        let corner = |k: usize| bits(faces.given_corner((range.start + k % range.len()) as u32));
-        for k in 0..range.len() {
-            let [a, b] = [corner(k), corner(k + 1)];
-            edges.push((a.min(b), a.max(b), a < b, [face, k as u32]));
-        }
+        let corner =
+            |k: usize| faces.given_corner((range.start + k % range.len()) as u32).map(|c| c as i64);
+        edges.extend((0..range.len()).map(|k| (corner(k), corner(k + 1), [face, k as u32])));
     }
-    edges.sort_unstable();
-    let mut open = Vec::new();
-    for equal in edges.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1)) {
-        // Edges without length close themselves.
-        let (falling, rising) = equal.split_at(equal.partition_point(|edge| !edge.2));
+    // Nearly all edges have an equal one in the opposite direction.
+    let ends = |&(a, b, _): &Edge| (a.min(b), a.max(b));
+    edges.sort_unstable_by_key(|edge| (ends(edge), edge.0 < edge.1, edge.2));
+    let mut left = Vec::new();
+    for equal in edges.chunk_by(|one, other| ends(one) == ends(other)) {
+        let (falling, rising) = equal.split_at(equal.partition_point(|edge| edge.0 >= edge.1));
         let more = if falling.len() > rising.len() { falling } else { rising };
         let surplus = falling.len().abs_diff(rising.len());
         if equal[0].0 != equal[0].1 {
-            open.extend(more[more.len() - surplus..].iter().map(|edge| edge.3));
+            left.extend_from_slice(&more[more.len() - surplus..]);
         }
+    }
+    // The others may be closed by several edges of their line, as where a corner is on a neighbour's edge.
+    left.sort_by_cached_key(|&(a, b, _)| line(a, b));
+    let mut open = Vec::new();
+    for edges in left.chunk_by(|one, other| line(one.0, one.1) == line(other.0, other.1)) {
+        open.extend(open_along(edges));
     }
     open.sort_unstable();
     open
+}
+
+/// The line through two points: its direction, without a common divisor and with its first coordinate that is not 0
+/// above 0, and the moment of its points about the origin.
+fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
+    let way: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+    let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;
+    let sign = way.iter().find(|&&c| c != 0).map_or(1, |c| c.signum());
+    let way = way.map(|c| c / divisor.max(1) * sign);
+    let moment = std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        i128::from(a[j]) * i128::from(way[k]) - i128::from(a[k]) * i128::from(way[j])
+    });
+    (way, moment)
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    let (mut a, mut b) = (a, b);
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+/// Of edges along one line, those with a stretch where more of them run in their direction than back.
+fn open_along(edges: &[Edge]) -> impl Iterator<Item = [u32; 2]> + use<> {
+    // Points of a line have the same order as their coordinates, compared one after the other.
+    let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());
+    for &(a, b, _) in edges {
+        ends.extend([(a, 1), (b, -1)]);
+    }
+    ends.sort_unstable();
+    // Before each end, how many stretches so far have a surplus of edges that run up, and that run down.
+    let (mut surplus, mut counts) = (0, vec![[0, 0]]);
+    for (i, &(end, step)) in ends.iter().enumerate() {
+        surplus += step;
+        let is_stretch = ends.get(i + 1).is_some_and(|next| next.0 != end);
+        let [mut up, mut down] = counts[i];
+        up += usize::from(is_stretch && surplus > 0);
+        down += usize::from(is_stretch && surplus < 0);
+        counts.push([up, down]);
+    }
+    let place = |point: [i64; 3]| ends.partition_point(|end| end.0 < point);
+    let is_open = |&&(a, b, _): &&Edge| {
+        let way = usize::from(a > b);
+        counts[place(a.max(b))][way] > counts[place(a.min(b))][way]
+    };
+    let open: Vec<[u32; 2]> = edges.iter().filter(is_open).map(|edge| edge.2).collect();
+    open.into_iter()
 }

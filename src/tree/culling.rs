@@ -5,13 +5,13 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::bounds::{Arms, BLOCK, Bounds, HalfSpace};
+use super::bounds::{Arms, BLOCK, Bounds, Flat, HalfSpace};
 use super::node::Ranges;
 use super::order::eye::View;
 use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
-use crate::exact::{Eye, Lattice, PlaneId};
+use crate::exact::{Eye, PlaneId};
 use crate::viewpoint::{Frustum, Viewpoint};
 
 /// What an order leaves out: [`Order::culled`](crate::Order::culled).
@@ -106,6 +106,7 @@ pub(crate) struct Cull<'t> {
     view: View,
     eye: Eye,
     arms: Arms,
+    planes: SmallVec<[HalfSpace; 6]>,
     marks: Marks,
     /// Which side is drawn.
     side: Option<Ordering>,
@@ -115,13 +116,17 @@ impl<'t> Cull<'t> {
     pub(crate) fn new(tree: &'t BspTree, viewpoint: Viewpoint, culling: &Culling) -> Self {
         let (bounds, lattice) = (tree.boxes(), tree.faces.lattice());
         let eye = Eye::new(viewpoint, lattice);
+        let planes = culling.frustum.planes().iter().take(PLANES);
+        let planes: SmallVec<[HalfSpace; 6]> =
+            planes.map(|&plane| HalfSpace::new(plane, lattice)).collect();
         Self {
             tree,
             bounds,
             view: View::new(tree, viewpoint),
             eye,
             arms: Arms::new(&eye),
-            marks: Marks::new(bounds, &culling.frustum, lattice),
+            marks: Marks::new(bounds, &planes),
+            planes,
             side: culling.sides.drawn(),
         }
     }
@@ -130,6 +135,12 @@ impl<'t> Cull<'t> {
     pub(super) fn shows_some(&self, node: &Node<'_>) -> bool {
         let seen = self.side.zip(self.bounds.seen(node.index(), &self.arms));
         self.marks.any(&node.fragments()) && seen.is_none_or(|(side, seen)| seen == side)
+    }
+
+    /// Whether a piece that is not the tree's is not left out, given its box and the side that it shows.
+    pub(crate) fn shows_other(&self, bounds: &Flat, facing: Option<Ordering>) -> bool {
+        let is_drawn = self.side.zip(facing).is_none_or(|(side, facing)| side == facing);
+        is_drawn && !self.planes.iter().any(|plane| plane.is_behind(bounds))
     }
 
     /// Whether a fragment is not left out.
@@ -269,10 +280,7 @@ struct Doubt {
 }
 
 impl Marks {
-    fn new(bounds: &Bounds, region: &Frustum, lattice: &Lattice) -> Self {
-        let planes = region.planes().iter().take(PLANES);
-        let planes: SmallVec<[HalfSpace; 6]> =
-            planes.map(|&plane| HalfSpace::new(plane, lattice)).collect();
+    fn new(bounds: &Bounds, planes: &[HalfSpace]) -> Self {
         let (mut levels, mut words) = ([0; LEVELS], 0);
         for (begin, blocks) in levels.iter_mut().zip(&bounds.levels) {
             *begin = words;
@@ -285,7 +293,7 @@ impl Marks {
             pending.push(Doubt { level: top, block: 0, planes: all });
         }
         while let Some(doubt) = pending.pop() {
-            marks.look(bounds, &planes, doubt, &mut pending);
+            marks.look(bounds, planes, doubt, &mut pending);
         }
         marks
     }

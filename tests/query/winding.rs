@@ -210,3 +210,40 @@ fn open_edges_are_named() {
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
 }
+
+/// A prism whose sides have a corner on an edge of the top, which is bent or not convex: triangles of the top skip
+/// that corner. And a side in two halves beside an edge of the top in one piece.
+#[test]
+fn corners_on_straight_edges_keep_a_body_closed() {
+    // The outline of the top: with a corner in the middle of its first edge, and a dent.
+    let outline = [[0, 0], [2, 0], [4, 0], [4, 4], [2, 2], [0, 4]].map(|[x, y]| [x, y, 0]);
+    for (top, splits) in
+        [(vec![0, 1, 2, 3, 4, 5], 2), (vec![0, 2, 3, 4, 5], 2), (vec![0, 2, 3, 4, 5], 1)]
+    {
+        let mut bodies = Bodies::default();
+        let raised = |p: Point| [p[0], p[1], 3];
+        bodies.0.push(top.iter().map(|&k| raised(outline[k])).collect());
+        bodies.0.push(top.iter().rev().map(|&k| outline[k]).collect());
+        let way: Vec<usize> =
+            if splits == 2 { vec![0, 1, 2, 3, 4, 5] } else { vec![0, 2, 3, 4, 5] };
+        for (i, &k) in way.iter().enumerate() {
+            let (a, b) = (outline[k], outline[way[(i + 1) % way.len()]]);
+            bodies.0.push(vec![a, b, raised(b), raised(a)]);
+        }
+        for heuristic in [Heuristic::Auto, Heuristic::First] {
+            let tree = bodies.tree(heuristic);
+            assert_eq!(tree.open_edges().count(), 0, "{top:?} {splits}");
+            for x in 0..9 {
+                for y in 0..9 {
+                    let at = [f64::from(x) * 0.5 + 0.125, f64::from(y) * 0.5 + 0.25, 1.5];
+                    let is_inside = at[0] < 4.0 && at[1] < 4.0 && at[1] < 2.0 + (at[0] - 2.0).abs();
+                    let expected = Some(i32::from(is_inside));
+                    assert_eq!(tree.winding_number(at), Ok(expected), "{at:?} {top:?}");
+                }
+            }
+        }
+        // Without one half of a side that is in two, the whole edge of the top is open there.
+        bodies.0.remove(2);
+        assert!(bodies.tree(Heuristic::Auto).open_edges().count() > 0);
+    }
+}
