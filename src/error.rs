@@ -118,7 +118,8 @@ impl Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A polygon, an option or an argument has a number out of its range.
+    /// A polygon, an option or an argument has a number out of its range, or a body is open where only closed
+    /// ones have an inside.
     InvalidInput,
     /// There is more input than the numbers of a tree can count.
     TooLarge,
@@ -127,7 +128,7 @@ pub enum ErrorKind {
     OverBudget,
     /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
-    /// Other lists, such as those of drawings and overlays, are not checked: where they do not fit, the
+    /// Other lists, such as those of drawings, overlays and boxes, are not checked: where they do not fit, the
     /// program ends, as Rust programs do. A system that promises more memory than it has may end it
     /// earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit the
     /// memory of a build.

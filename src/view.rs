@@ -180,7 +180,7 @@ impl Camera {
     /// The view-projection matrix: from the world to clip coordinates, with x to the right, y upwards, and
     /// depths from 0 at the distance `near` to 1 at `far`, as WebGPU, Vulkan (y aside), Metal and Direct3D
     /// have them. Distances are along the direction of view, from the eye, or from the centre of a
-    /// parallel camera, where they may be negative.
+    /// parallel camera, where they may be negative. They must be finite and different.
     ///
     /// ```
     /// use binspace::glam::DVec3;

@@ -29,8 +29,8 @@ use crate::tree::parts::{Parts, RawNode};
 /// cut vertices are stored rather than computed at each reading; and the layout from which
 /// [`back_to_front_into`](BspTree::back_to_front_into) writes order after order is left out, so that
 /// an order takes a few times longer; so it does for a clone of such a tree. Once its lists have grown
-/// to the size of a scene, a frame of few layers allocates nothing. They do not shrink again:
-/// make another builder for that.
+/// to the size of a scene, a frame of few layers allocates nothing, except for the boxes of frames that are queried or
+/// culled (see [`BspTree::bounds`]). The lists do not shrink again: make another builder for that.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};

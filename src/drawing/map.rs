@@ -28,10 +28,10 @@ use crate::tree::BspTree;
 /// if and only if some of it shows, however small; and where two polygons of one plane overlap, the one
 /// shows that the tree's order paints last.
 ///
-/// Polygons that are flat but for rounding have their edges through the corners as given, so that nothing shows
-/// between neighbours that share an edge; the planes onto which corners were moved decide what is in front. Edges
-/// of other polygons that are not quite flat, of those that are not convex as given in the picture, or that have more than
-/// eight corners, go through the corners as moved.
+/// The edges of a polygon go through its corners as given if none was moved by more than 2⁻³² of the extent, which is
+/// more than the rounding of `f64`. So nothing is visible between neighbours that share an edge. The planes onto
+/// which corners were moved decide which polygon is in front. Edges go through the corners as moved where these
+/// were moved further, where the given ones are not convex in the picture, or where there are more than eight.
 ///
 /// Time is O(n log n) for n fragments in most scenes, and what shows adds to it, not what is hidden;
 /// memory likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the

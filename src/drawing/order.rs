@@ -30,9 +30,10 @@ pub(super) struct Ordered {
 /// again and again; smaller: more is clipped (and given back one by one).
 const CLIPPED_AT_ONCE: usize = 64;
 
-/// So many pairs are looked at in each component, or so many times all of its pairs, to give nodes back. Too small: more
-/// is clipped; too large: the time of components of many thousand nodes.
-const LOOKED_AT: [usize; 2] = [1 << 22, 32];
+/// At least this many pairs are examined in each component to give nodes back, or this many times all of its pairs. Too
+/// small: more is clipped; too large: the time of components of many thousand nodes.
+const EXAMINED: usize = 1 << 22;
+const EXAMINED_PER_PAIR: usize = 32;
 
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
 /// nodes alone.
@@ -97,8 +98,8 @@ impl Ranks {
 /// in the tree's order, which are no polygons. That alone has no cycle, as along it the last piece moves on. Pairs
 /// of the second kind are found; only polygons in several pieces have some.
 ///
-/// An order of the strongly connected components of both kinds together keeps all pairs between components. Within one, the
-/// chain may ask for what no picture needs: there all pairs are found instead.
+/// An order of the strongly connected components of both kinds together keeps all pairs between components. Within a
+/// component, the chain may ask for more than the picture needs. There all pairs are found instead.
 pub(super) fn order_by_rank(
     ranks: &[Ranks],
     mut pairs: impl FnMut(&(dyn Fn(Pair) -> bool + Sync)) -> Result<Vec<Pair>, Error>,
@@ -119,21 +120,23 @@ pub(super) fn order_by_rank(
     // The places where polygons end.
     let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
     sort_unique(&mut ends, watch)?;
-    let place = |end: usize| (count + end) as u32;
+    let node_of_end = |end: usize| (count + end) as u32;
     let mut all = around.clone();
     for ranked in each(watch, VISITED, (0..).zip(ranks)) {
         let (node, ranks) = ranked?;
         let end = ends.partition_point(|&end| end < ranks.all[1]);
-        all.push(Pair { below: node, above: place(end) });
+        all.push(Pair { below: node, above: node_of_end(end) });
         let before = ends.partition_point(|&end| end < ranks.shown[0]);
-        all.extend(before.checked_sub(1).map(|end| Pair { below: place(end), above: node }));
+        all.extend(before.checked_sub(1).map(|end| Pair { below: node_of_end(end), above: node }));
     }
-    all.extend((1..ends.len()).map(|end| Pair { below: place(end - 1), above: place(end) }));
+    all.extend(
+        (1..ends.len()).map(|end| Pair { below: node_of_end(end - 1), above: node_of_end(end) }),
+    );
     sort_unique(&mut all, watch)?;
     let of_nodes: Vec<u32> =
         ranks.iter().map(|ranks| ranks.shown[0]).chain(ends.iter().copied()).collect();
-    let component = cycles(of_nodes.len(), &all, watch)?;
-    let component = |node: u32| component[node as usize];
+    let components = cycles(of_nodes.len(), &all, watch)?;
+    let component = |node: u32| components[node as usize];
     let group = |node: u32| component(node).unwrap_or(node);
     let mut between = Vec::with_capacity(all.len());
     for pair in each(watch, 1, &all) {
@@ -156,14 +159,14 @@ pub(super) fn order_by_rank(
     sort_unique(&mut within, watch)?;
     let Ordered { mut order, is_clipped } =
         order(count, &within, &of_nodes[..count], &|_| true, watch)?;
-    let mut places: Vec<u32> = vec![0; of_nodes.len()];
+    let mut positions: Vec<u32> = vec![0; of_nodes.len()];
     for placed in each(watch, 1, (0..).zip(&outer)) {
-        let (place, &group) = placed?;
-        places[group as usize] = place;
+        let (position, &group) = placed?;
+        positions[group as usize] = position;
     }
     // Stable: within a component, the order of its own pairs.
-    let place = |node: u32| places[group(node) as usize];
-    sort_by(&mut order, watch, |&a, &b| place(a).cmp(&place(b)))?;
+    let position = |node: u32| positions[group(node) as usize];
+    sort_by(&mut order, watch, |&a, &b| position(a).cmp(&position(b)))?;
     Ok(Ordered { order, is_clipped })
 }
 
@@ -237,7 +240,7 @@ impl Graph<'_> {
         }
         sort_by(&mut clipped, self.watch, |&a, &b| self.above_count(a).cmp(&self.above_count(b)))?;
         let pairs: usize = nodes.iter().map(|&node| self.above_count(node) as usize).sum();
-        let mut left = LOOKED_AT[0].max(LOOKED_AT[1] * pairs);
+        let mut left = EXAMINED.max(EXAMINED_PER_PAIR * pairs);
         for node in clipped {
             if left > 0 && !self.closes_cycle(node, nodes[0], &mut left)? {
                 self.is_clipped[node as usize] = false;

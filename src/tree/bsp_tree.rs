@@ -258,7 +258,7 @@ pub struct BspTree {
     pub(crate) generation: u64,
     /// Made by the first query that needs them.
     pub(super) bounds: OnceLock<Bounds>,
-    /// Likewise: edges that keep bodies from being closed, by face and number.
+    /// Edges that keep bodies from being closed, by face and number. Made by the first query that needs them.
     pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
@@ -417,7 +417,7 @@ pub struct Stats {
     pub depth_mean: f64,
     /// How many times the builder cut a piece in two.
     pub splits: usize,
-    /// The size of the tree in bytes: [`BspTree::memory_usage`].
+    /// The size of the tree in bytes, with its boxes once they are made: [`BspTree::memory_usage`].
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
@@ -469,7 +469,7 @@ impl BspTree {
         values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
-    /// The size in bytes, heap included.
+    /// The size in bytes, heap included. It grows by the boxes when the first query makes them.
     pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
             + self.faces.memory_usage()

@@ -104,7 +104,8 @@ impl<'t> Order<'t> {
     ///
     /// A subtree is visited after everything before it in the order, and before anything in it. So front
     /// to back it is visited after everything that may hide it. Takes O(parts visited) time and O(depth)
-    /// memory, and does not recurse.
+    /// memory, and does not recurse. A culled order also takes a bit for each fragment, and first compares the
+    /// boxes with the frustum.
     ///
     /// ```
     /// use binspace::{BspTree, Flow, Part, Viewpoint};
@@ -213,7 +214,8 @@ pub enum Flow<B = ()> {
 /// The fragments of a tree in an [`Order`].
 ///
 /// It can be read from both ends. To read all n fragments takes O(n) time, from either end or from
-/// both, and O(depth) memory.
+/// both, and O(depth) memory. A [culled](Order::culled) order is a list of its own, written before the first
+/// fragment is read.
 #[derive(Clone, Debug)]
 pub struct Ordered<'t> {
     tree: &'t BspTree,
