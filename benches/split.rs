@@ -21,8 +21,7 @@ fn cut(faces: &Faces, plane: &PreparedPlane, spanning: &[u32]) -> [usize; 2] {
     let (mut outline, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
     for &face in spanning {
         outline.clear();
-        let corners = 0..faces.corners(face).len() as u32;
-        outline.extend(corners.map(|k| Vertex::corner(faces, face, k)));
+        outline.extend(Vertex::corners(faces, face));
         split(faces, plane, face, &outline, &mut front, &mut back);
     }
     [front.len(), back.len()]

@@ -12,7 +12,7 @@ use super::options::BuildOptions;
 use super::piece::Piece;
 use super::subtree::{Builder, Shared};
 use crate::error::Error;
-use crate::exact::{Faces, Vertex};
+use crate::exact::{Faces, PlaneId, PreparedPlane, Vertex};
 use crate::faces::Preparer;
 use crate::input::Polygon;
 use crate::memory::reserve;
@@ -57,6 +57,7 @@ pub struct FrameBuilder {
     // Lists that are kept for the next frame.
     preparer: Preparer,
     builder: Builder,
+    planes: Vec<PreparedPlane>,
     nodes: Vec<RawNode>,
     sizes: Vec<Sizes>,
 }
@@ -72,6 +73,7 @@ impl FrameBuilder {
             tree: BspTree::empty(),
             preparer: Preparer::default(),
             builder: Builder::default(),
+            planes: vec![],
             nodes: vec![],
             sizes: vec![],
         }
@@ -116,7 +118,7 @@ impl FrameBuilder {
         polygons: impl IntoIterator<Item = P>,
         arrange: Option<Arrange<'_>>,
     ) -> Result<(), Error> {
-        let Self { options, tree, preparer, builder, nodes, sizes } = self;
+        let Self { options, tree, preparer, builder, planes, nodes, sizes } = self;
         let BuildOptions { bounds, tolerance, max_fragments, .. } = *options;
         let (mut faces, parts) = tree.take_parts();
         builder.output.parts = Parts { nodes: take(nodes), ..parts };
@@ -128,8 +130,13 @@ impl FrameBuilder {
         if let Some(arrange) = arrange {
             arrange(&mut faces)?;
         }
+        planes.clear();
+        reserve(planes, faces.len())?;
+        let own = (0..faces.len() as u32).map(PlaneId::face);
+        planes.extend(own.map(|plane| PreparedPlane::new(&faces, plane)));
         let shared = Shared::new(&faces, options, &Tuning::FRAMES, &watch)?;
-        let parts = divide_all(&shared.with_positions(), &faces, builder, &watch)?;
+        let shared = shared.with_positions().with_planes(planes);
+        let parts = divide_all(&shared, &faces, builder, &watch)?;
         *nodes = tree.refill(faces, preparation, parts, sizes)?;
         Ok(())
     }

@@ -227,18 +227,14 @@ impl Splitter {
         arena: &mut Vec<Vertex>,
     ) -> Result<[Piece; 2], Error> {
         let Self { outline, front, back } = self;
-        // Copied, because the parts are appended to the arena that the piece's vertices are in.
-        outline.clear();
-        match piece.cut_vertices(arena) {
-            Some(vertices) => outline.extend_from_slice(vertices),
-            None => {
-                let corners = 0..faces.corners(piece.face).len() as u32;
-                outline.extend(corners.map(|k| Vertex::corner(faces, piece.face, k)));
-            }
-        }
+        let vertices = piece.cut_vertices(arena).unwrap_or_else(|| {
+            outline.clear();
+            outline.extend(Vertex::corners(faces, piece.face));
+            outline
+        });
         front.clear();
         back.clear();
-        split(faces, plane, piece.face, outline, front, back);
+        split(faces, plane, piece.face, vertices, front, back);
         // The piece's own vertices stay behind as garbage until the arena is compacted or truncated.
         let start = arena.len();
         reserve(arena, front.len() + back.len())?;

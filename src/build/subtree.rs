@@ -4,7 +4,6 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::choose::{Choice, ChooseContext, Chooser, Peeled, Set, Tuning};
@@ -30,6 +29,8 @@ pub(in crate::build) struct Shared<'a> {
     options: &'a BuildOptions,
     rules: ChooseContext<'a>,
     budget: Budget,
+    /// The planes of all faces, where they were prepared in advance.
+    planes: &'a [PreparedPlane],
     /// Whether the rounded positions of vertices go into the output.
     keeps_positions: bool,
 }
@@ -44,7 +45,7 @@ impl<'a> Shared<'a> {
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
         let rules = ChooseContext { heuristic: options.heuristic, tuning, watch };
-        Ok(Self { faces, options, rules, budget, keeps_positions: false })
+        Ok(Self { faces, options, rules, budget, planes: &[], keeps_positions: false })
     }
 
     /// Stops all jobs of the build.
@@ -56,6 +57,11 @@ impl<'a> Shared<'a> {
     /// The same, with positions in the output.
     pub(in crate::build) fn with_positions(self) -> Self {
         Self { keeps_positions: true, ..self }
+    }
+
+    /// The same, with the planes of all faces.
+    pub(in crate::build) fn with_planes(self, planes: &'a [PreparedPlane]) -> Self {
+        Self { planes, ..self }
     }
 }
 
@@ -137,27 +143,29 @@ impl Builder {
         hand_over: &mut Option<HandOver<'_>>,
     ) -> Result<(), Error> {
         let start = pending.range.start;
-        let set = &self.pieces[start..];
-        let Some(first) = set.first() else { return Ok(()) };
+        let Self { chooser, division, pieces, arena, .. } = self;
+        let Some(first) = pieces.get(start) else { return Ok(()) };
         shared.budget.check_depth(pending.depth + 1)?;
-        let choice = if is_leaf(set) {
+        let mut set = Set::new(shared.faces, &pieces[start..], arena);
+        set.planes = shared.planes;
+        let own = PlaneId::face(first.face);
+        let choice = if is_leaf(set.pieces) {
             // Only the root can be a leaf here: other leaves were stored with their parents.
-            self.division.plane = None;
-            Choice::Split(PlaneId::face(first.face))
+            division.plane = None;
+            Choice::Split(own)
         } else {
-            let set = Set::new(shared.faces, set, &self.arena);
-            self.chooser.choose(&shared.rules, &set, pending.is_peeled, &mut self.division)?
+            chooser.choose(&shared.rules, &set, pending.is_peeled, division)?
         };
         let plane = match choice {
             Choice::Split(plane) => plane,
             Choice::Peel(peeled) => return self.emit_peeled(shared, start, pending.depth, &peeled),
         };
-        self.settle(shared, start, plane)?;
-        if self.pieces.len() > start + 1 && !self.division.makes_progress() {
+        settle(&shared.rules, &set, division, plane)?;
+        if !is_leaf(set.pieces) && !division.makes_progress() {
             // Free planes are counted by rounded distances, so exact decisions can show that one
             // separates nothing. A piece's own plane always does.
-            self.division.plane = None;
-            self.settle(shared, start, PlaneId::face(self.pieces[start].face))?;
+            division.plane = None;
+            settle(&shared.rules, &set, division, own)?;
         }
         self.divide(shared, start)?;
         self.emit(shared, start, pending.depth + 1, hand_over)
@@ -234,16 +242,17 @@ impl Builder {
         reserve(spanning, cuts)?;
         let mut back = start;
         for (i, &side) in (start..).zip(&division.sides) {
-            let piece = pieces[i];
             match side {
                 // Moved down in place: `back` never overtakes `i`, so nothing unread is lost.
                 Side::Back => {
-                    pieces[back] = piece;
+                    if back < i {
+                        pieces[back] = pieces[i];
+                    }
                     back += 1;
                 }
-                Side::Front => front.push(piece),
-                Side::Coplanar => own.push(piece),
-                Side::Spanning => spanning.push(piece),
+                Side::Front => front.push(pieces[i]),
+                Side::Coplanar => own.push(pieces[i]),
+                Side::Spanning => spanning.push(pieces[i]),
             }
         }
         pieces.truncate(back);
@@ -352,54 +361,6 @@ impl Builder {
         }
         self.store_leaf(shared, start)
     }
-
-    /// Classifies the set on top of the stack by a plane, or by the one that divides it instead: polygons
-    /// that are treated as coplanar do not cut each other.
-    ///
-    /// The corners of a small polygon are rounded by as much as those of a large one, so its plane is
-    /// less certain: extended across a large polygon in the same plane, it can leave the tolerance on
-    /// both sides. The plane of the large one has the small one within the tolerance, and divides the
-    /// set instead. In frames it also does where the plane of the small one passes beside the large one
-    /// and cuts nothing: it would come between the large one and others of its plane.
-    fn settle(
-        &mut self,
-        shared: &Shared<'_>,
-        start: usize,
-        mut plane: PlaneId,
-    ) -> Result<(), Error> {
-        let (faces, watch) = (shared.faces, shared.rules.watch);
-        let (pieces, division) = (&self.pieces[start..], &mut self.division);
-        let mut tried = Tried::new();
-        loop {
-            if division.plane.is_none() {
-                watch.work(pieces.len())?;
-                let prepared = PreparedPlane::new(faces, plane);
-                division.classify(faces, (pieces, &self.arena), prepared, usize::MAX);
-            }
-            let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-            // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
-            let least = match shared.rules.tuning.frames {
-                Some(_) => {
-                    let own = pieces.iter().filter(|piece| piece.face == face);
-                    own.map(size).fold(0.0, f64::max)
-                }
-                _ if division.count(Side::Spanning) == 0 => return Ok(()),
-                _ => f64::INFINITY,
-            };
-            tried.push(face);
-            let is_rival = |(piece, side): &(&Piece, &Side)| match side {
-                Side::Spanning => !tried.contains(&piece.face),
-                Side::Coplanar => false,
-                Side::Front | Side::Back => size(piece) > least && !tried.contains(&piece.face),
-            };
-            let rivals = pieces.iter().zip(&division.sides).filter(is_rival);
-            let Some(larger) = larger(shared, face, rivals.map(|(piece, _)| piece))? else {
-                return Ok(());
-            };
-            plane = PlaneId::face(larger.face);
-            division.plane = None;
-        }
-    }
 }
 
 /// Whether a set is small enough to need no plane.
@@ -413,6 +374,51 @@ const CUT: usize = 64;
 /// The faces whose planes were given up for a set. None is tried again, so the search ends.
 type Tried = SmallVec<[u32; 4]>;
 
+/// Classifies a set by a plane, or by the one that divides it instead: polygons that are treated as
+/// coplanar do not cut each other.
+///
+/// The corners of a small polygon are rounded by as much as those of a large one, so its plane is
+/// less certain: extended across a large polygon in the same plane, it can leave the tolerance on
+/// both sides. The plane of the large one has the small one within the tolerance, and divides the
+/// set instead. In frames it also does where the plane of the small one passes beside the large one
+/// and cuts nothing: it would come between the large one and others of its plane.
+fn settle(
+    rules: &ChooseContext<'_>,
+    set: &Set<'_>,
+    division: &mut Division,
+    mut plane: PlaneId,
+) -> Result<(), Error> {
+    let mut tried = Tried::new();
+    loop {
+        if division.plane.is_none() {
+            rules.watch.work(set.pieces.len())?;
+            set.divide(plane, usize::MAX, division);
+        }
+        let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
+        // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
+        let least = match rules.tuning.frames {
+            Some(_) => {
+                let own = set.pieces.iter().filter(|piece| piece.face == face);
+                own.map(size).fold(0.0, f64::max)
+            }
+            _ if division.count(Side::Spanning) == 0 => return Ok(()),
+            _ => f64::INFINITY,
+        };
+        tried.push(face);
+        let is_rival = |(piece, side): &(&Piece, &Side)| match side {
+            Side::Spanning => !tried.contains(&piece.face),
+            Side::Coplanar => false,
+            Side::Front | Side::Back => size(piece) > least && !tried.contains(&piece.face),
+        };
+        let rivals = set.pieces.iter().zip(&division.sides).filter(is_rival);
+        let Some(larger) = larger(rules, set, face, rivals.map(|(piece, _)| piece))? else {
+            return Ok(());
+        };
+        plane = PlaneId::face(larger.face);
+        division.plane = None;
+    }
+}
+
 /// The square of the diagonal of a piece's box.
 fn size(piece: &Piece) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
@@ -420,38 +426,26 @@ fn size(piece: &Piece) -> f64 {
 
 /// The largest of some pieces on whose own plane a face lies.
 fn larger<'p>(
-    shared: &Shared<'_>,
+    rules: &ChooseContext<'_>,
+    set: &Set<'_>,
     face: u32,
     pieces: impl Iterator<Item = &'p Piece>,
 ) -> Result<Option<&'p Piece>, Error> {
-    let Shared { faces, rules, .. } = shared;
+    let faces = set.faces;
     let mut best: Option<(f64, &Piece)> = None;
     for piece in pieces {
         rules.watch.work(1)?;
         let lies_on = || {
-            if is_far_off(faces, face, piece.face) {
-                return false;
-            }
-            let prepared = PreparedPlane::new(faces, PlaneId::face(piece.face));
-            prepared.classify(faces, face, None) == Side::Coplanar
+            let plane = set.prepare(PlaneId::face(piece.face));
+            // Most planes are far off the first corner.
+            plane.distance(faces.corners(face)[0]).abs() <= plane.slack()
+                && plane.classify(faces, face, None) == Side::Coplanar
         };
         if best.is_none_or(|(most, _)| size(piece) > most) && lies_on() {
             best = Some((size(piece), piece));
         }
     }
     Ok(best.map(|(_, piece)| piece))
-}
-
-/// Whether floats are certain that a corner of a face is further than the tolerance off the plane of another:
-/// many times the rounding, which is less than 2⁻³⁰ of the normal and of the arm, and at most a step.
-fn is_far_off(faces: &Faces, face: u32, other: u32) -> bool {
-    let [p, q, r] = faces.triangle(other).map(DVec3::from);
-    let (u, w, arm) = (q - p, r - p, DVec3::from(faces.corners(face)[0]) - p);
-    let normal = u.cross(w);
-    let (off, size) = (normal.dot(arm), normal.length_squared());
-    let is_certain = size > 2f64.powi(-36) * u.length_squared() * w.length_squared();
-    let most = 4.0 * faces.tolerance().powi(2) + 1.0 + 2f64.powi(-40) * arm.length_squared();
-    is_certain && off * off > most * size
 }
 
 /// What all jobs of a build may use together.

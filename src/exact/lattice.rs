@@ -151,8 +151,8 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 pub(super) fn nearest(value: f64) -> f64 {
     /// From here on, numbers are integers, and up to the double of it they are 1 apart.
     const WHOLE: f64 = (1u64 << 52) as f64;
-    let size = value.abs();
-    if size < WHOLE { (size + WHOLE - WHOLE).copysign(value) } else { value }
+    let shift = if value.abs() < WHOLE { WHOLE.copysign(value) } else { 0.0 };
+    value + shift - shift
 }
 
 /// A lattice point as integers.

@@ -18,9 +18,15 @@ pub struct Vertex {
 
 impl Vertex {
     /// Corner `k` of a face.
+    #[inline]
     pub fn corner(faces: &Faces, face: u32, k: u32) -> Self {
-        let vertex_id = VertexId::corner(k);
-        Self { position: faces.position(face, vertex_id), vertex_id, line: EdgeLine::edge(k) }
+        let position = faces.corners(face)[k as usize];
+        Self { position, vertex_id: VertexId::corner(k), line: EdgeLine::edge(k) }
+    }
+
+    /// The corners of a face, in order around it.
+    pub fn corners(faces: &Faces, face: u32) -> impl Iterator<Item = Self> {
+        (0..faces.corners(face).len() as u32).map(move |k| Self::corner(faces, face, k))
     }
 
     /// Its position in lattice units, rounded.
@@ -170,8 +176,7 @@ impl<'f> Clipper<'f> {
             match prepared.classify(faces, face, cut) {
                 Side::Spanning => {
                     if outline.is_empty() {
-                        let corners = 0..faces.corners(face).len() as u32;
-                        outline.extend(corners.map(|k| Vertex::corner(faces, face, k)));
+                        outline.extend(Vertex::corners(faces, face));
                     }
                     front.clear();
                     back.clear();

@@ -48,8 +48,7 @@ pub struct Walk<'a> {
 impl<'a> Walk<'a> {
     pub fn new(faces: &'a Faces, face: u32, tally: &'a mut Tally) -> Self {
         let exact = Face::new(faces, face);
-        let corners = 0..faces.corners(face).len() as u32;
-        let piece = corners.map(|k| Vertex::corner(faces, face, k)).collect();
+        let piece = Vertex::corners(faces, face).collect();
         let outline = exact.outline();
         Self { faces, face, exact, piece, outline, whole: true, tally }
     }

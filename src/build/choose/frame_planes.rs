@@ -1,8 +1,6 @@
 //! How frames choose planes for small sets: own planes first, as each tree is ordered once or twice; and
 //! whether two pieces cross.
 
-use std::cmp::Ordering;
-
 use glam::DVec3;
 
 use super::cost::{Cost, CostModel, Counts};
@@ -55,6 +53,9 @@ impl OwnFirst {
         let mut best: Option<(Cost, PlaneId, bool)> = None;
         for own in set.sample(tried) {
             let plane = set.own_plane(own);
+            // A plane that cuts more is neither taken at once nor better than one that cuts nothing.
+            let is_clean = best.is_some_and(|(least, ..)| !least.cuts);
+            let most = if is_clean { frames.crossings } else { most };
             if !set.divide(plane, most, &mut self.division) {
                 continue;
             }
@@ -132,21 +133,19 @@ impl Ends {
         let triangle = faces.triangle(plane);
         let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
         let (normal, through) = (DVec3::from(normal), DVec3::from(triangle[0]));
+        let off = PLANE_OFF * size;
         let (mut to_front, mut to_back) = (None, None);
-        let mut see = |(from, before): (DVec3, Ordering), (to, after): (DVec3, Ordering)| match (
-            before, after,
-        ) {
-            (Ordering::Less, Ordering::Greater) => to_front = Some([from, to]),
-            (Ordering::Greater, Ordering::Less) => to_back = Some([from, to]),
-            _ => {}
+        let mut see = |(from, before): (DVec3, f64), (to, after): (DVec3, f64)| {
+            if before < -off && after > off {
+                to_front = Some([from, to]);
+            } else if before > off && after < -off {
+                to_back = Some([from, to]);
+            }
         };
         let (mut first, mut last) = (None, None);
         piece.for_each_vertex(faces, arena, |vertex| {
             let vertex = DVec3::from(vertex);
-            let distance = normal.dot(vertex - through);
-            let is_certain = distance.abs() > PLANE_OFF * size;
-            let side = if is_certain { distance.total_cmp(&0.0) } else { Ordering::Equal };
-            let here = (vertex, side);
+            let here = (vertex, normal.dot(vertex - through));
             match last {
                 None => first = Some(here),
                 Some(last) => see(last, here),

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3, Vec4};
 
 use super::cost::Counts;
 use crate::build::piece::{Division, Piece};
-use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex};
+use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 
 /// Pieces compared with a plane at once.
 pub(super) const LANES: usize = 4;
@@ -254,9 +254,11 @@ impl Splat {
 /// A set of pieces that is to be divided: at least one.
 #[derive(Debug)]
 pub(crate) struct Set<'a> {
-    pub(super) faces: &'a Faces,
-    pub(super) pieces: &'a [Piece],
+    pub(in crate::build) faces: &'a Faces,
+    pub(in crate::build) pieces: &'a [Piece],
     pub(super) arena: &'a [Vertex],
+    /// The planes of all faces, where they were prepared in advance.
+    pub(in crate::build) planes: &'a [PreparedPlane],
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
@@ -280,7 +282,7 @@ impl<'a> Set<'a> {
                 raise(&mut last_begin[axis], piece.min[axis]);
             }
         }
-        Self { faces, pieces, arena, min, max, first_end, last_begin }
+        Self { faces, pieces, arena, planes: &[], min, max, first_end, last_begin }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -331,8 +333,13 @@ impl<'a> Set<'a> {
         PlaneId::face(self.pieces[piece].face)
     }
 
-    pub(super) fn prepare(&self, plane: PlaneId) -> PreparedPlane {
-        PreparedPlane::new(self.faces, plane)
+    #[inline]
+    pub(in crate::build) fn prepare(&self, plane: PlaneId) -> PreparedPlane {
+        let known = match plane.kind() {
+            PlaneKind::Face(face) => self.planes.get(face as usize),
+            PlaneKind::Axis(..) => None,
+        };
+        known.copied().unwrap_or_else(|| PreparedPlane::new(self.faces, plane))
     }
 
     /// Where a piece lies against a plane, exactly.
@@ -341,7 +348,12 @@ impl<'a> Set<'a> {
     }
 
     /// Where all pieces lie against a plane. `false` if it cuts more than `most`.
-    pub(super) fn divide(&self, plane: PlaneId, most: usize, division: &mut Division) -> bool {
+    pub(in crate::build) fn divide(
+        &self,
+        plane: PlaneId,
+        most: usize,
+        division: &mut Division,
+    ) -> bool {
         division.classify(self.faces, (self.pieces, self.arena), self.prepare(plane), most)
     }
 

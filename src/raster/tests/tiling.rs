@@ -17,8 +17,7 @@ struct Tile {
 
 /// The pieces of face 0 after cuts by the given planes.
 fn tiles(faces: &Faces, planes: &[PlaneId]) -> Vec<Tile> {
-    let corners = 0..faces.corners(0).len() as u32;
-    let mut pieces: Vec<Vec<Vertex>> = vec![corners.map(|k| Vertex::corner(faces, 0, k)).collect()];
+    let mut pieces: Vec<Vec<Vertex>> = vec![Vertex::corners(faces, 0).collect()];
     for &plane in planes {
         let plane = PreparedPlane::new(faces, plane);
         let mut next = Vec::new();

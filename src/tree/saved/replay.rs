@@ -81,8 +81,7 @@ impl Piece {
         front.clear();
         back.clear();
         if self.vertices.is_empty() {
-            let corners = 0..faces.corners(self.face).len() as u32;
-            self.vertices.extend(corners.map(|k| Vertex::corner(faces, self.face, k)));
+            self.vertices.extend(Vertex::corners(faces, self.face));
         }
         split(faces, plane, self.face, &self.vertices, front, back);
         [&*front, &*back].map(|part| Self::new(faces, self.face, part))

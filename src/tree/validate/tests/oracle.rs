@@ -30,9 +30,7 @@ fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
                 Side::Front => front.push((face, vertices)),
                 Side::Back => back.push((face, vertices)),
                 Side::Spanning => {
-                    let corners = 0..faces.corners(face).len() as u32;
-                    let all: Vec<Vertex> =
-                        corners.map(|k| Vertex::corner(faces, face, k)).collect();
+                    let all: Vec<_> = Vertex::corners(faces, face).collect();
                     let outline = if vertices.is_empty() { &all } else { &vertices };
                     let [mut before, mut behind] = [vec![], vec![]];
                     split(faces, &prepared, face, outline, &mut before, &mut behind);
