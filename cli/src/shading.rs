@@ -15,15 +15,15 @@ pub(crate) fn shaded(colour: [u8; 3], polygon: &[DVec3], camera: &Camera) -> [u8
 }
 
 /// The brightness of a plane, given the unit normal on the side that the viewer sees. From an eye it is
-/// 0.55 + 0.45 · (1 + n·l) / (1 + m·l), at most 1: n is the normal, l points to the lamp, and m to the viewer, whom a
+/// 0.5 + 0.5 · (1 + n·l) / (1 + m·l), at most 1: n is the normal, l points to the lamp, and m to the viewer, whom a
 /// plane of full brightness faces (half-Lambert shading).
 fn brightness(normal: DVec3, camera: &Camera) -> f64 {
     if camera.eye().is_none() {
         return raster::brightness(normal, camera.forward());
     }
-    let lamp = (0.5 * camera.up() - 0.35 * camera.right() - camera.forward()).normalize();
+    let lamp = (0.6 * camera.up() - 0.8 * camera.right() - camera.forward()).normalize();
     let share = (1.0 + normal.dot(lamp)) / (1.0 - camera.forward().dot(lamp));
-    0.55 + 0.45 * share.min(1.0)
+    0.5 + 0.5 * share.min(1.0)
 }
 
 /// The unit normal of the side of a polygon that the viewer sees.
