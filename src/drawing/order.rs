@@ -78,6 +78,11 @@ pub(super) struct Ranks {
 }
 
 impl Ranks {
+    /// Whether the polygon is in one piece.
+    const fn is_one(&self) -> bool {
+        self.all[0] == self.all[1]
+    }
+
     /// Whether all pieces of a polygon come before what shows of another.
     const fn is_before(&self, above: &Self) -> bool {
         self.all[1] < above.shown[0]
@@ -102,20 +107,25 @@ impl Ranks {
 /// component, the chain may ask for more than the picture needs. There all pairs are found instead.
 pub(super) fn order_by_rank(
     ranks: &[Ranks],
-    mut pairs: impl FnMut(&(dyn Fn(Pair) -> bool + Sync)) -> Result<Vec<Pair>, Error>,
+    mut pairs: impl FnMut(Wanted<'_>) -> Result<Vec<Pair>, Error>,
     watch: &Watch<'_>,
 ) -> Result<Ordered, Error> {
     let count = ranks.len();
     let of = |node: u32| &ranks[node as usize];
-    let cut = ranks.iter().filter(|ranks| ranks.all[0] != ranks.all[1]).count();
+    let cut = ranks.iter().filter(|ranks| !ranks.is_one()).count();
     // The chain tells little then, and leads through nearly all polygons.
     if 2 * cut > count {
         let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
-        return order(count, &pairs(&|_| true)?, &firsts, &|_| true, watch);
+        return order(count, &pairs(Wanted::ALL)?, &firsts, &|_| true, watch);
     }
     let around = match cut {
         0 => vec![],
-        _ => pairs(&|Pair { below, above }| of(below).is_around(of(above)))?,
+        // One of the two is in several pieces.
+        _ => pairs(Wanted {
+            below: &|above| Some(if of(above).is_one() { Below::Marked } else { Below::All }),
+            is_marked: &|below| !of(below).is_one(),
+            is_wanted: &|Pair { below, above }| of(below).is_around(of(above)),
+        })?,
     };
     // The places where polygons end.
     let mut ends: Vec<u32> = ranks.iter().map(|ranks| ranks.all[1]).collect();
@@ -154,7 +164,11 @@ pub(super) fn order_by_rank(
     let is_within = |&Pair { below, above }: &Pair| {
         component(below).is_some() && component(below) == component(above)
     };
-    let mut within = pairs(&|pair| is_within(&pair) && of(pair.below).is_before(of(pair.above)))?;
+    let mut within = pairs(Wanted {
+        below: &|above| component(above).map(|_| Below::Marked),
+        is_marked: &|below| component(below).is_some(),
+        is_wanted: &|pair| is_within(&pair) && of(pair.below).is_before(of(pair.above)),
+    })?;
     within.extend(around.into_iter().filter(is_within));
     sort_unique(&mut within, watch)?;
     let Ordered { mut order, is_clipped } =
@@ -486,6 +500,27 @@ struct LeafReaches<'l> {
     translucent: Reaches,
 }
 
+/// Which pairs of polygons are to be found.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'w> {
+    /// Which polygons below one that is visible are looked at: marked ones or all; none if `None`.
+    pub(super) below: &'w (dyn Fn(u32) -> Option<Below> + Sync),
+    pub(super) is_marked: &'w (dyn Fn(u32) -> bool + Sync),
+    /// Of these, the pairs that are wanted.
+    pub(super) is_wanted: &'w (dyn Fn(Pair) -> bool + Sync),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Below {
+    Marked,
+    All,
+}
+
+impl Wanted<'_> {
+    pub(super) const ALL: Self =
+        Self { below: &|_| Some(Below::All), is_marked: &|_| true, is_wanted: &|_| true };
+}
+
 /// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
 /// not show; in pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
@@ -493,7 +528,7 @@ pub(super) fn pairs<'l>(
     rims: &OutlineCache<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
-    is_wanted: &(dyn Fn(Pair) -> bool + Sync),
+    wanted: Wanted<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
     let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
@@ -515,7 +550,7 @@ pub(super) fn pairs<'l>(
     }
     let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, &rims.lines, watch);
     let leaf = |part: &LeafReaches<'l>, found: &mut Found| {
-        part.leaf(stock, rims, place, is_wanted, found, watch)
+        part.leaf(stock, rims, place, wanted, found, watch)
     };
     let all = LeafReaches { leaves, reaches, translucent };
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
@@ -550,7 +585,7 @@ impl<'l> LeafReaches<'l> {
         stock: &Primitives<'_>,
         rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
-        is_wanted: &(dyn Fn(Pair) -> bool + Sync),
+        wanted: Wanted<'_>,
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
@@ -572,6 +607,8 @@ impl<'l> LeafReaches<'l> {
         let mut below: Vec<Reach> = Vec::with_capacity(reaches.list.len());
         let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
         below.extend(reaches.list.iter().filter(is_below));
+        let is_marked = |reach: &&Reach| (wanted.is_marked)(place(reach.number));
+        let marked: Vec<Reach> = below.iter().filter(is_marked).copied().collect();
         for visible in cells() {
             let Visible { item, cell } = visible;
             if !self.translucent.list.is_empty() {
@@ -582,11 +619,20 @@ impl<'l> LeafReaches<'l> {
             }
             let above = place(stock.face(*item));
             let around = cell.around();
-            for reach in each(watch, VISITED, &below) {
+            let below = match (wanted.below)(above) {
+                Some(Below::All) => &below,
+                Some(Below::Marked) => &marked,
+                None => continue,
+            };
+            for reach in each(watch, VISITED, below) {
                 let reach = reach?;
                 let pair = Pair { below: place(reach.number), above };
                 let is_apart = are_apart(&around, &stock.views[reach.number as usize].around);
-                if is_apart || pair.below == above || !is_wanted(pair) || found.contains(&pair) {
+                if is_apart
+                    || pair.below == above
+                    || !(wanted.is_wanted)(pair)
+                    || found.contains(&pair)
+                {
                     continue;
                 }
                 watch.work(CUT)?;

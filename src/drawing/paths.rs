@@ -12,7 +12,7 @@ use super::exact_lines::{ROUNDING, Rounded};
 use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
-use super::order::{Ordered, Pair, Ranks, order_by_rank, pairs};
+use super::order::{Ordered, Ranks, Wanted, order_by_rank, pairs};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
 use super::stock::Primitives;
 use super::tile::{CUT, Tile, VISITED};
@@ -401,9 +401,7 @@ impl VisibilityMap<'_> {
         let size = self.size();
         let shown = Nodes::of(stock, leaves, watch)?;
         let place = |face: u32| shown.places[face as usize];
-        let pairs = |is_wanted: &(dyn Fn(Pair) -> bool + Sync)| {
-            pairs(stock, rims, leaves, &place, is_wanted, watch)
-        };
+        let pairs = |wanted: Wanted<'_>| pairs(stock, rims, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
         let cells = shown.cells(stock, leaves, &is_clipped, watch)?;
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();

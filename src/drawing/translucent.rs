@@ -8,7 +8,7 @@ use super::join::Groups;
 use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
 use super::map::{Reporter, each, finish_item, sort_by, sort_unique};
-use super::order::{Found, Ordered, Pair, add, cycles, order, pairs, sorted};
+use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
 use super::stock::{OutlineCache, Primitives};
@@ -182,7 +182,7 @@ pub(super) fn mixed(
         let polygon = faces.polygon(face);
         first.get(polygon).copied().unwrap_or(u32::MAX)
     };
-    let pairs = pairs(stock, rims, leaves, &place, &|_| true, watch)?;
+    let pairs = pairs(stock, rims, leaves, &place, Wanted::ALL, watch)?;
     let mut blended: Vec<Pair> = Vec::new();
     for pair in each(watch, 1, &pairs) {
         let pair = *pair?;
