@@ -29,7 +29,7 @@ use crate::viewpoint::Viewpoint;
 /// // What all have to agree on: the extent, and some of the corners.
 /// let mut extent = Extent::default();
 /// scene.polygons().for_each(|polygon| extent.include(&polygon));
-/// let samples = scene.polygons().map(|polygon| polygon[0]);
+/// let samples = scene.polygons().map(|polygon| polygon.points()[0]);
 /// let partition = options.partition(&extent, samples, 6)?;
 ///
 /// // Which polygons reach into which cells.
