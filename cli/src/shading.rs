@@ -21,7 +21,7 @@ fn brightness(normal: DVec3, camera: &Camera) -> f64 {
     if camera.eye().is_none() {
         return raster::brightness(normal, camera.forward());
     }
-    let lamp = (0.6 * camera.up() - 0.8 * camera.right() - camera.forward()).normalize();
+    let lamp = (0.4 * camera.up() - 0.8 * camera.right() - camera.forward()).normalize();
     let share = (1.0 + normal.dot(lamp)) / (1.0 - camera.forward().dot(lamp));
     0.5 + 0.5 * share.min(1.0)
 }

@@ -1,9 +1,12 @@
-//! What is visible of a list of pieces in one tile: each piece takes what the pieces before it left open.
+//! The visible parts of the pieces in one tile. Pieces come front to back, and each opaque piece is subtracted from
+//! the area that is still open.
 //!
-//! Long lists are divided first, along edges of their own pieces: halving a tile does not separate triangles
-//! around one vertex or strips side by side, but one of their edges leaves about half of them on either side (a
-//! binary space partition of the tile: H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible surface generation by
-//! a priori tree structures", 1980).
+//! Long lists are divided first, along edges of their own pieces. Halving a tile does not separate triangles around
+//! one vertex, or strips side by side, but one of their edges leaves about half of them on either side: a binary
+//! space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible surface generation by a priori
+//! tree structures", 1980).
+
+use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
@@ -14,15 +17,15 @@ use super::tile::{CUT, Growth, Tile};
 use crate::Error;
 use crate::progress::Watch;
 
-/// A part of what is visible: all of it in the picture, with nothing opaque before it. Where all items
-/// are opaque, none of it is shown by another.
+/// A visible convex part of an item: inside the picture, and with no opaque item in front of it. If all items are
+/// opaque, these parts do not overlap.
 #[derive(Clone, Debug)]
 pub(super) struct Visible {
     pub(super) item: u32,
     pub(super) cell: Cell,
 }
 
-/// A tile that was not halved, and what is visible in it.
+/// A tile that was not halved, and the visible parts of items in it.
 #[derive(Debug)]
 pub(super) struct Leaf {
     pub(super) tile: Tile,
@@ -35,7 +38,7 @@ pub(super) struct Leaf {
 pub(super) const SHORT: usize = 64;
 
 impl Leaf {
-    /// What is visible in a tile of some items, front to back.
+    /// Computes the visible parts of items in a tile. The items are sorted front to back.
     pub(super) fn new<'t>(
         tile: Tile,
         items: &[u32],
@@ -49,7 +52,7 @@ impl Leaf {
             for &item in items {
                 watch.work(area.open.len() * CUT)?;
                 let around = &stock.items[item as usize].around;
-                // Where nothing of the piece is, there is no need for its lines.
+                // The lines of an item outside of the open area are not needed.
                 if area.is_apart(around) {
                     continue;
                 }
@@ -71,30 +74,30 @@ impl Leaf {
         let mut cells = Vec::new();
         let mut regions = vec![region];
         while let Some(region) = regions.pop() {
-            match region.divided(stock, &rims.lines, watch)? {
-                Ok(parts) => regions.extend(parts),
-                Err(region) => cells.append(&mut region.visible(stock, &rims.lines, watch)?),
+            match region.divider(&rims.lines, watch)? {
+                Some(half) => regions.extend(region.halves(half, stock, &rims.lines, watch)?),
+                None => cells.extend(region.visible(stock, &rims.lines, watch)?),
             }
         }
         Ok(Self { tile, cells })
     }
 }
 
-/// A convex part of a tile with the pieces that may show in it, front to back, each as far as it is there.
+/// A convex part of a tile, and the pieces in it, front to back and clipped to it.
 struct Region {
     cell: Cell,
     pieces: Vec<Visible>,
     growth: Growth,
 }
 
-/// The edges of so many pieces are tried to divide a region. Too small: regions are divided unevenly, or not; too
-/// large: time.
+/// How many edges, each of another piece, are tried to divide a region. Too small: regions are divided unevenly, or
+/// not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
-/// Each is compared with so many pieces.
+/// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes long.
 const SAMPLE: usize = 48;
 
 impl Region {
-    /// Adds a piece behind all others. Whether it hides what is behind it all over the region.
+    /// Adds a piece behind all others, and returns whether it is opaque and covers the region.
     fn push(&mut self, piece: Visible, stock: &Primitives<'_>) -> bool {
         let (own, all) = (&piece.cell.sides, &self.cell.sides);
         let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
@@ -105,34 +108,30 @@ impl Region {
         covers
     }
 
-    /// Both parts of the region on either side of an edge, or the region if it need not be divided.
-    fn divided(
+    /// Divides the region along a line.
+    fn halves(
         self,
+        half: HalfPlane,
         stock: &Primitives<'_>,
         lines: &LineTable<'_>,
         watch: &Watch<'_>,
-    ) -> Result<Result<[Self; 2], Self>, Error> {
-        if self.pieces.len() <= SHORT || self.growth.is_too_much() {
-            return Ok(Err(self));
-        }
-        watch.work(TRIED * SAMPLE * 2)?;
-        let Some(half) = self.divider(lines) else { return Ok(Err(self)) };
+    ) -> Result<[Self; 2], Error> {
         let signs = self.cell.signs(lines, half);
         let mut parts = [false, true].map(|is_back| {
-            let cell = self.cell.part(lines, half.flipped(is_back), &signs, keep(is_back));
+            let cell = self.cell.part(lines, half.flipped(is_back), &signs, sign(is_back));
             Self { cell, pieces: vec![], growth: self.growth }
         });
         let (count, mut is_full) = (self.pieces.len(), [false; 2]);
         for Visible { item, cell } in self.pieces {
             watch.work(CUT / 4)?;
             let signs = cell.signs(lines, half);
-            let reaches = [false, true].map(|is_back| signs.contains(&keep(is_back)));
+            let reaches = [false, true].map(|is_back| signs.contains(&sign(is_back)));
             for (i, is_back) in [false, true].into_iter().enumerate() {
                 if !reaches[i] || is_full[i] {
                     continue;
                 }
                 let cell = match reaches[1 - i] {
-                    true => cell.part(lines, half.flipped(is_back), &signs, keep(is_back)),
+                    true => cell.part(lines, half.flipped(is_back), &signs, sign(is_back)),
                     false => cell.clone(),
                 };
                 is_full[i] = parts[i].push(Visible { item, cell }, stock);
@@ -140,11 +139,20 @@ impl Region {
         }
         let growth = self.growth.after(count, parts.each_ref().map(|part| part.pieces.len()));
         parts.iter_mut().for_each(|part| part.growth = growth);
-        Ok(Ok(parts))
+        Ok(parts)
     }
 
-    /// The edge of a piece that divides the pieces best, if one leaves clearly fewer on either side.
-    fn divider(&self, lines: &LineTable<'_>) -> Option<HalfPlane> {
+    /// Chooses the edge that divides the pieces best. `None` for short lists, and if no edge leaves clearly fewer
+    /// pieces on both sides.
+    fn divider(
+        &self,
+        lines: &LineTable<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<HalfPlane>, Error> {
+        if self.pieces.len() <= SHORT || self.growth.is_too_much() {
+            return Ok(None);
+        }
+        watch.work(TRIED * SAMPLE * 2)?;
         let some = |most: usize| self.pieces.iter().step_by(self.pieces.len().div_ceil(most));
         let is_inside =
             |half: HalfPlane| self.cell.sides.iter().all(|side| side.half.line() != half.line());
@@ -157,8 +165,8 @@ impl Region {
             for piece in some(SAMPLE) {
                 let signs = piece.cell.signs(lines, half);
                 all += 1;
-                counts[0] += usize::from(signs.contains(&keep(false)));
-                counts[1] += usize::from(signs.contains(&keep(true)));
+                counts[0] += usize::from(signs.contains(&sign(false)));
+                counts[1] += usize::from(signs.contains(&sign(true)));
             }
             // Subtracting takes up to the square of the number of pieces.
             let cost = counts[0] * counts[0] + counts[1] * counts[1];
@@ -166,9 +174,10 @@ impl Region {
                 best = Some((cost, half));
             }
         }
-        best.map(|(_, half)| half)
+        Ok(best.map(|(_, half)| half))
     }
 
+    /// Computes the visible parts of the pieces.
     fn visible(
         self,
         stock: &Primitives<'_>,
@@ -189,18 +198,20 @@ impl Region {
     }
 }
 
-/// On which side of a half's line something lies that is in front of it, or behind.
-const fn keep(is_back: bool) -> std::cmp::Ordering {
-    if is_back { std::cmp::Ordering::Less } else { std::cmp::Ordering::Greater }
+/// The sign of corners behind a line, or in front of it.
+const fn sign(is_back: bool) -> Ordering {
+    if is_back { Ordering::Less } else { Ordering::Greater }
 }
 
-/// A convex part of the picture: where nothing opaque shows so far, and what shows elsewhere.
+/// A convex part of the picture while pieces are subtracted from it.
 struct OpenArea {
+    /// The cells that no opaque piece covers so far.
     open: Vec<Cell>,
-    /// A box around each of these.
+    /// A box around each open cell.
     boxes: Vec<Rect>,
+    /// The visible parts so far.
     cells: Vec<Visible>,
-    /// Room for what is left of an open cell, and of all that one piece takes from.
+    // Working space: the rest of one open cell, and of all open cells that one piece was subtracted from.
     outside: Vec<Cell>,
     left: Vec<Cell>,
 }
@@ -211,12 +222,12 @@ impl OpenArea {
         Self { open: vec![cell], boxes, cells: vec![], outside: vec![], left: vec![] }
     }
 
-    /// Whether a box is apart from all that is open.
+    /// Whether a box overlaps no open cell.
     fn is_apart(&self, around: &Rect) -> bool {
         self.boxes.iter().all(|open| are_apart(open, around))
     }
 
-    /// Takes what an item shows, of which this box is around.
+    /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open cells.
     fn subtract(
         &mut self,
         item: u32,
@@ -226,7 +237,7 @@ impl OpenArea {
         lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        // Of others it is counted by the caller.
+        // The caller counts the work for fewer corners.
         if halves.len() > FEW_CORNERS {
             watch.work(self.open.len() * halves.len())?;
         }

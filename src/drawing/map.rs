@@ -49,8 +49,9 @@ use crate::tree::BspTree;
 /// call, when the result is ready. Parts do not take equally long. The callback is called each time about a
 /// millisecond of work is done, by any thread, one at a time; only to sort a long list takes longer (a tenth of a
 /// second for a million items). If it returns `Break`, the operation ends with an error of which
-/// [`Error::kind`] is `Cancelled`; the map stays as it is, and what is asked of it next begins anew. If several
-/// threads ask one map at once, the callback hears of all of them in turn, and of some perhaps not the end.
+/// [`Error::kind`] is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
+/// several threads use one map at once, the callback is called for each of them in turn, and the last call of an
+/// operation may be missing.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -337,7 +338,8 @@ const PARTS: usize = 64;
 const STRETCH: usize = 1 << 12;
 /// To sort a list takes, for each of its items, as long as a build takes to examine so many pieces.
 const SORTED: usize = 6;
-/// So many items are sorted between two looks for cancellation.
+/// How many items are sorted between two polls for cancellation. Too small: time to merge. Too large: a cancel is
+/// late.
 const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;

@@ -68,12 +68,12 @@ pub(super) fn cycles(
     Ok(graph.component.iter().map(number).collect())
 }
 
-/// Where the pieces of a polygon that shows are in the tree's order, back to front: the first and the last one.
+/// The first and the last place of a visible polygon's pieces in the tree's back-to-front order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranks {
-    /// Of all pieces.
+    /// The places of all its pieces.
     pub(super) all: [u32; 2],
-    /// Of those that show.
+    /// The places of its visible pieces.
     pub(super) shown: [u32; 2],
 }
 
@@ -83,28 +83,27 @@ impl Ranks {
         self.all[0] == self.all[1]
     }
 
-    /// Whether all pieces of a polygon come before what shows of another.
+    /// Whether all pieces of this polygon come before the visible pieces of another.
     const fn is_before(&self, above: &Self) -> bool {
         self.all[1] < above.shown[0]
     }
 
-    /// Whether some come before what shows of another, and some after.
+    /// Whether only some pieces of this polygon come before visible pieces of another.
     const fn is_around(&self, above: &Self) -> bool {
         self.all[0] < above.shown[1] && !self.is_before(above)
     }
 }
 
-/// An order of opaque polygons by the places of their pieces in the tree's order. `pairs` finds those pairs that
-/// are wanted.
+/// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the pairs that are wanted.
 ///
-/// Where `below` has to be drawn before `above`, a piece of it is behind one that shows. So either all of its
-/// pieces are (`is_before`), or it has pieces on both sides (`is_around`). Pairs of the first kind need not be
-/// found: all of them are asked for, though most do not overlap, by a chain of nodes for the places
-/// in the tree's order, which are no polygons. That alone has no cycle, as along it the last piece moves on. Pairs
-/// of the second kind are found; only polygons in several pieces have some.
+/// If `below` has to be drawn before `above`, one of its pieces is behind a visible piece of `above`. Then all of its
+/// pieces are (`is_before`), or the places of the two interleave (`is_around`). Pairs of the first kind need not be
+/// found. A chain of nodes, one for each place in the tree's order at which a polygon ends, implies all of them, and
+/// more, as most of those polygons do not overlap. The chain alone has no cycle, because the place of the last piece
+/// increases along it. Pairs of the second kind are found. One of their polygons is in several pieces.
 ///
 /// An order of the strongly connected components of both kinds together keeps all pairs between components. Within a
-/// component, the chain may ask for more than the picture needs. There all pairs are found instead.
+/// component, the chain may demand more than the picture needs. There all pairs are found instead.
 pub(super) fn order_by_rank(
     ranks: &[Ranks],
     mut pairs: impl FnMut(Wanted<'_>) -> Result<Vec<Pair>, Error>,
@@ -113,17 +112,16 @@ pub(super) fn order_by_rank(
     let count = ranks.len();
     let of = |node: u32| &ranks[node as usize];
     let cut = ranks.iter().filter(|ranks| !ranks.is_one()).count();
-    // The chain tells little then, and leads through nearly all polygons.
+    // If most polygons are in several pieces, nearly all are in one component.
     if 2 * cut > count {
         let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
         return order(count, &pairs(Wanted::ALL)?, &firsts, &|_| true, watch);
     }
     let around = match cut {
         0 => vec![],
-        // One of the two is in several pieces.
         _ => pairs(Wanted {
-            below: &|above| Some(if of(above).is_one() { Below::Marked } else { Below::All }),
-            is_marked: &|below| !of(below).is_one(),
+            is_marked: &|node| !of(node).is_one(),
+            needs_both: false,
             is_wanted: &|Pair { below, above }| of(below).is_around(of(above)),
         })?,
     };
@@ -165,8 +163,8 @@ pub(super) fn order_by_rank(
         component(below).is_some() && component(below) == component(above)
     };
     let mut within = pairs(Wanted {
-        below: &|above| component(above).map(|_| Below::Marked),
-        is_marked: &|below| component(below).is_some(),
+        is_marked: &|node| component(node).is_some(),
+        needs_both: true,
         is_wanted: &|pair| is_within(&pair) && of(pair.below).is_before(of(pair.above)),
     })?;
     within.extend(around.into_iter().filter(is_within));
@@ -503,22 +501,16 @@ struct LeafReaches<'l> {
 /// Which pairs of polygons are to be found.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'w> {
-    /// Which polygons below one that is visible are looked at: marked ones or all; none if `None`.
-    pub(super) below: &'w (dyn Fn(u32) -> Option<Below> + Sync),
+    /// Only pairs with a marked polygon, so that most are not compared.
     pub(super) is_marked: &'w (dyn Fn(u32) -> bool + Sync),
-    /// Of these, the pairs that are wanted.
+    /// Whether both polygons of a pair must be marked.
+    pub(super) needs_both: bool,
     pub(super) is_wanted: &'w (dyn Fn(Pair) -> bool + Sync),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Below {
-    Marked,
-    All,
 }
 
 impl Wanted<'_> {
     pub(super) const ALL: Self =
-        Self { below: &|_| Some(Below::All), is_marked: &|_| true, is_wanted: &|_| true };
+        Self { is_marked: &|_| true, needs_both: true, is_wanted: &|_| true };
 }
 
 /// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
@@ -619,10 +611,10 @@ impl<'l> LeafReaches<'l> {
             }
             let above = place(stock.face(*item));
             let around = cell.around();
-            let below = match (wanted.below)(above) {
-                Some(Below::All) => &below,
-                Some(Below::Marked) => &marked,
-                None => continue,
+            let below = match ((wanted.is_marked)(above), wanted.needs_both) {
+                (true, false) => &below,
+                (true, true) | (false, false) => &marked,
+                (false, true) => continue,
             };
             for reach in each(watch, VISITED, below) {
                 let reach = reach?;

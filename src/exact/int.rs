@@ -2,6 +2,14 @@
 
 use std::cmp::Ordering;
 
+/// The greatest common divisor.
+pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
 /// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
 ///
 /// The predicates know in advance how many bits their results take (see the table in `vertex.rs`),

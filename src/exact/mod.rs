@@ -16,7 +16,7 @@ pub(crate) mod vertex;
 pub use classify::{PreparedPlane, Side};
 pub use eye::Eye;
 pub use faces::Faces;
-pub(crate) use int::Int;
+pub(crate) use int::{Int, gcd};
 pub use lattice::LIMIT as LATTICE_LIMIT;
 pub use lattice::Lattice;
 pub(crate) use lattice::integers;

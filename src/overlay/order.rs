@@ -12,12 +12,12 @@ use smallvec::{SmallVec, smallvec};
 use super::Overlay;
 use super::replace::Shape;
 use crate::error::Error;
-use crate::exact::{Eye, Faces, PlaneId};
+use crate::exact::{Faces, PlaneId};
 use crate::tree::bounds::around;
 use crate::tree::culling::Cull;
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
-use crate::tree::{BspTree, Culling};
+use crate::tree::{BspTree, Culling, Order};
 use crate::viewpoint::Viewpoint;
 
 /// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
@@ -204,10 +204,7 @@ impl InsertionTree {
 #[must_use = "an order is written or iterated over"]
 pub struct OverlayOrder<'a> {
     overlay: &'a Overlay,
-    tree: &'a BspTree,
-    viewpoint: Viewpoint,
-    is_front_to_back: bool,
-    culling: Option<&'a Culling>,
+    order: Order<'a>,
 }
 
 impl Overlay {
@@ -222,21 +219,21 @@ impl Overlay {
         viewpoint: Viewpoint,
     ) -> Result<OverlayOrder<'a>, Error> {
         self.expect(tree)?;
-        Ok(OverlayOrder { overlay: self, tree, viewpoint, is_front_to_back: false, culling: None })
+        Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
 }
 
 impl<'a> OverlayOrder<'a> {
     /// The same order, front to back: the exact reverse.
     pub fn front_to_back(self) -> Self {
-        Self { is_front_to_back: true, ..self }
+        Self { order: self.order.front_to_back(), ..self }
     }
 
     /// The same order without the fragments and pieces outside of a frustum, or without those that show
     /// the wrong side. Lines and points have no sides. They are left out if they are outside of the
     /// frustum.
     pub fn culled(self, culling: &'a Culling) -> Self {
-        Self { culling: Some(culling), ..self }
+        Self { order: self.order.culled(culling), ..self }
     }
 
     /// Writes the numbers of the fragments and pieces into a buffer, and replaces its contents. Numbers
@@ -248,32 +245,28 @@ impl<'a> OverlayOrder<'a> {
     /// space as well; once it has grown to its size, nothing is allocated. A culled order is the whole
     /// order first, and is filtered afterwards.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
-        let Self { overlay, tree, viewpoint, is_front_to_back, culling } = self;
-        match culling {
-            Some(culling) if overlay.is_empty() => {
-                tree.order(viewpoint).culled(culling).write_into(numbers);
-            }
-            _ => tree.back_to_front_into(viewpoint, numbers),
+        let Self { overlay, order } = self;
+        if overlay.is_empty() {
+            return order.write_into(numbers);
         }
-        if !overlay.is_empty() {
-            overlay.insert(&View::new(tree, viewpoint), numbers);
-            if let Some(culling) = culling {
-                let (cull, lattice) = (Cull::new(tree, viewpoint, culling), tree.faces.lattice());
-                let eye = Eye::new(viewpoint, lattice);
-                numbers.retain(|&number| match overlay.shape(number) {
-                    None => cull.shows(number),
-                    Some(Shape::Fragment(piece)) => {
-                        let plane = overlay.faces.plane(PlaneId::face(piece.face()));
-                        cull.shows_other(&piece.flat_bounds(), Some(plane.facing(&eye)))
-                    }
-                    Some(Shape::Segment(segment)) => {
-                        cull.shows_other(&around(lattice, segment.ends()), None)
-                    }
-                    Some(Shape::Marker(marker)) => {
-                        cull.shows_other(&around(lattice, [marker.position()]), None)
-                    }
-                });
-            }
+        let Order { tree, viewpoint, is_front_to_back, culling } = order;
+        tree.back_to_front_into(viewpoint, numbers);
+        overlay.insert(&View::new(tree, viewpoint), numbers);
+        if let Some(culling) = culling {
+            let (cull, lattice) = (Cull::new(tree, viewpoint, culling), tree.faces.lattice());
+            numbers.retain(|&number| match overlay.shape(number) {
+                None => cull.shows(number),
+                Some(Shape::Fragment(piece)) => {
+                    let plane = overlay.faces.plane(PlaneId::face(piece.face()));
+                    cull.shows_piece(&piece.flat_bounds(), Some(&plane))
+                }
+                Some(Shape::Segment(segment)) => {
+                    cull.shows_piece(&around(lattice, segment.ends()), None)
+                }
+                Some(Shape::Marker(marker)) => {
+                    cull.shows_piece(&around(lattice, [marker.position()]), None)
+                }
+            });
         }
         if is_front_to_back {
             numbers.reverse();
@@ -286,7 +279,7 @@ impl<'a> IntoIterator for OverlayOrder<'a> {
     type IntoIter = Overlaid<'a>;
 
     fn into_iter(self) -> Overlaid<'a> {
-        let Self { overlay, tree, .. } = self;
+        let Self { overlay, order: Order { tree, .. } } = self;
         let mut numbers = vec![];
         self.write_into(&mut numbers);
         Overlaid { overlay, tree, numbers: numbers.into_iter() }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::walk::next_block;
 use crate::error::{Error, Kind};
 use crate::exact::eye::ExactRay;
-use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId};
+use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId, cross, gcd};
 use crate::tree::{BspTree, Flat};
 use crate::viewpoint::Ray;
 
@@ -186,23 +186,12 @@ fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;
     let sign = way.iter().find(|&&c| c != 0).map_or(1, |c| c.signum());
     let way = way.map(|c| c / divisor.max(1) * sign);
-    let moment = std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        i128::from(a[j]) * i128::from(way[k]) - i128::from(a[k]) * i128::from(way[j])
-    });
-    (way, moment)
-}
-
-fn gcd(a: u64, b: u64) -> u64 {
-    let (mut a, mut b) = (a, b);
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
+    // Numbers of the lattice are exact in `f64`.
+    (way, cross([0.0; 3], a.map(|c| c as f64), way.map(|c| c as f64)))
 }
 
 /// Of edges along one line, those with a stretch where more of them run in their direction than back.
-fn open_along(edges: &[Edge]) -> impl Iterator<Item = [u32; 2]> + use<> {
+fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
     // Points of a line have the same order as their coordinates, compared one after the other.
     let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());
     for &(a, b, _) in edges {
@@ -224,6 +213,5 @@ fn open_along(edges: &[Edge]) -> impl Iterator<Item = [u32; 2]> + use<> {
         let way = usize::from(a > b);
         counts[place(a.max(b))][way] > counts[place(a.min(b))][way]
     };
-    let open: Vec<[u32; 2]> = edges.iter().filter(is_open).map(|edge| edge.2).collect();
-    open.into_iter()
+    edges.iter().filter(is_open).map(|edge| edge.2).collect()
 }

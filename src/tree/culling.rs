@@ -11,7 +11,7 @@ use super::order::eye::View;
 use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
-use crate::exact::{Eye, PlaneId};
+use crate::exact::{Eye, Plane, PlaneId};
 use crate::viewpoint::{Frustum, Viewpoint};
 
 /// What an order leaves out: [`Order::culled`](crate::Order::culled).
@@ -137,9 +137,10 @@ impl<'t> Cull<'t> {
         self.marks.any(&node.fragments()) && seen.is_none_or(|(side, seen)| seen == side)
     }
 
-    /// Whether a piece that is not the tree's is not left out, given its box and the side that it shows.
-    pub(crate) fn shows_other(&self, bounds: &Flat, facing: Option<Ordering>) -> bool {
-        let is_drawn = self.side.zip(facing).is_none_or(|(side, facing)| side == facing);
+    /// Whether an overlay's piece is not left out, by its box, and its plane if it has sides.
+    pub(crate) fn shows_piece(&self, bounds: &Flat, plane: Option<&Plane>) -> bool {
+        let is_drawn =
+            self.side.zip(plane).is_none_or(|(side, plane)| plane.facing(&self.eye) == side);
         is_drawn && !self.planes.iter().any(|plane| plane.is_behind(bounds))
     }
 

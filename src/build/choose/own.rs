@@ -5,7 +5,7 @@ use super::cost::{Cost, CostModel, Counts, PricedPlane};
 use super::set::{LANES, PackedPieces, PackedPlane, Set};
 use super::tuning::Tuning;
 use crate::build::piece::Piece;
-use crate::exact::PlaneId;
+use crate::exact::{PlaneId, gcd};
 use crate::progress::{PIECES_AT_ONCE, Watch};
 
 /// A piece whose plane is tried.
@@ -256,14 +256,7 @@ impl ExactSizeIterator for Spread {}
 /// most evenly spread.
 fn coprime(n: usize) -> usize {
     let section = (n as f64 * 0.618_034) as usize;
-    (section.max(1)..n.max(2)).find(|&step| gcd(step, n) == 1).unwrap_or(1)
-}
-
-fn gcd(mut a: usize, mut b: usize) -> usize {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
+    (section.max(1)..n.max(2)).find(|&step| gcd(step as u64, n as u64) == 1).unwrap_or(1)
 }
 
 #[cfg(test)]

@@ -35,10 +35,10 @@ use layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 #[derive(Clone, Copy, Debug)]
 #[must_use = "an order is written, iterated over or walked"]
 pub struct Order<'t> {
-    tree: &'t BspTree,
-    viewpoint: Viewpoint,
-    is_front_to_back: bool,
-    culling: Option<&'t Culling>,
+    pub(crate) tree: &'t BspTree,
+    pub(crate) viewpoint: Viewpoint,
+    pub(crate) is_front_to_back: bool,
+    pub(crate) culling: Option<&'t Culling>,
 }
 
 impl BspTree {
