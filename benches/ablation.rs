@@ -65,8 +65,8 @@ macro_rules! changes {
 const MOST: usize = usize::MAX;
 
 const CHANGES: [Change; 31] = changes! {
-    frames: "all planes alone" => Some(FrameTuning { crossings: 0, probes: 0, ..FrameTuning::FRAMES }),
-        "probes alone" => Some(FrameTuning { all: 0, crossings: 0, ..FrameTuning::FRAMES });
+    frames: "as in frames" => Some(FrameTuning::FRAMES),
+        "clean planes alone" => Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES });
     clean_below: "0" => 0, "½" => 32, "×2" => 128;
     small: "0" => 0, "½" => 128, "×2" => 512;
     own_planes: "¼" => 24, "½" => 48, "×2" => 192;
@@ -80,9 +80,7 @@ const CHANGES: [Change; 31] = changes! {
 };
 
 /// Those that frames have of their own.
-const OF_FRAMES: [Change; 11] = [
-    ("all", "0", |t| t.frames = Some(FrameTuning { all: 0, ..FrameTuning::FRAMES })),
-    ("all", "×2", |t| t.frames = Some(FrameTuning { all: 32, ..FrameTuning::FRAMES })),
+const OF_FRAMES: [Change; 9] = [
     ("crossings", "0", |t| t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
     ("crossings", "½", |t| t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
     ("crossings", "all", |t| {

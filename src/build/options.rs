@@ -156,8 +156,8 @@ pub enum Heuristic {
     /// are taken off one after the other in a single search.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries the planes of polygons first, which takes less
-    /// time: in sets of up to 16 polygons all of them, in sets of up to 255 four. It takes one that cuts
-    /// nothing and divides the set evenly, or one that cuts one or two polygons, which cross its own.
+    /// time: four of them in sets of up to 255 polygons. It takes one that cuts nothing and divides the set
+    /// evenly, or one that cuts one or two polygons, which cross its own.
     #[default]
     Auto,
 }

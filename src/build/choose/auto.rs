@@ -2,7 +2,7 @@
 
 use super::axis_planes::FreePlanes;
 use super::cost::{CostModel, PricedPlane};
-use super::frame_planes::OwnFirst;
+use super::frame_planes::find_own;
 use super::own::{Candidates, Sample};
 use super::peel::{Peeler, arrange};
 use super::set::{LANES, Set};
@@ -20,7 +20,6 @@ pub(super) struct Auto {
     sample: Sample,
     candidates: Candidates,
     peeler: Peeler,
-    own_first: OwnFirst,
 }
 
 impl Auto {
@@ -38,13 +37,9 @@ impl Auto {
         let ChooseContext { tuning, watch, .. } = *rules;
         if let Some(frames) = &tuning.frames
             && set.len() < tuning.small
-            && let Some((plane, is_good)) = self.own_first.find(set, tuning, frames, division)
+            && let Some(plane) = find_own(set, tuning, frames, division)
         {
-            let free = if is_good { None } else { self.free.clean(set, tuning) };
-            if free.is_some() {
-                division.plane = None;
-            }
-            return Ok(Choice::Split(free.map_or(plane, |free| free.plane)));
+            return Ok(Choice::Split(plane));
         }
         division.plane = None;
         if let Some(plane) = self.common_plane(set, tuning) {

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::cost::{Cost, CostModel, Counts};
+use super::cost::{Cost, Counts};
 use super::own::Shares;
 use super::set::Set;
 use super::tuning::{FrameTuning, Tuning};
@@ -26,68 +26,32 @@ impl FrameTuning {
     }
 }
 
-/// Tries own planes of small sets; its list is kept to be used again.
-#[derive(Debug, Default)]
-pub(super) struct OwnFirst {
-    division: Division,
+/// The first plane of a few pieces that can be trusted, and cuts nothing and divides the set evenly, or cuts few pieces,
+/// all of which cross its own. Writes where the pieces lie against it.
+pub(super) fn find_own(
+    set: &Set<'_>,
+    tuning: &Tuning,
+    frames: &FrameTuning,
+    division: &mut Division,
+) -> Option<PlaneId> {
+    let (shares, least_share) = (Shares::of(set.size()), frames.least_share(set.faces));
+    let own = set.sample(frames.probes).find(|&own| {
+        shares.get(&set.pieces[own]) >= least_share
+            && set.divide(set.own_plane(own), frames.crossings, division)
+            && (Cost::of(&Counts::of(division)).divides_evenly(set.len(), tuning.uneven)
+                || cuts_what_crosses(set, own, division))
+    });
+    own.map(|own| set.own_plane(own))
 }
 
-impl OwnFirst {
-    /// The first plane of a few pieces that cuts nothing and divides the set evenly, or that cuts few
-    /// pieces, all of which cross its own. Of a set of few pieces, the best plane otherwise.
-    ///
-    /// Says as well whether the plane is good enough to be taken without a search for axis planes: it can be
-    /// trusted, and cuts no more than it has to. Writes where the pieces lie against it.
-    pub(super) fn find(
-        &mut self,
-        set: &Set<'_>,
-        tuning: &Tuning,
-        frames: &FrameTuning,
-        division: &mut Division,
-    ) -> Option<(PlaneId, bool)> {
-        let tries_all = set.len() <= frames.all;
-        let (tried, most) =
-            if tries_all { (set.len(), usize::MAX) } else { (frames.probes, frames.crossings) };
-        let (terms, shares) = (CostModel::small(set, tuning), Shares::of(set.size()));
-        let least_share = frames.least_share(set.faces);
-        let mut best: Option<(Cost, PlaneId, bool)> = None;
-        for own in set.sample(tried) {
-            let plane = set.own_plane(own);
-            // A plane that cuts more is neither taken at once nor better than one that cuts nothing.
-            let is_clean = best.is_some_and(|(least, ..)| !least.cuts);
-            let most = if is_clean { frames.crossings } else { most };
-            if !set.divide(plane, most, &mut self.division) {
-                continue;
-            }
-            let counts = Counts::of(&self.division);
-            let share = shares.get(&set.pieces[own]);
-            let is_trusted = share >= least_share;
-            let is_even = Cost::of(&counts).divides_evenly(set.len(), tuning.uneven);
-            if is_trusted && (is_even || self.cuts_what_crosses(set, own, frames)) {
-                std::mem::swap(&mut self.division, division);
-                return Some((plane, true));
-            }
-            let cost = terms.cost(&counts, share);
-            if tries_all && best.is_none_or(|(least, ..)| cost.is_less(&least)) {
-                best = Some((cost, plane, is_trusted && !cost.cuts));
-                std::mem::swap(&mut self.division, division);
-            }
-        }
-        best.map(|(_, plane, is_good)| (plane, is_good))
-    }
-
-    /// Whether the plane of a piece cuts few pieces, and all of them cross the piece: any tree has to cut
-    /// them, or it.
-    fn cuts_what_crosses(&self, set: &Set<'_>, own: usize, frames: &FrameTuning) -> bool {
-        let (cuts, sides) = (self.division.count(Side::Spanning), &self.division.sides);
-        let mut cut = (0..set.len()).filter(|&other| sides[other] == Side::Spanning);
-        0 < cuts
-            && cuts <= frames.crossings
-            && cut.all(|other| {
-                let [own, other] = [own, other].map(|piece| &set.pieces[piece]);
-                crosses(set.faces, set.arena, own, other)
-            })
-    }
+/// Whether the plane of a piece cuts some pieces, and all of them cross the piece: any tree has to cut them, or it.
+fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
+    let mut cut = (0..set.len()).filter(|&other| division.sides[other] == Side::Spanning);
+    division.count(Side::Spanning) > 0
+        && cut.all(|other| {
+            let [own, other] = [own, other].map(|piece| &set.pieces[piece]);
+            crosses(set.faces, set.arena, own, other)
+        })
 }
 
 /// How far a plane may be off at a vertex, in the `size` of its rounded normal. The vertex is rounded by

@@ -67,14 +67,11 @@ impl Tuning {
 /// The numbers that decide how frames divide small sets quickly.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// The most pieces of a set of which all planes are compared, before axis planes. Too large: that takes
-    /// longer than to search for other planes. Too small: sets are searched for axis planes again and again.
-    pub all: usize,
     /// The most pieces that a plane may cut to be taken at once. It must cut at least one, and each of them
     /// must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons that cross at
     /// random are cut by worse planes. Too small: all planes of rings are compared again and again.
     pub crossings: usize,
-    /// Own planes of a larger set of fewer than `small` pieces that are tried first, and taken at once if they
+    /// Own planes of a set of fewer than `small` pieces that are tried first, and taken at once if they
     /// cut nothing and divide the set evenly, or as above. More: time where each plane cuts something; fewer:
     /// stacks of layers are searched for the best plane, though any will do.
     pub probes: usize,
@@ -92,6 +89,5 @@ pub struct FrameTuning {
 
 impl FrameTuning {
     /// That of frames.
-    pub const FRAMES: Self =
-        Self { all: 16, crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
+    pub const FRAMES: Self = Self { crossings: 2, probes: 4, trusted_share: 0.25, coarse: 1e-8 };
 }
