@@ -10,9 +10,8 @@
 #![allow(missing_docs, reason = "a program")]
 
 use binspace::BspTree;
-use binspace::drawing::VisibilityMap;
+use binspace::drawing::ViewOptions;
 use binspace::glam::DVec3;
-use binspace::raster::Rays;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 use rayon::ThreadPoolBuilder;
@@ -81,9 +80,8 @@ fn measured(name: &str, scene: &Scene, camera: &Camera) -> Vec<String> {
         pool.install(|| {
             let build = || BspTree::build(scene.polygons()).expect("within budget");
             let (building, tree) = best_of(2, build);
-            let rays = Rays::new(camera, tree.faces()).expect("a picture");
             let drawn = || {
-                let map = VisibilityMap::of(&tree, rays.clone()).expect("memory");
+                let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
                 let paths = map.drawing().expect("memory").paths().len();
                 (paths, map.cells().count())
             };

@@ -13,9 +13,8 @@
 #![allow(clippy::print_stdout, reason = "a program")]
 
 use binspace::BspTree;
-use binspace::drawing::{EdgeKind, EdgeRun, VisibilityMap, polylines};
+use binspace::drawing::{EdgeKind, EdgeRun, Hidden, ViewOptions, polylines};
 use binspace::glam::{DVec3, dvec3};
-use binspace::raster::Rays;
 use binspace::view::Camera;
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
@@ -72,8 +71,7 @@ fn runs() -> Result<Vec<EdgeRun>, Box<dyn Error>> {
     let tree = BspTree::build(part())?;
     let eye = dvec3(7.0, -9.0, 9.0);
     let camera = Camera::perspective(eye, dvec3(0.0, 0.0, 0.8), DVec3::Z, 0.46, SIZE)?;
-    let rays = Rays::new(&camera, tree.faces())?;
-    let mut runs = VisibilityMap::of(&tree, rays)?.edges()?;
+    let mut runs = tree.visibility(&camera, &ViewOptions::DEFAULT)?.edges(Hidden::Keep)?;
     runs.retain(|run| !matches!(run.kind, EdgeKind::Crease(angle) if angle < CREASE));
     Ok(runs)
 }
@@ -93,8 +91,7 @@ fn svg(runs: &[EdgeRun]) -> Result<String, Box<dyn Error>> {
         write!(svg, "<path {style} d=\"")?;
         for line in polylines(alike.map(|run| run.ends))? {
             for (i, [x, y]) in line.points.iter().enumerate() {
-                // Pixels begin half a pixel before their centres.
-                write!(svg, "{}{:.1} {:.1}", if i == 0 { 'M' } else { 'L' }, x + 0.5, y + 0.5)?;
+                write!(svg, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' })?;
             }
         }
         writeln!(svg, "\"/>")?;

@@ -317,18 +317,16 @@ fn markers_show_where_no_surface_is_in_front_of_them() {
 /// The map says so too, in the same place of the picture.
 #[test]
 fn a_vector_picture_has_the_markers_that_show() {
-    use binspace::drawing::VisibilityMap;
-    use binspace::raster::Rays;
+    use binspace::drawing::ViewOptions;
 
     let plot = Plot::new().unwrap();
-    let rays = Rays::new(&svg::camera().unwrap(), plot.tree.faces()).unwrap();
-    let map = VisibilityMap::of(&plot.tree, rays).unwrap();
+    let camera = svg::camera().unwrap();
+    let map = plot.tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
     let mut found = [0; 2];
     let markers = map.markers(&plot.overlay).unwrap();
     for marker in &markers {
         let place = plot.marks[marker.point].at;
-        // Pixels of the map are counted from the centre of the first one.
-        let at = project(place) - dvec2(0.5, 0.5);
+        let at = project(place);
         assert!((DVec2::from(marker.at) - at).length() < 2e-3, "{marker:?} {at}");
         // Labels lie beyond the surfaces.
         let is_dot = plot.marks[marker.point].text.is_empty();

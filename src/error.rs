@@ -96,6 +96,8 @@ impl Error {
             | Kind::Corners(_)
             | Kind::OffGrid
             | Kind::Opacity(_)
+            | Kind::Opacities { .. }
+            | Kind::Camera(_)
             | Kind::Layer
             | Kind::Tolerance(_)
             | Kind::Bounds
@@ -108,7 +110,7 @@ impl Error {
             }
             Kind::OutOfMemory => ErrorKind::OutOfMemory,
             Kind::Cancelled => ErrorKind::Cancelled,
-            Kind::OverlaidTree | Kind::MeshOfOtherTree | Kind::OtherRays => ErrorKind::OtherTree,
+            Kind::OverlaidTree | Kind::MeshOfOtherTree => ErrorKind::OtherTree,
             Kind::InOverlay | Kind::OfCell => ErrorKind::Unsupported,
         }
     }
@@ -136,7 +138,7 @@ pub enum ErrorKind {
     /// The caller's callback cancelled it, as that of
     /// [`build_with_progress`](crate::BuildOptions::build_with_progress) can.
     Cancelled,
-    /// An overlay, a mesh or rays were made for another tree.
+    /// An overlay or a mesh was made for another tree.
     OtherTree,
     /// The two do not combine, such as a drawing and the tree of one cell.
     Unsupported,
@@ -158,6 +160,12 @@ pub(crate) enum Kind {
     /// A polygon where only lines and points can be.
     InOverlay,
     Opacity(f64),
+    Opacities {
+        given: usize,
+        expected: usize,
+    },
+    /// Its parameters, or its rays through a scene.
+    Camera(String),
     Layer,
     // Limits that the input, or a tree of it, exceeds.
     Polygons(usize),
@@ -180,7 +188,6 @@ pub(crate) enum Kind {
     OpenEdge(usize),
     OverlaidTree,
     MeshOfOtherTree,
-    OtherRays,
     Places {
         needed: usize,
         given: usize,
@@ -196,7 +203,7 @@ impl fmt::Display for Error {
             Shape::Point => "point",
             Shape::Layer => "layer",
         };
-        match self.kind {
+        match &self.kind {
             Kind::NonFinite => {
                 write!(f, "{shape} {number} has a coordinate that is NaN or infinite")
             }
@@ -218,6 +225,11 @@ impl fmt::Display for Error {
                 f,
                 "the opacity of {shape} {number} is {value}: expected a number from 0 to 1"
             ),
+            Kind::Opacities { given, expected } => write!(
+                f,
+                "there are {given} opacities, but {expected} polygons: give one for each polygon"
+            ),
+            Kind::Camera(problem) => f.write_str(problem),
             Kind::Layer => write!(
                 f,
                 "the rectangle or matrix of {shape} {number} has a number that is NaN, infinite or \
@@ -276,10 +288,6 @@ impl fmt::Display for Error {
             Kind::MeshOfOtherTree => {
                 f.write_str("the mesh was made of another tree: make the mesh of this tree")
             }
-            Kind::OtherRays => f.write_str(
-                "the rays were made for a scene with another grid: make them for this tree's faces by \
-                 `Rays::new`",
-            ),
             Kind::Places { needed, given } => write!(
                 f,
                 "the buffer has room for {given} indices, but {needed} are to be written: make it \

@@ -14,7 +14,7 @@
 //! | order doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers` |
-//! | draw a vector picture: SVG, hidden lines, plots | `drawing::VisibilityMap` | `hidden_lines`, `plot` |
+//! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
 //! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
 //! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
 //! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |

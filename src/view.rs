@@ -3,10 +3,9 @@
 //! A picture is `width` × `height` pixels; x runs right, y runs down, pixel (0, 0) is the top left
 //! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
 
-use std::fmt;
-
 use glam::{DMat4, DVec3, DVec4};
 
+use crate::error::Kind;
 use crate::random::SplitMix64;
 use crate::viewpoint::{Frustum, Viewpoint};
 
@@ -360,22 +359,12 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-/// Why a camera, or its rays through a scene, cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CameraError(String);
+pub use crate::Error as CameraError;
 
 /// The error of a problem.
 pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, CameraError> {
-    Err(CameraError(problem.into()))
+    Err(Kind::Camera(problem.into()).error())
 }
-
-impl fmt::Display for CameraError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for CameraError {}
 
 /// The field of view of cameras that stand around a scene, in radians.
 const AROUND: f64 = 0.7;

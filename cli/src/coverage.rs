@@ -28,7 +28,7 @@ pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -
     }
     let add = |band: &mut Band| {
         for cell in map.cells() {
-            band.add(cell.corners().map(from_corner), colours[&cell.polygon()]);
+            band.add(cell.corners(), colours[&cell.polygon()]);
         }
     };
     pixels(map.size(), add)
@@ -45,16 +45,11 @@ pub(crate) fn blended(size: [u32; 2], regions: &[Region], style: &Style<'_>) -> 
     let add = |band: &mut Band| {
         for (region, &colour) in regions.iter().zip(&colours) {
             for outline in region.outlines() {
-                band.add(outline.iter().copied().map(from_corner), colour);
+                band.add(outline.iter().copied(), colour);
             }
         }
     };
     pixels(size, add)
-}
-
-/// In pixels from the picture's corner: they begin half a pixel before their centres.
-fn from_corner(at: [f64; 2]) -> [f64; 2] {
-    at.map(|c| c + 0.5)
 }
 
 /// All pixels, row by row, where a function adds all areas to a part of the picture.

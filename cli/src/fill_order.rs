@@ -89,7 +89,7 @@ fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
     let [width, height] = size.map(f64::from);
     let cell = (width * height / areas.len().max(1) as f64).sqrt().max(1.0);
     let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
-    let place = |c: f64, most: usize| (((c + 0.5) / cell).max(0.0) as usize).min(most - 1);
+    let place = |c: f64, most: usize| ((c / cell).max(0.0) as usize).min(most - 1);
     let mut cells: Vec<Vec<u32>> = vec![vec![]; columns * rows];
     let (mut entries, most) = (0, MOST_PAIRS * areas.len());
     for (number, area) in areas.iter().enumerate() {

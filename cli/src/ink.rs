@@ -33,18 +33,17 @@ pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes]) {
     }
 }
 
-/// The parts of a line through points, given in pixels from the centre of the first one.
+/// The parts of a line through points, given in pixels.
 fn parts(points: &[[f64; 2]], depth: u32) -> Vec<Part> {
-    let points: Vec<[f64; 2]> = points.iter().map(|point| point.map(|c| c + 0.5)).collect();
     let mut parts = Vec::new();
     if depth == 0 {
         let radius = WIDTH / 2.0;
-        add_bands(&points, radius, &mut parts);
+        add_bands(points, radius, &mut parts);
         parts.extend(points.iter().map(|&centre| Part::Disc { centre, radius }));
         return parts;
     }
     let radius = HIDDEN_WIDTH / 2.0;
-    for dash in dashed(&points, dashes(depth)) {
+    for dash in dashed(points, dashes(depth)) {
         add_bands(&dash, radius, &mut parts);
         let joints = &dash[1..dash.len() - 1];
         parts.extend(joints.iter().map(|&centre| Part::Disc { centre, radius }));

@@ -35,7 +35,7 @@ pub(crate) fn units([width, height]: [u32; 2]) -> u32 {
 }
 
 impl Steps {
-    /// Of outlines to be filled, given in pixels from the centre of the first one.
+    /// Of outlines to be filled, given in pixels.
     ///
     /// Coordinates are rounded to whole units. Where nothing would be left of the area, units have
     /// decimals.
@@ -111,7 +111,7 @@ fn closed(mut corners: Vec<[i64; 2]>) -> Line {
 
 /// Corners in steps from the corner of the picture, without those that fall on the one before.
 fn round(points: &[[f64; 2]], scale: f64) -> Vec<[i64; 2]> {
-    let steps = |corner: [f64; 2]| corner.map(|c| ((c + 0.5) * scale).round() as i64);
+    let steps = |corner: [f64; 2]| corner.map(|c| (c * scale).round() as i64);
     let mut rounded: Vec<[i64; 2]> = points.iter().map(|&corner| steps(corner)).collect();
     rounded.dedup();
     rounded

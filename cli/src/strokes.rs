@@ -1,7 +1,7 @@
 //! Lines of a drawing: which edges are drawn, joined and in an order for a pen.
 
 use binspace::Error;
-use binspace::drawing::{EdgeKind, EdgeRun, Polyline, polylines};
+use binspace::drawing::{self, EdgeKind, EdgeRun, Polyline, polylines};
 use clap::ValueEnum;
 
 /// The angle from which on a crease is drawn, in degrees, unless the user says. Larger: edges of parts
@@ -29,6 +29,16 @@ pub(crate) enum Hidden {
     Layers,
     /// Not at all
     None,
+}
+
+impl From<Hidden> for drawing::Hidden {
+    fn from(hidden: Hidden) -> Self {
+        match hidden {
+            Hidden::None => Self::Skip,
+            Hidden::Dashed => Self::Keep,
+            Hidden::Layers => Self::Count,
+        }
+    }
 }
 
 /// Lines that are drawn alike.
@@ -103,7 +113,6 @@ fn class(kind: EdgeKind) -> &'static str {
 pub(crate) fn strokes(
     runs: &[EdgeRun],
     edges: EdgeChoice,
-    hidden: Hidden,
     shortest: f64,
 ) -> Result<Vec<Strokes>, Error> {
     let mut all = Vec::new();
@@ -113,12 +122,8 @@ pub(crate) fn strokes(
     };
     for depth in (0..=DEEPEST).rev() {
         for name in CLASSES {
-            let is_drawn = depth == 0 || hidden != Hidden::None;
             let runs = runs.iter().copied().filter(|run| {
-                is_drawn
-                    && depth_of(run) == depth
-                    && class(run.kind) == name
-                    && edges.draws(run.kind)
+                depth_of(run) == depth && class(run.kind) == name && edges.draws(run.kind)
             });
             let runs: Vec<EdgeRun> = runs.collect();
             let mut lines = polylines(runs.iter().map(|run| run.ends))?;

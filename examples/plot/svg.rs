@@ -2,9 +2,8 @@
 //! them, and the markers and labels that show.
 
 use super::{Line, Plot, SIZE, TOWARDS_EYE, UNIT, project};
-use binspace::drawing::{VisibilityMap, polylines};
+use binspace::drawing::{Hidden, ViewOptions, polylines};
 use binspace::glam::{DVec2, DVec3};
-use binspace::raster::Rays;
 use binspace::view::Camera;
 use std::error::Error;
 use std::fmt::Write;
@@ -22,12 +21,11 @@ pub(crate) fn camera() -> Result<Camera, Box<dyn Error>> {
 }
 
 pub(crate) fn text(plot: &Plot) -> Result<String, Box<dyn Error>> {
-    let map = VisibilityMap::of(&plot.tree, Rays::new(&camera()?, plot.tree.faces())?)?;
+    let map = plot.tree.visibility(&camera()?, &ViewOptions::DEFAULT)?;
     let [width, height] = SIZE;
-    // Positions are from the centre of the first pixel.
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-0.5 -0.5 {width} {height}\">\n\
-         <rect x=\"-0.5\" y=\"-0.5\" width=\"{width}\" height=\"{height}\" fill=\"#f7f7f2\"/>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#f7f7f2\"/>\n"
     );
     for path in map.drawing()?.paths() {
         let [r, g, b, _] = plot.colour(path.polygon()).map(|c| (c * 255.0).round());
@@ -36,16 +34,16 @@ pub(crate) fn text(plot: &Plot) -> Result<String, Box<dyn Error>> {
         path.outlines().try_for_each(|outline| data(&mut out, outline, true))?;
         writeln!(out, "\" stroke-width=\".3\"/>")?;
     }
-    let visible = map.edges()?.into_iter().filter(|run| run.is_visible);
+    let visible = map.edges(Hidden::Skip)?;
     write!(
         out,
         "<g fill=\"none\" stroke-linejoin=\"round\"><path stroke=\"#000\" stroke-opacity=\".16\" d=\""
     )?;
-    for line in polylines(visible.map(|run| run.ends))? {
+    for line in polylines(visible.iter().map(|run| run.ends))? {
         data(&mut out, &line.points, false)?;
     }
     writeln!(out, "\" stroke-width=\".7\"/>")?;
-    let runs = map.lines(&plot.overlay)?;
+    let runs = map.lines(&plot.overlay, Hidden::Keep)?;
     for is_visible in [false, true] {
         for (number, Line { width, colour, .. }) in plot.lines.iter().enumerate() {
             let own = runs.iter().filter(|run| run.line == number && run.is_visible == is_visible);

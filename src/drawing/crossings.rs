@@ -9,7 +9,7 @@ use super::cell::Cell;
 use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
 use super::exact_lines::compare;
 use super::lines::{HalfPlane, LineTable, Table};
-use super::map::{VisibilityMap, each, finish_item, sort_by, sort_unique};
+use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
 use super::sight::{ProjectedSegment, parts};
@@ -48,22 +48,38 @@ pub(super) struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// Where polygons go through one another, as far as it shows: runs of [`EdgeKind::Crossing`], all
-    /// visible, each once, with the polygon of the lower number first.
+    /// The lines in which polygons go through one another: runs of [`EdgeKind::Crossing`], each once, with the
+    /// polygon of the lower number first. Where an edge of a polygon only touches another, [`edges`](Self::edges) has
+    /// it.
     ///
-    /// A point is on a crossing if both polygons show at it, one on each side. This is read off the map,
-    /// so it is as exact: only the ends of runs are rounded. Where an edge of a polygon only touches
-    /// another, [`edges`](Self::edges) has it; and [`crossings_with_hidden`](Self::crossings_with_hidden) what is hidden
-    /// of crossings. Along an edge that triangulation made, a polygon is crossed where the other one lies
-    /// between the two triangles there; what is no further from a plane than the tolerance counts as on it.
+    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is read off the
+    /// map, so it is as exact: only the ends of runs are rounded. Along an edge that triangulation made, a polygon is
+    /// crossed where the other one lies between the two triangles there; a corner no further from a plane than the
+    /// tolerance is treated as on it.
+    ///
+    /// Unless they are [skipped](Hidden::Skip), hidden runs are those of polygons that both have corners on both
+    /// sides of the other, further from it than the tolerance. Of polygons in several faces, each pair of faces then
+    /// has runs of its own.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
-    /// [`regions`](Self::regions) are found as well.
+    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are many with
+    /// overlapping boxes, as at the tip of a cone of many faces.
     ///
     /// # Errors
     ///
     /// If it was [cancelled](Self#progress).
-    pub fn crossings(&self) -> Result<Vec<EdgeRun>, Error> {
+    pub fn crossings(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
+        match hidden {
+            Hidden::Skip => self.visible_crossings(),
+            Hidden::Keep => self.reporter.watch(4, |watch| {
+                let (crossings, shown) = self.all_crossings(watch)?;
+                self.crossing_runs(&crossings, &shown, None, watch)
+            }),
+            Hidden::Count => self.crossings_in_layers(),
+        }
+    }
+
+    fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
             let inner = InnerEdges::of(self.stock.frame.faces, watch)?;
             let common = self.common_sides(&inner, watch)?;
@@ -290,32 +306,7 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of [`crossings`](Self::crossings), and those that are hidden by others. Of polygons in several
-    /// faces, each pair of faces has runs of its own.
-    ///
-    /// Hidden are those of polygons that both have corners on both sides of the other, further from it than the
-    /// tolerance.
-    ///
-    /// O(n log n) for n faces, unless there are many with overlapping boxes, as at the tip of a cone of many faces.
-    ///
-    /// # Errors
-    ///
-    /// If it was [cancelled](Self#progress).
-    pub fn crossings_with_hidden(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(4, |watch| {
-            let (crossings, shown) = self.all_crossings(watch)?;
-            self.crossing_runs(&crossings, &shown, None, watch)
-        })
-    }
-
-    /// The runs of [`crossings_with_hidden`](Self::crossings_with_hidden), each with [`EdgeRun::layers`]: as
-    /// [`edges_in_layers`](Self::edges_in_layers) has edges, cut where the number of polygons in front of them
-    /// changes. For each crossing this takes time and memory as for an edge.
-    ///
-    /// # Errors
-    ///
-    /// If it was [cancelled](Self#progress).
-    pub fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
+    fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(6, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
             let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());

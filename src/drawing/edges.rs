@@ -11,14 +11,12 @@ use smallvec::SmallVec;
 use super::crossings::{FaceEdge, InnerEdges};
 use super::leaf::Visible;
 use super::lines::{LineTable, Table};
-use super::map::{VisibilityMap, each, finish_item, sort_by};
-use super::overlaid::{LineRun, sights};
+use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by};
 use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
 use super::stock::OutlineCache;
 use super::tile::{CUT, LINES, Reaches, VISITED};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
-use crate::overlay::Overlay;
 use crate::progress::Watch;
 
 /// Edges with the runs of those that a polygon shows.
@@ -29,31 +27,35 @@ pub(super) struct Runs {
 }
 
 impl VisibilityMap<'_> {
-    /// All edges of polygons that show a side to the camera, as far as they are in the picture, in runs
+    /// The edges of polygons that show a side to the camera, as far as they are in the picture, in runs
     /// that are visible or hidden. Runs of one polygon follow one another, and those of an edge from its
     /// beginning to its end.
     ///
-    /// What is visible is read off the map, so it is as exact: only the ends of runs are rounded. An edge
-    /// is hidden by what lies before it, not by the faces that have it (though by another part of a polygon that is
-    /// not planar). Polygons have an edge in common
-    /// if both of its corners are the same. Edges inside a polygon, which triangulation made, are none, but
-    /// for silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
-    /// and from behind on the other. Nor are edges at which all polygons are seen exactly edge-on, nor
-    /// those along a border of the picture with all polygons on its other side. Where polygons go through one
-    /// another, [`crossings`](Self::crossings) tells.
+    /// Visibility is read off the map, so it is as exact: only the ends of runs are rounded. The faces that have an
+    /// edge do not hide it (though another part of a polygon that is not planar may). Polygons share an edge
+    /// if both of its corners are the same. Edges that triangulation made inside a polygon are left out, except
+    /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
+    /// and from behind on the other. Edges at which all polygons are seen exactly edge-on are left out too, and
+    /// those along a border of the picture with all polygons on its other side. [`crossings`](Self::crossings) has
+    /// the lines in which polygons go through one another.
     ///
-    /// O(n log n) for n edges and cells. (What is hidden, and how to tell for lines: A. Appel, "The notion
-    /// of quantitative invisibility and the machine rendering of solids", 1967.)
+    /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
     ///
     /// # Errors
     ///
     /// If it was [cancelled](Self#progress).
-    pub fn edges(&self) -> Result<Vec<EdgeRun>, Error> {
+    pub fn edges(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
+        if hidden == Hidden::Count {
+            return self.edges_in_layers();
+        }
         self.reporter.watch(2, |watch| {
             let list = self.edge_runs(watch)?.list;
             let mut runs = Vec::with_capacity(list.len());
             for run in each(watch, 1, list) {
-                runs.push(run?.0);
+                let (run, _) = run?;
+                if run.is_visible || hidden == Hidden::Keep {
+                    runs.push(run);
+                }
             }
             Ok(runs)
         })
@@ -332,13 +334,13 @@ pub struct EdgeRun {
     pub edge: Option<u32>,
     /// What the line is.
     pub kind: EdgeKind,
-    /// Where the run begins and ends in the picture, in pixels from the centre of the first one: in the direction
+    /// Where the run begins and ends in the picture, in pixels: in the direction
     /// in which the polygon runs along the edge; a crossing has either.
     pub ends: [[f64; 2]; 2],
-    /// Whether it shows.
+    /// Whether it is visible.
     pub is_visible: bool,
-    /// How many polygons lie in front of it; `None` if they were not counted. Of a visible run that is 0: what it
-    /// is seen through does not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a visible
+    /// run: polygons that it is seen through do not count.
     pub layers: Option<u32>,
 }
 
@@ -372,18 +374,8 @@ impl Depths {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of [`edges`](Self::edges), each with [`EdgeRun::layers`]: hidden ones are cut where the
-    /// number of polygons in front of them changes.
-    ///
-    /// All polygons count that show a side to the camera, once each, be they hidden themselves; but not
-    /// the faces that have the edge (of a polygon that is not planar, another face may lie in front). One counts at
-    /// least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go with how many
-    /// lie in front of hidden edges.
-    ///
-    /// # Errors
-    ///
-    /// If it was [cancelled](Self#progress).
-    pub fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
+    /// The runs of all edges with the numbers of polygons in front of them: four phases.
+    fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(4, |watch| {
             let faces = self.stock.frame.faces;
             let Runs { edges, list } = self.edge_runs(watch)?;
@@ -415,34 +407,6 @@ impl VisibilityMap<'_> {
                 let known = sights.get(place).map(|sight| (sight, depths.of(place)));
                 for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
                     layered.push(EdgeRun { ends, layers: Some(layers), ..*run });
-                }
-            }
-            Ok(layered)
-        })
-    }
-
-    /// The runs of [`lines`](Self::lines), each with [`LineRun::layers`], as
-    /// [`edges_in_layers`](Self::edges_in_layers) has those of edges.
-    ///
-    /// # Errors
-    ///
-    /// As for `lines`.
-    pub fn lines_in_layers(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
-        overlay.expect_no_polygons(self.tree)?;
-        self.reporter.watch(3, |watch| {
-            let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
-            let runs = self.line_runs(&segments, &sights, watch)?;
-            let depths = self.depths(&sights, |_, _| false, watch)?;
-            let mut layered = Vec::new();
-            let mut runs = runs.iter().peekable();
-            for numbered in each(watch, VISITED, segments.iter().enumerate()) {
-                let (number, segment) = numbered?;
-                let name = (segment.line, segment.number);
-                while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
-                    let known = Some((&sights[number], depths.of(number)));
-                    for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
-                        layered.push(LineRun { ends, layers: Some(layers), ..*run });
-                    }
                 }
             }
             Ok(layered)

@@ -1,7 +1,7 @@
 //! On which side of a line of the picture two others meet, and where: in floats and in integers.
 //!
-//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels
-//! from the centre of the first one, with k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the
+//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels,
+//! with k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the
 //! plane through both and the eye. The cut of a face f by a plane h is where a ray meets both: with
 //! κ the value of a plane at the eye (of parallel rays, its slope along them) and φ its value along a
 //! ray, k = κ_f φ_h − κ_h φ_f.

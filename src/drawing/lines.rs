@@ -449,8 +449,7 @@ impl Key {
             }
             Self::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
         };
-        // The picture may end half a pixel beyond the pixels that the error is for, and its lists reach a
-        // pixel further.
+        // Lines are looked at up to a pixel beyond the picture that the error is for.
         let rounded = Rounded::scaled(k, 4.0 * error);
         if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, corners), reach) }
     }

@@ -20,36 +20,37 @@ use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
 use crate::raster::Rays;
 use crate::tree::BspTree;
+use crate::view::Camera;
 
-/// Which polygon shows where in a picture: convex cells that lie side by side, each of one polygon.
+/// What is visible in one view: convex cells side by side, each a part of one polygon.
+/// [`BspTree::visibility`] makes it.
 ///
-/// It is exact, without a tolerance of its own: lines of the picture are planes through the eye in
-/// integers, and a corner is where two of them meet, never a rounded point. So a polygon is in the map
-/// if and only if some of it shows, however small; and where two polygons of one plane overlap, the one
-/// shows that the tree's order paints last.
+/// It is exact, without a tolerance of its own. Lines of the picture are planes through the eye in integers, and a
+/// corner is where two of them meet, never a rounded point. A polygon is in the map if and only if some of it is
+/// visible, however small. Where two polygons of one plane overlap, the map has the one that the tree's order
+/// paints last.
 ///
 /// The edges of a polygon go through its corners as given if none was moved by more than 2⁻³² of the extent, which is
 /// more than the rounding of `f64`. So nothing is visible between neighbours that share an edge. The planes onto
 /// which corners were moved decide which polygon is in front. Edges go through the corners as moved where these
 /// were moved further, where the given ones are not convex in the picture, or where there are more than eight.
 ///
-/// Time is O(n log n) for n fragments in most scenes, and what shows adds to it, not what is hidden;
-/// memory likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the
-/// map is the same, bit for bit.
+/// Time is O(n log n) for n fragments in most scenes; visible polygons add to it, hidden ones do not. Memory
+/// likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
+/// for bit.
 ///
-/// Positions are in pixels from the centre of the first one, as those of [`Rays`]: the picture reaches
-/// from −½ to its size less ½, x to the right, y down.
+/// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
+/// right, y down. The centre of the first pixel is at (½, ½).
 ///
 /// # Progress
 ///
-/// A map that is made [with progress](Self::of_with_progress) keeps the callback: all that is asked of the map
-/// afterwards, and can fail, reports to it as well. Each operation, the making of the map among them, counts by
-/// itself: `total` is the number of its parts, which is the same from its beginning to its end and tells
-/// nothing but how `done` is to be read; `done` begins with 0, never decreases, and is `total` in the last
-/// call, when the result is ready. Parts do not take equally long. The callback is called each time about a
-/// millisecond of work is done, by any thread, one at a time; only to sort a long list takes longer (a tenth of a
-/// second for a million items). If it returns `Break`, the operation ends with an error of which
-/// [`Error::kind`] is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
+/// A map keeps [the callback](ViewOptions::progress) that it is made with: each later operation that can fail
+/// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the number
+/// of its parts; it does not change during the operation. `done` begins with 0, never decreases, and is `total` in
+/// the last call, when the result is ready. Parts do not take equally long. The callback is called about once a
+/// millisecond, by any thread, one call at a time; only the sorting of a long list takes longer (a tenth of a
+/// second for a million items). If it returns `Break`, the operation ends with an error whose
+/// [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
 /// several threads use one map at once, the callback is called for each of them in turn, and the last call of an
 /// operation may be missing.
 #[derive(Debug)]
@@ -59,106 +60,158 @@ pub struct VisibilityMap<'t> {
     /// Of the faces of polygons that show, and of the items of translucent ones.
     pub(super) rims: OutlineCache<'t>,
     pub(super) leaves: Vec<Leaf>,
+    /// Drawings leave out polygons whose visible area is less.
+    pub(super) least_area: f64,
     pub(super) reporter: Reporter<'t>,
 }
 
-/// A polygon that shows.
+/// How a view is computed: [`BspTree::visibility`].
+///
+/// ```
+/// use binspace::drawing::ViewOptions;
+///
+/// let options = ViewOptions::DEFAULT.with_front_faces_only().with_opacities(vec![1.0, 0.5]);
+/// assert_eq!(options.least_area, 0.0);
+/// ```
+#[derive(Clone, Default)]
+#[non_exhaustive]
+pub struct ViewOptions<'a> {
+    /// Whether polygons that are seen from behind are left out: those whose corners run clockwise in the picture.
+    /// Default: `false`.
+    pub front_faces_only: bool,
+    /// The opacity of each polygon, from 0 to 1, by its number in the input. Polygons with less than 1 hide nothing,
+    /// and those with 0 are left out. Default: an empty list, all are opaque.
+    pub opacities: Vec<f64>,
+    /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square pixels is
+    /// less. Default: 0, all are drawn.
+    pub least_area: f64,
+    /// A callback that is told how far the work is, and can cancel it: [Progress](VisibilityMap#progress). Default:
+    /// `None`.
+    pub progress: Option<&'a (dyn Fn(Progress) -> ControlFlow<()> + Sync)>,
+}
+
+impl<'a> ViewOptions<'a> {
+    /// All polygons, opaque, from both sides.
+    pub const DEFAULT: Self =
+        Self { front_faces_only: false, opacities: vec![], least_area: 0.0, progress: None };
+
+    /// The same options, with [`front_faces_only`](Self::front_faces_only) set.
+    #[must_use]
+    pub fn with_front_faces_only(self) -> Self {
+        Self { front_faces_only: true, ..self }
+    }
+
+    /// The same options with other [`opacities`](Self::opacities).
+    #[must_use]
+    pub fn with_opacities(self, opacities: Vec<f64>) -> Self {
+        Self { opacities, ..self }
+    }
+
+    /// The same options with another [`least_area`](Self::least_area).
+    #[must_use]
+    pub fn with_least_area(self, least_area: f64) -> Self {
+        Self { least_area, ..self }
+    }
+
+    /// The same options with a callback for [`progress`](Self::progress).
+    #[must_use]
+    pub fn with_progress(self, progress: &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> Self {
+        Self { progress: Some(progress), ..self }
+    }
+}
+
+impl fmt::Debug for ViewOptions<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ViewOptions")
+            .field("front_faces_only", &self.front_faces_only)
+            .field("opacities", &self.opacities)
+            .field("least_area", &self.least_area)
+            .field("progress", &self.progress.map(|_| "callback"))
+            .finish()
+    }
+}
+
+/// What happens to hidden parts of edges, crossings and lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Hidden {
+    /// They are left out.
+    #[default]
+    Skip,
+    /// They are runs that are not visible.
+    Keep,
+    /// As `Keep`, cut where the number of polygons in front changes: a run's `layers`.
+    ///
+    /// All polygons count that show a side to the camera, once each, be they hidden themselves, but not the faces
+    /// that have the edge (of a polygon that is not planar, another face may lie in front). The number is 1 at
+    /// least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go with the number
+    /// of polygons in front of hidden parts. (A. Appel, "The notion of quantitative invisibility and the machine
+    /// rendering of solids", 1967.)
+    Count,
+}
+
+/// A polygon of which some is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Shown {
+pub struct VisiblePolygon {
     /// The polygon, by its number in the input.
     pub polygon: usize,
-    /// How much of the picture shows it, in square pixels.
+    /// Its visible area, in square pixels.
     pub area: f64,
-    /// A point of the picture that shows it, near the middle of the largest of its cells.
+    /// A point at which it is visible, near the middle of the largest of its cells, in pixels.
     pub point: [f64; 2],
 }
 
-/// A part of the picture that shows one polygon.
+/// A convex part of the picture in which one polygon is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct MapCell<'m> {
     polygon: usize,
     cell: &'m Cell,
 }
 
-impl<'t> VisibilityMap<'t> {
-    /// What rays meet first of a tree's polygons: of both sides, or of fronts alone, as the rays say. They
-    /// have to be made for [`tree.faces()`](BspTree::faces), or for those of a tree with the same
-    /// [grid](BspTree::grid).
+impl BspTree {
+    /// Computes what of the tree's polygons is visible to a camera.
+    ///
+    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where nothing opaque is before
+    /// it, so that cells of translucent polygons lie over those of others. The number of cells, and the time, grow
+    /// with the number of translucent polygons that lie over one another.
     ///
     /// # Errors
     ///
-    /// If the rays were made for another grid, if the tree is of one cell of a partition, or if there is not
-    /// enough memory.
-    pub fn of(tree: &'t BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::new(tree, rays, |_| 1.0, Reporter::default())
-    }
-
-    /// As [`of`](Self::of), of polygons with opacities, by their numbers, from 0 to 1: those of less than 1
-    /// hide nothing, and those of 0 are left out. A polygon shows where nothing opaque is before it; so cells
-    /// of translucent polygons lie over those of others.
-    ///
-    /// What is said of a map elsewhere holds for what is seen through translucent polygons as well:
-    /// [`edges`](Self::edges) behind one are visible. The number of cells, and the time, grow with how many
-    /// translucent polygons lie over one another.
-    ///
-    /// # Errors
-    ///
-    /// As for `of`, and if an opacity is not a number from 0 to 1: [`Error::polygon`] tells whose.
-    pub fn with_opacities(
-        tree: &'t BspTree,
-        rays: Rays,
-        opacity: impl Fn(usize) -> f64,
-    ) -> Result<Self, Error> {
-        Self::new(tree, rays, opacity, Reporter::default())
-    }
-
-    /// As [`with_opacities`](Self::with_opacities), with `progress` as in
-    /// [`of_with_progress`](Self::of_with_progress).
-    ///
-    /// # Errors
-    ///
-    /// As for `with_opacities`, and [`Error`] if it was cancelled.
-    pub fn with_opacities_and_progress(
-        tree: &'t BspTree,
-        rays: Rays,
-        opacity: impl Fn(usize) -> f64,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 't,
-    ) -> Result<Self, Error> {
-        Self::new(tree, rays, opacity, Reporter::new(progress))
-    }
-
-    /// As [`of`](Self::of). Now and then `progress` is called with how far it is, and may cancel it: now, and in
-    /// all that is asked of the map afterwards. See [above](Self#progress).
-    ///
-    /// # Errors
-    ///
-    /// As for `of`, and [`Error`] if it was cancelled.
-    pub fn of_with_progress(
-        tree: &'t BspTree,
-        rays: Rays,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 't,
-    ) -> Result<Self, Error> {
-        Self::new(tree, rays, |_| 1.0, Reporter::new(progress))
-    }
-
-    fn new(
-        tree: &'t BspTree,
-        rays: Rays,
-        opacity: impl Fn(usize) -> f64,
-        reporter: Reporter<'t>,
-    ) -> Result<Self, Error> {
-        let opacities = checked(tree, opacity)?;
+    /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is that of
+    /// one cell of a partition; if there is not one opacity for each polygon, or one is not a number from 0 to 1 (of
+    /// which [`Error::polygon`] tells the first); if there is not enough memory, or if it was cancelled.
+    pub fn visibility<'t>(
+        &'t self,
+        camera: &Camera,
+        options: &ViewOptions<'t>,
+    ) -> Result<VisibilityMap<'t>, Error> {
+        let ViewOptions { front_faces_only, ref opacities, least_area, progress } = *options;
+        let rays = drawing_rays(self, camera, front_faces_only)?;
+        let opacities = checked(self, opacities)?;
+        let reporter = Reporter::new(progress);
         let (stock, rims, leaves) = reporter.watch(3, |watch| {
             let picture = Tile::picture(rays.size());
-            let stock = Primitives::new(tree, rays, opacities, watch)?;
+            let stock = Primitives::new(self, rays, opacities, watch)?;
             let (leaves, mut rims) = visible(&stock, picture, watch)?;
             add_shown(&mut rims, &stock, &leaves, watch)?;
             Ok((stock, rims, leaves))
         })?;
-        Ok(Self { tree, stock, rims, leaves, reporter })
+        Ok(VisibilityMap { tree: self, stock, rims, leaves, least_area, reporter })
     }
+}
 
+/// The rays of a drawing: their pictures begin at the corner of the first pixel.
+pub(super) fn drawing_rays(
+    tree: &BspTree,
+    camera: &Camera,
+    front_faces_only: bool,
+) -> Result<Rays, Error> {
+    let rays = Rays::new(camera, tree.faces())?;
+    let rays = if front_faces_only { rays.with_front_faces_only() } else { rays };
+    Ok(rays.with_corner_origin())
+}
+
+impl VisibilityMap<'_> {
     /// The picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.stock.frame.rays.size()
@@ -170,12 +223,12 @@ impl<'t> VisibilityMap<'t> {
         cells.map(|Visible { item, cell }| MapCell { polygon: self.stock.polygon(*item), cell })
     }
 
-    /// The polygons that show, by their numbers.
-    pub fn polygons(&self) -> impl Iterator<Item = Shown> {
-        let mut found: BTreeMap<usize, (Shown, f64)> = BTreeMap::new();
+    /// The visible polygons, by their numbers.
+    pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
+        let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
         for cell in self.cells() {
             let (polygon, area) = (cell.polygon(), cell.area());
-            let new = (Shown { polygon, area: 0.0, point: cell.middle() }, area);
+            let new = (VisiblePolygon { polygon, area: 0.0, point: cell.middle() }, area);
             let (shown, largest) = found.entry(polygon).or_insert(new);
             shown.area += area;
             if area > *largest {
@@ -183,6 +236,15 @@ impl<'t> VisibilityMap<'t> {
             }
         }
         found.into_values().map(|(shown, _)| shown)
+    }
+
+    /// The polygons, by their numbers and sorted, that drawings leave out as too little of them is visible.
+    pub(super) fn left_out(&self) -> Vec<usize> {
+        if self.least_area <= 0.0 {
+            return vec![];
+        }
+        let small = self.polygons().filter(|visible| visible.area < self.least_area);
+        small.map(|visible| visible.polygon).collect()
     }
 }
 
@@ -217,13 +279,16 @@ fn add_shown<'t>(
 }
 
 /// The opacities of all polygons; none if all are opaque.
-fn checked(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> Result<Vec<f64>, Error> {
-    let opacities: Vec<_> = (0..tree.preparation().polygons).map(opacity).collect();
+pub(super) fn checked(tree: &BspTree, opacities: &[f64]) -> Result<Vec<f64>, Error> {
+    let expected = tree.preparation().polygons;
+    if !opacities.is_empty() && opacities.len() != expected {
+        return Err(Kind::Opacities { given: opacities.len(), expected }.error());
+    }
     let is_wrong = |opacity: &f64| !(0.0..=1.0).contains(opacity);
     match opacities.iter().position(is_wrong) {
         Some(polygon) => Err(Kind::Opacity(opacities[polygon]).of_polygon(polygon)),
         None if opacities.iter().all(|&opacity| opacity == 1.0) => Ok(vec![]),
-        None => Ok(opacities),
+        None => Ok(opacities.to_vec()),
     }
 }
 
@@ -350,8 +415,8 @@ type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 
 impl<'c> Reporter<'c> {
-    pub(super) fn new(progress: impl FnMut(Progress) -> ControlFlow<()> + Send + 'c) -> Self {
-        Self(Some(Box::new(one_at_a_time(progress))))
+    pub(super) fn new(progress: Option<&'c (dyn Fn(Progress) -> ControlFlow<()> + Sync)>) -> Self {
+        Self(progress.map(|progress| Box::new(one_at_a_time(progress)) as Box<Report<'c>>))
     }
 
     /// Does an operation of so many phases. Only its end is the end of the last part.
@@ -448,17 +513,22 @@ pub(super) fn sort_unique<T: Ord>(list: &mut Vec<T>, watch: &Watch<'_>) -> Resul
 
 #[cfg(test)]
 mod reporter_tests {
+    use std::sync::Mutex;
+    use std::sync::atomic::AtomicUsize;
+    use std::sync::atomic::Ordering::Relaxed;
+
     use super::*;
 
     /// Calls the callback at each step and cancels at one: nothing more is done.
     #[test]
     fn loops_and_sorts_end_where_they_are_cancelled() {
         for calls in 1..8 {
-            let mut left = calls;
-            let reporter = Reporter::new(|_| {
-                left -= 1;
-                if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            });
+            let left = AtomicUsize::new(calls);
+            let callback = |_| match left.fetch_sub(1, Relaxed) {
+                1 => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            };
+            let reporter = Reporter::new(Some(&callback));
             let mut done = 0;
             let result = reporter.watch(1, |watch| {
                 let mut list: Vec<u32> = (0..1 << 17).rev().collect();
@@ -469,8 +539,7 @@ mod reporter_tests {
                 sort_by(&mut list, watch, u32::cmp)
             });
             assert!(result.unwrap_err().kind() == crate::ErrorKind::Cancelled);
-            drop(reporter);
-            assert_eq!(left, 0);
+            assert_eq!(left.load(Relaxed), 0);
             assert!(done <= (calls - 1) << 16, "{done} by call {calls}");
         }
     }
@@ -478,19 +547,19 @@ mod reporter_tests {
     #[test]
     fn all_parts_of_a_phase_are_done_in_the_end() {
         for n in [1, 2, 3, 63, 64, 65, 1000] {
-            let mut last = None;
-            let reporter = Reporter::new(|progress: Progress| {
-                last = Some([progress.done, progress.total]);
+            let last = Mutex::new(None);
+            let callback = |progress: Progress| {
+                *last.lock().unwrap() = Some([progress.done, progress.total]);
                 ControlFlow::Continue(())
-            });
+            };
+            let reporter = Reporter::new(Some(&callback));
             let phase = |watch: &Watch<'_>| {
                 (0..n).for_each(|i| finish_item(watch, i, n));
                 watch.work(1 << 16)?;
                 Err::<(), _>(Error::cancelled())
             };
             reporter.watch(2, phase).unwrap_err();
-            drop(reporter);
-            assert_eq!(last, Some([PARTS, 2 * PARTS + 1]), "{n}");
+            assert_eq!(*last.lock().unwrap(), Some([PARTS, 2 * PARTS + 1]), "{n}");
         }
     }
 }

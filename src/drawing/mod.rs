@@ -1,23 +1,23 @@
 //! One view as a vector picture.
 //!
-//! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts. A
-//! [`VisibilityMap`] says which polygon shows where, exactly, and answers everything else from that:
+//! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts.
+//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: where each polygon is visible,
+//! exactly. From the map come
 //!
-//! | asked for | |
+//! | | |
 //! |---|---|
-//! | [`VisibilityMap::drawing`] | one filled path for each polygon that shows, in an order to paint them in |
-//! | [`VisibilityMap::polygons`] | which polygons show, how much of each, and where |
+//! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in an order to paint them in |
+//! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |
 //! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | visible and hidden runs of edges, and of lines in which polygons go through one another |
-//! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | what shows of an overlay's lines and points |
-//! | [`VisibilityMap::regions`] | where the same translucent polygons show, one behind the other |
-//! | [`polylines`] | runs joined to few long lines, in an order for a pen |
+//! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of an overlay's lines and points |
+//! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
+//! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
-//! Polygons may be translucent: [`VisibilityMap::with_opacities`] knows what shows through, and
-//! [`Drawing::translucent`] hides nothing and needs no map.
+//! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
+//! map.
 //!
 //! ```
-//! use binspace::drawing::VisibilityMap;
-//! use binspace::raster::Rays;
+//! use binspace::drawing::ViewOptions;
 //! use binspace::view::Camera;
 //! use binspace::{BspTree, glam::DVec3};
 //!
@@ -26,9 +26,7 @@
 //! let tree = BspTree::build([square(0.0, 0.0), square(1.0, -1.0)])?;
 //! let (eye, target) = (DVec3::new(1.5, -9.0, 1.0), DVec3::new(1.5, 0.0, 1.0));
 //! let camera = Camera::perspective(eye, target, DVec3::Z, 0.6, [320, 240])?;
-//! let rays = Rays::new(&camera, tree.faces())?;
-//!
-//! let map = VisibilityMap::of(&tree, rays)?;
+//! let map = tree.visibility(&camera, &ViewOptions::default())?;
 //! assert_eq!(map.polygons().count(), 2);
 //! let drawing = map.drawing()?;
 //! // Both are whole, and the hidden one comes first.
@@ -61,7 +59,7 @@ mod tile;
 mod translucent;
 
 pub use edges::{EdgeKind, EdgeRun};
-pub use map::{MapCell, Shown, VisibilityMap};
+pub use map::{Hidden, MapCell, ViewOptions, VisibilityMap, VisiblePolygon};
 pub use overlaid::{LineRun, MarkerView};
 pub use paths::{DisplayItem, Drawing, Path};
 pub use pen::{Polyline, polylines};

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::cell::are_apart;
-use super::edges::SHORTEST;
+use super::edges::{SHORTEST, in_layers};
 use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
-use super::map::{VisibilityMap, each, sort_by};
+use super::map::{Hidden, VisibilityMap, each, sort_by};
 use super::order::{Found, Pair, add, around};
 use super::sight::{Pass, Passes, Passing, Pieces, ProjectedSegment, Spot, kept, parts, passes};
 use super::stock::{OutlineCache, Primitives};
@@ -24,13 +24,12 @@ pub struct LineRun {
     pub line: usize,
     /// The number of the segment in its line: it joins the corners of this number and the next.
     pub segment: usize,
-    /// Where the run begins and ends in the picture, in the direction of the line, in pixels from the centre
-    /// of the first one.
+    /// Where the run begins and ends in the picture, in the direction of the line, in pixels.
     pub ends: [[f64; 2]; 2],
-    /// Whether it shows.
+    /// Whether it is visible.
     pub is_visible: bool,
-    /// How many polygons lie in front of it; `None` if they were not counted. Where they are, that is 0 of a visible run: what it
-    /// is seen through does not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a visible
+    /// run: polygons that it is seen through do not count.
     pub layers: Option<u32>,
 }
 
@@ -40,9 +39,9 @@ pub struct LineRun {
 pub struct MarkerView {
     /// The point, by its number in the overlay.
     pub point: usize,
-    /// Where it is in the picture, in pixels from the centre of the first one.
+    /// Where it is in the picture, in pixels.
     pub at: [f64; 2],
-    /// Whether it shows.
+    /// Whether it is visible.
     pub is_visible: bool,
 }
 
@@ -66,22 +65,53 @@ impl VisibilityMap<'_> {
     ///
     /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
     /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the
-    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only counts as
-    /// all on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
+    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only is treated as
+    /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells, and what they have in common.
+    /// O(n log n) for n segments and cells, plus the number of pairs that have points in common.
     ///
     /// # Errors
     ///
     /// If the overlay was made for another tree; if it has polygons, the first of
     /// which is [`Error::polygon`]; or if it was [cancelled](Self#progress).
-    pub fn lines(&self, overlay: &Overlay) -> Result<Vec<LineRun>, Error> {
+    pub fn lines(&self, overlay: &Overlay, hidden: Hidden) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        self.reporter.watch(1, |watch| {
+        let counts = hidden == Hidden::Count;
+        self.reporter.watch(if counts { 3 } else { 1 }, |watch| {
             let (segments, sights) = sights(&self.rims.lines, overlay, watch)?;
-            self.line_runs(&segments, &sights, watch)
+            let mut runs = self.line_runs(&segments, &sights, watch)?;
+            match hidden {
+                Hidden::Skip => runs.retain(|run| run.is_visible),
+                Hidden::Keep => {}
+                Hidden::Count => runs = self.lines_in_layers(&segments, &sights, &runs, watch)?,
+            }
+            Ok(runs)
         })
+    }
+
+    /// Runs, cut where the number of polygons in front of them changes: two phases.
+    fn lines_in_layers(
+        &self,
+        segments: &[GivenSegment],
+        sights: &[ProjectedSegment],
+        runs: &[LineRun],
+        watch: &Watch<'_>,
+    ) -> Result<Vec<LineRun>, Error> {
+        let depths = self.depths(sights, |_, _| false, watch)?;
+        let mut layered = Vec::new();
+        let mut runs = runs.iter().peekable();
+        for numbered in each(watch, VISITED, segments.iter().enumerate()) {
+            let (number, segment) = numbered?;
+            let name = (segment.line, segment.number);
+            while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
+                let known = Some((&sights[number], depths.of(number)));
+                for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
+                    layered.push(LineRun { ends, layers: Some(layers), ..*run });
+                }
+            }
+        }
+        Ok(layered)
     }
 
     /// The runs of segments that the picture shows: a phase.

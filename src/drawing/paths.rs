@@ -114,7 +114,7 @@ impl<'d> Path<'d> {
 
     /// The outlines of the part in the picture; fill them together by the nonzero rule. There is at least one.
     ///
-    /// Each is a list of at least three corners in pixels: x to the right, y down, and the centre of the first
+    /// Each is a list of at least three corners in pixels: x to the right, y down, and the corner of the first
     /// pixel at (0, 0). Outer outlines run clockwise, and holes counter-clockwise. The outlines of a folded polygon
     /// overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of needles may
     /// coincide.
@@ -376,21 +376,25 @@ impl<'a> Sides<'a> {
 const SHARE: usize = 256;
 
 impl VisibilityMap<'_> {
-    /// The view as filled outlines, one for each opaque polygon that shows.
+    /// The view as filled outlines, one for each visible opaque polygon.
     ///
-    /// Polygons are drawn whole, each before those that show above it. A few that are in cycles with
-    /// others, none in most scenes, are clipped: only what shows of them is drawn.
+    /// Polygons are drawn whole, each before those that are visible above it. Polygons in cycles, none in most
+    /// scenes, are clipped: only their visible parts are drawn. Polygons whose visible area is less than
+    /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons are painted over what is behind them. A few that lie before and behind others
-    /// in a circle are in several paths, as in [`Drawing::translucent`]; each point that shows of one is in
-    /// one path. Time and memory go up with the square of how many translucent polygons lie over
-    /// one another; where all are translucent, `Drawing::translucent` takes less.
+    /// Translucent polygons are painted over what is behind them. Those in cycles are in several paths, as in
+    /// [`Drawing::translucent`]; each visible point of one is in one path. Time and memory are proportional to the
+    /// square of the number of translucent polygons that lie over one another; where all are translucent,
+    /// `Drawing::translucent` takes less.
     ///
     /// # Errors
     ///
     /// If it was [cancelled](Self#progress).
     pub fn drawing(&self) -> Result<Drawing, Error> {
-        self.reporter.watch(2, |watch| self.drawn(watch))
+        let mut drawing = self.reporter.watch(2, |watch| self.drawn(watch))?;
+        let left_out = self.left_out();
+        drawing.paths.retain(|path| left_out.binary_search(&path.polygon).is_err());
+        Ok(drawing)
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {

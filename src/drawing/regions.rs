@@ -34,7 +34,10 @@ impl VisibilityMap<'_> {
     ///
     /// If it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
-        self.reporter.watch(2, |watch| self.stacks(watch)?.regions(&self.rims.lines, watch))
+        let mut regions =
+            self.reporter.watch(2, |watch| self.stacks(watch)?.regions(&self.rims.lines, watch))?;
+        regions.retain(|region| region.area() >= self.least_area);
+        Ok(regions)
     }
 
     /// What shows of polygons that lie one behind the other: a phase.

@@ -75,9 +75,6 @@ impl<'t> Primitives<'t> {
             return Err(Kind::OfCell.error());
         }
         let faces = tree.faces();
-        if !rays.are_for(faces) {
-            return Err(Kind::OtherRays.error());
-        }
         let frame = Frame { rays, faces };
         let mut order = Vec::with_capacity(tree.len());
         for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {

@@ -63,9 +63,7 @@ impl Growth {
 impl Tile {
     /// All of a picture.
     pub(super) fn picture(size: [u32; 2]) -> Self {
-        let half = (STEPS / 2.0) as i64;
-        let high = size.map(|side| 2 * half * i64::from(side) - half);
-        Self { low: [-half; 2], high }
+        Self { low: [0; 2], high: size.map(|side| STEPS as i64 * i64::from(side)) }
     }
 
     /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. What a camera looks

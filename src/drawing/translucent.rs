@@ -1,13 +1,14 @@
 //! Drawings of translucent polygons: which pieces overlap, and which parts are painted at once.
 
 use std::cmp::Reverse;
-use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::join::Groups;
 use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
-use super::map::{Reporter, each, finish_item, sort_by, sort_unique};
+use super::map::{
+    Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by, sort_unique,
+};
 use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
@@ -15,10 +16,9 @@ use super::stock::{OutlineCache, Primitives};
 use super::tile::{CUT, Growth, LINES, Reaches, TINIEST, Tile, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
-use crate::progress::Progress;
 use crate::progress::Watch;
-use crate::raster::Rays;
 use crate::tree::BspTree;
+use crate::view::Camera;
 
 /// So often at most an order is sought that has room for an overlay. One is enough for nearly all scenes and
 /// views; heaps of rectangles in a grid, seen along its diagonal with all their edges, need up to five.
@@ -32,88 +32,49 @@ impl Drawing {
     /// viewpoints are joined as far as an order of them is left for this one. A bent polygon that lies
     /// over itself in the picture has a path for each of its faces at least.
     ///
-    /// The rays say whether polygons are drawn that are seen from behind; they have to be made for
-    /// [`tree.faces()`](BspTree::faces). Where all polygons are opaque,
+    /// The options say whether polygons are drawn that are seen from behind. Polygons with opacity 0 are left out;
+    /// other opacities, and the least area, have no effect. Where all polygons are opaque,
     /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) has fewer paths. Time and memory grow
-    /// with the pairs of polygons that lie over one another with none between them.
+    /// with the number of pairs of polygons that lie over one another with none between them.
     ///
-    /// # Errors
+    /// # Lines and points
     ///
-    /// As for [`VisibilityMap::of`](super::VisibilityMap::of).
-    pub fn translucent(tree: &BspTree, rays: Rays) -> Result<Self, Error> {
-        Self::with_all(tree, rays, None, &Reporter::default())
-    }
-
-    /// As [`translucent`](Self::translucent). Now and then `progress` is called with how far the drawing has
-    /// come, and may cancel it, as in [an operation of a map](super::VisibilityMap#progress).
-    ///
-    /// # Errors
-    ///
-    /// As for `translucent`, and [`Error`] if it was cancelled.
-    pub fn translucent_with_progress(
-        tree: &BspTree,
-        rays: Rays,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
-    ) -> Result<Self, Error> {
-        Self::with_all(tree, rays, None, &Reporter::new(progress))
-    }
-
-    /// As [`translucent`](Self::translucent), with the lines and points of an overlay of the same tree
-    /// between the paths: see [`display_list`](Self::display_list). To have them above all, paint the runs of
-    /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last: nothing is cut then but what it says is
-    /// hidden.
+    /// The lines and points of an overlay of the same tree come between the paths: see
+    /// [`display_list`](Self::display_list). To have them above all, paint the runs of
+    /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
     /// A segment is cut where it goes from one place of the order to another. Each part comes after all that
-    /// lies behind it, or that it lies on, and before what lies in front of it, as `lines` tells these apart.
+    /// lies behind it, or that it lies on, and before all that lies in front of it, as `lines` tells these apart.
     /// Lines and points in one place of the order come in input order, lines first, and so may those that
-    /// cross in the picture.
+    /// cross in the picture. All of them are marked as visible.
     ///
-    /// Paths are those without them, but where a line runs along a border between polygons that only touch
+    /// An overlay does not change the paths, except where a line runs along a border between polygons that only touch
     /// there, one behind it and the other in front: these are then painted in that order too, and polygons may
-    /// be in more paths for it, or in fewer. Where such pairs close a cycle, or do not come to an end in a few
-    /// rounds, a part comes after what lies behind it, and what lies in front may be painted before it. So may
+    /// be in more paths for it, or in fewer. Where such pairs close a cycle, or are not all found in a few
+    /// rounds, a part comes after all that lies behind it, but polygons in front may be painted before it. So may
     /// a bent polygon that lies behind a line with one face and in front with another: it is one path.
     ///
-    /// All runs and points in the drawing are said to be visible, whatever lies in front of them.
-    ///
     /// # Errors
     ///
-    /// As for `translucent` and `lines`.
-    pub fn translucent_with_overlay(
+    /// As for [`BspTree::visibility`]; with an overlay, also as for
+    /// [`VisibilityMap::lines`](super::VisibilityMap::lines).
+    pub fn translucent(
         tree: &BspTree,
-        rays: Rays,
-        overlay: &Overlay,
-    ) -> Result<Self, Error> {
-        Self::with_all(tree, rays, Some(overlay), &Reporter::default())
-    }
-
-    /// As [`translucent_with_overlay`](Self::translucent_with_overlay), with `progress` as in
-    /// [`translucent_with_progress`](Self::translucent_with_progress).
-    ///
-    /// # Errors
-    ///
-    /// As for `translucent_with_overlay`, and [`Error`] if it was cancelled.
-    pub fn translucent_with_overlay_and_progress(
-        tree: &BspTree,
-        rays: Rays,
-        overlay: &Overlay,
-        progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
-    ) -> Result<Self, Error> {
-        Self::with_all(tree, rays, Some(overlay), &Reporter::new(progress))
-    }
-
-    fn with_all(
-        tree: &BspTree,
-        rays: Rays,
+        camera: &Camera,
+        options: &ViewOptions<'_>,
         overlay: Option<&Overlay>,
-        reporter: &Reporter<'_>,
     ) -> Result<Self, Error> {
+        let rays = drawing_rays(tree, camera, options.front_faces_only)?;
+        let is_left_out = |opacity: f64| if opacity == 0.0 { 0.0 } else { 1.0 };
+        let mut opacities = checked(tree, &options.opacities)?;
+        opacities.iter_mut().for_each(|opacity| *opacity = is_left_out(*opacity));
+        let reporter = Reporter::new(options.progress);
         if let Some(overlay) = overlay {
             overlay.expect_no_polygons(tree)?;
         }
         reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
             let picture = Tile::picture(rays.size());
-            let stock = Primitives::new(tree, rays, vec![], watch)?;
+            let stock = Primitives::new(tree, rays, opacities, watch)?;
             let (mut rims, count) = (OutlineCache::new(&stock), stock.items.len());
             for item in 0..count {
                 watch.work(LINES)?;

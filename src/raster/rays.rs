@@ -28,6 +28,8 @@ use crate::viewpoint::Viewpoint;
 pub struct Rays {
     lattice: Lattice,
     pub(super) size: [u32; 2],
+    /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
+    first: f64,
     /// The height of the picture of which these are some rows, and how many rows are above them.
     whole_height: u32,
     above: u32,
@@ -181,6 +183,7 @@ impl Rays {
         Ok(Self {
             lattice,
             size,
+            first: 0.0,
             whole_height: size[1],
             above: 0,
             front_only: false,
@@ -225,6 +228,14 @@ impl Rays {
     /// corners run counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
+    }
+
+    /// The same rays, with coordinates in the picture from the corner of the first pixel instead of its centre:
+    /// exact, as `right` and `down` are even.
+    #[cfg(feature = "drawing")]
+    pub(crate) fn with_corner_origin(self) -> Self {
+        let base = std::array::from_fn(|i| self.base[i] - self.right[i] / 2 - self.down[i] / 2);
+        Self { base, first: 0.5, ..self }
     }
 
     /// Whether the rays meet only the fronts of faces.
@@ -328,8 +339,7 @@ impl Rays {
         if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
     }
 
-    /// A box in the picture, least and largest coordinates in pixels from the centre of the first one,
-    /// that has all of the convex hull of these points, each given to within `off` lattice units along each axis;
+    /// A box in the picture, least and largest coordinates in pixels, that has all of the convex hull of these points, each given to within `off` lattice units along each axis;
     /// `None` if the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
     pub(crate) fn region(&self, points: &[[f64; 3]], off: f64) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
@@ -361,19 +371,18 @@ impl Rays {
         if !ahead {
             return Some([[f64::NEG_INFINITY; 2], [f64::INFINITY; 2]]);
         }
-        // From the middle of the whole picture to the centre of pixel 0.
-        let shift = [0, 1].map(|axis: usize| -sides[axis][0] - 0.5);
+        // From the middle of the whole picture to where coordinates begin.
+        let shift = [0, 1].map(|axis: usize| self.first - 0.5 - sides[axis][0]);
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
-    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels from the
-    /// centre of the first one, times the last, which is positive ahead of the eye. With bounds on their errors.
+    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, times the last, which is positive ahead of the eye. With bounds on their errors.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (at, error) = self.in_picture(point, VERTEX_ERROR);
         let ([x, y, z], [ex, ey, ez]) = (at.to_array(), error.to_array());
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
-        let shift = [0.5 * f64::from(self.size[0]) - 0.5, -top - 0.5];
+        let shift = [0.5 * f64::from(self.size[0]), -top].map(|from| from + self.first - 0.5);
         // Each product and each sum is rounded once.
         let off = |part: f64, error: f64, shift: f64| {
             error + shift.abs() * ez + 4.0 * f64::EPSILON * (part.abs() + (shift * z).abs())

@@ -403,8 +403,7 @@ fn budgets_and_cancels_count_in_cells() {
 /// A drawing would take the polygons of a cell whole.
 #[test]
 fn a_drawing_of_a_cell_is_an_error() {
-    use binspace::drawing::VisibilityMap;
-    use binspace::raster::Rays;
+    use binspace::drawing::ViewOptions;
     use binspace::view::Camera;
 
     let scene = Divided::new(triangles(&mut Dice(5), 30, 30), BuildOptions::DEFAULT, 2).unwrap();
@@ -412,6 +411,6 @@ fn a_drawing_of_a_cell_is_an_error() {
         Camera::perspective(DVec3::splat(90.0), DVec3::ZERO, DVec3::Z, 0.7, [20, 20]).unwrap();
     let tree = &scene.cells[0].tree;
     assert!(tree.is_of_cell() && !BspTree::build(&scene.polygons).unwrap().is_of_cell());
-    let error = VisibilityMap::of(tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap_err();
+    let error = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap_err();
     assert!(error.to_string().contains("of one cell"), "{error}");
 }

@@ -1,7 +1,7 @@
 //! Areas: the cells of a closed room add up to the picture.
 
-use super::map_of;
 use super::scenes::cameras;
+use super::{map_of, map_with};
 use testkit::prelude::*;
 use testkit::scenes::triangles;
 
@@ -38,14 +38,13 @@ fn areas_add_up_to_the_picture() {
     {
         let camera =
             binspace::view::Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 1.1, size).unwrap();
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
         let whole = f64::from(size[0]) * f64::from(size[1]);
-        let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
+        let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
         let sum: f64 = map.polygons().map(|shown| shown.area).sum();
         assert!((sum / whole - 1.0).abs() < 1e-9, "{size:?} {sum}");
         // Through triangles the walls show all over.
         let glass = |polygon: usize| if polygon < 6 { 1.0 } else { 0.3 };
-        let map = VisibilityMap::with_opacities(&tree, rays, glass).unwrap();
+        let map = map_with(&tree, &camera, glass);
         let walls: f64 = map.polygons().filter(|s| s.polygon < 6).map(|s| s.area).sum();
         assert!((walls / whole - 1.0).abs() < 1e-9, "{size:?} {walls}");
         let regions: f64 = map.regions().unwrap().iter().map(|region| region.area()).sum();

@@ -1,9 +1,9 @@
 //! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
 
-use super::map_of;
 use super::on_grid;
 use super::overlay::{between, place_in};
 use super::sightlines::Sightlines;
+use super::{map_of, map_with};
 use binspace::drawing::{EdgeKind, EdgeRun};
 use std::collections::BTreeMap;
 use testkit::model::Face;
@@ -21,9 +21,9 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
         let direction = DVec3::new(-1.0, 0.0, -1.0);
         let camera = Camera::parallel(direction, DVec3::Z, DVec3::ZERO, 8.0, [80, 80]).unwrap();
         let map = map_of(&tree, &camera);
-        let in_layers = map.crossings_in_layers().unwrap();
+        let in_layers = map.crossings(Hidden::Count).unwrap();
         assert_eq!(in_layers.len(), usize::from(expected > 0.0), "{in_layers:?}");
-        for run in map.crossings().unwrap().iter().chain(&in_layers) {
+        for run in map.crossings(Hidden::Skip).unwrap().iter().chain(&in_layers) {
             assert_eq!((run.polygon, run.kind, run.is_visible), (0, EdgeKind::Crossing(1), true));
             let length = (run.ends[1][0] - run.ends[0][0]).abs();
             assert!((length - 10.0 * expected).abs() < 1e-6, "{run:?}");
@@ -48,7 +48,11 @@ fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
             let map = map_of(&tree, &camera);
             let [a, b] = [DVec3::ZERO, target].map(|end| DVec2::from(camera.project(end).unwrap()));
             let expected = a.distance(b);
-            for runs in [map.crossings(), map.crossings_with_hidden(), map.crossings_in_layers()] {
+            for runs in [
+                map.crossings(Hidden::Skip),
+                map.crossings(Hidden::Keep),
+                map.crossings(Hidden::Count),
+            ] {
                 let runs = runs.unwrap();
                 let length = |run: &EdgeRun| DVec2::from(run.ends[0]).distance(run.ends[1].into());
                 let visible = runs.iter().all(|run| run.is_visible);
@@ -191,9 +195,9 @@ pub(crate) fn at(
 fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
     let faces = tree.faces();
     let Some(sightlines) = Sightlines::of(tree, camera) else { return };
-    let rays = Rays::new(camera, faces).unwrap();
-    let map = VisibilityMap::with_opacities(tree, rays, |_| opacity).unwrap();
-    let (runs, shown) = (map.crossings_in_layers().unwrap(), map.crossings().unwrap());
+    let map = map_with(tree, camera, |_| opacity);
+    let (runs, shown) =
+        (map.crossings(Hidden::Count).unwrap(), map.crossings(Hidden::Skip).unwrap());
     for face in 0..faces.len() as u32 {
         let Some(k) = (0..3).find(|&k| faces.outline_edge(face, k).is_none()) else { continue };
         let polygon = faces.polygon(face);
@@ -278,8 +282,8 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
             let eye = dice.point(-1.0, 1.0).normalize() * 4.0;
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
             let map = map_of(&tree, &camera);
-            let expected = shown(&map.crossings().unwrap());
-            let found = shown(&map.crossings_with_hidden().unwrap());
+            let expected = shown(&map.crossings(Hidden::Skip).unwrap());
+            let found = shown(&map.crossings(Hidden::Keep).unwrap());
             for (pair, length) in &expected {
                 let other = found.get(pair).copied().unwrap_or_default();
                 // (Slivers near their ends are the one's alone.)

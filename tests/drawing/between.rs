@@ -67,11 +67,14 @@ fn check(
     let mut overlay = Overlay::new(tree);
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
-    let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
+    if Rays::new(camera, tree.faces()).is_err() {
+        return Ok(());
+    }
     let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
-    let drawing = Drawing::translucent_with_overlay(tree, rays.clone(), &overlay).map_err(text)?;
+    let drawing =
+        Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, Some(&overlay)).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
     // How many paths there have to be before a point, and not before it.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
@@ -126,14 +129,14 @@ fn check(
     }
     assert_eq!(below, paths.len());
     // All that the picture has of lines and points is there.
-    let map = VisibilityMap::of(tree, rays).map_err(text)?;
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT).map_err(text)?;
     assert_eq!(map.markers(&overlay).map_err(text)?.len(), markers);
     let length = |runs: &[LineRun]| -> f64 {
         runs.iter()
             .map(|run| (run.ends[1][0] - run.ends[0][0]).hypot(run.ends[1][1] - run.ends[0][1]))
             .sum()
     };
-    let all = map.lines(&overlay).map_err(text)?;
+    let all = map.lines(&overlay, Hidden::Keep).map_err(text)?;
     let [expected, found] = [length(&all), length(&runs)];
     if (expected - found).abs() > 1e-4 {
         return Err(format!("{found} pixels of lines, not {expected}, {camera:?}"));
@@ -167,8 +170,8 @@ fn a_line_is_cut_only_where_it_goes_through() {
         overlay
             .replace_with(&tree, Shapes::NONE.with_lines([line]).with_points([line[0]]))
             .unwrap();
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let drawing = Drawing::translucent_with_overlay(&tree, rays, &overlay).unwrap();
+        let drawing =
+            Drawing::translucent(&tree, &camera, &ViewOptions::DEFAULT, Some(&overlay)).unwrap();
         let (mut paths, mut found) = (0, vec![]);
         for step in drawing.display_list() {
             match step {

@@ -1,7 +1,7 @@
 //! Edges over a grid, many of them along borders of the picture and of its tiles, and on cuts of other polygons.
 
-use super::map_of;
 use super::sheets::{Sheet, from_above, stack, tree_of};
+use super::{map_of, map_with};
 use std::collections::BTreeMap;
 use testkit::prelude::*;
 
@@ -68,14 +68,13 @@ fn edges_over_a_grid_are_hidden_only_by_what_lies_over_them() {
         // Pictures of all of the grid and of the middle of it; only those end on it whose rays are not rounded.
         let (height, side) = [(8, 64), (4, 64), (4, 1), (8, 1), (12, 37), (2, 4)][round % 6];
         let camera = from_above(f64::from(height), [side; 2]);
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
-        let map = VisibilityMap::with_opacities(&tree, rays, opacity).unwrap();
+        let map = map_with(&tree, &camera, opacity);
         let mut found = BTreeMap::new();
-        for run in map.edges().unwrap() {
+        for run in map.edges(Hidden::Keep).unwrap() {
             // In quarters.
             let scale = 4.0 * f64::from(height) / f64::from(side);
-            let middle = 0.5 * f64::from(side - 1);
+            let middle = 0.5 * f64::from(side);
             let place = |[x, y]: [f64; 2]| [x - middle, middle - y].map(|c| 16.0 + c * scale);
             let places = run.ends.map(place);
             assert!(places.iter().flatten().all(|c| (c - c.round()).abs() < 1e-6), "{places:?}");
@@ -103,7 +102,8 @@ fn a_crossing_along_a_border_is_not_in_the_picture() {
     for (height, count) in [(8.0, 1), (4.0, 0)] {
         let camera = from_above(height, [64; 2]);
         let map = map_of(&tree, &camera);
-        let (shown, all) = (map.crossings().unwrap(), map.crossings_with_hidden().unwrap());
+        let (shown, all) =
+            (map.crossings(Hidden::Skip).unwrap(), map.crossings(Hidden::Keep).unwrap());
         assert_eq!([shown.len(), all.len()], [count; 2], "{all:?}");
     }
 }

@@ -10,7 +10,7 @@ fn trees<P: Polygon>(polygons: &[P]) -> Vec<(String, BspTree)> {
 }
 
 fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
-    map_of(tree, camera).crossings().unwrap()
+    map_of(tree, camera).crossings(Hidden::Skip).unwrap()
 }
 
 /// A third polygon begins on the line in which two cross: its edge cuts what is beyond its ends as well.
@@ -22,7 +22,7 @@ fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
     let polygons = [floor, wall, flap];
     let eye = DVec3::new(6.0, -0.5, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
-    let at = |y: f64| camera.project(DVec3::new(0.0, y, 0.0)).unwrap().map(|c| c - 0.5);
+    let at = |y: f64| camera.project(DVec3::new(0.0, y, 0.0)).unwrap();
     let distance = |[a, b]: [[f64; 2]; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
     for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0], [2, 1, 0]] {
         for (by, tree) in trees(&order.map(|i: usize| &polygons[i])) {
@@ -63,8 +63,12 @@ fn crossings_show_beside_edges_that_lie_on_them_in_the_picture() {
                 let shown = runs.iter().filter(|run| run.is_visible);
                 shown.map(|run| (run.ends[1][0] - run.ends[0][0]).abs()).sum()
             };
-            let found = [map.crossings(), map.crossings_with_hidden(), map.crossings_in_layers()]
-                .map(|runs| length(runs.unwrap()));
+            let found = [
+                map.crossings(Hidden::Skip),
+                map.crossings(Hidden::Keep),
+                map.crossings(Hidden::Count),
+            ]
+            .map(|runs| length(runs.unwrap()));
             let are_right = found.iter().all(|length| (length - expected).abs() < 1e-6);
             assert!(are_right, "{order:?}, {by}: {found:?}, {expected}");
         }
@@ -80,7 +84,7 @@ fn polygons_of_one_plane_do_not_cross() {
     let camera = Camera::perspective(eye, DVec3::X + DVec3::Y, DVec3::Z, 0.8, [320, 240]).unwrap();
     for (_, tree) in trees(&[square, square, fin]) {
         let opacity = |polygon: usize| if polygon == 1 { 0.5 } else { 1.0 };
-        let runs = map_with(&tree, &camera, opacity).crossings().unwrap();
+        let runs = map_with(&tree, &camera, opacity).crossings(Hidden::Skip).unwrap();
         assert!(!runs.is_empty() && runs.iter().all(|run| run.kind == EdgeKind::Crossing(2)));
     }
 }
@@ -124,7 +128,7 @@ fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
             for run in runs {
                 assert_eq!((run.polygon, run.kind), (0, EdgeKind::Crossing(1)));
                 assert!(run.is_visible && run.edge.is_none());
-                assert!(run.ends.iter().all(|end| (end[0] - 39.5).abs() < 1e-9));
+                assert!(run.ends.iter().all(|end| (end[0] - 40.0).abs() < 1e-9));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Scenes, views and opacities at their limits.
 
-use binspace::drawing::Drawing;
+use super::map_with;
 use testkit::fill::{Score, check};
 use testkit::layered::{Layers, check_mixed};
 use testkit::prelude::*;
@@ -26,14 +26,13 @@ fn ten_of_a_million_polygons_show() {
     let tree = BspTree::build(&polygons).unwrap();
     let eye = DVec3::new(10.0, 20.0, 2000.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [640, 480]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
     let all: Vec<usize> = (0..10).collect();
-    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
+    let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
     assert_eq!(map.drawing().unwrap().paths().len(), 10);
     // Nothing shows through the wall either where what is behind is translucent.
     let glass = |polygon: usize| if polygon < 10 { 1.0 } else { 0.5 };
-    let map = VisibilityMap::with_opacities(&tree, rays, glass).unwrap();
+    let map = map_with(&tree, &camera, glass);
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
     assert_eq!(map.drawing().unwrap().paths().len(), 10);
     assert_eq!(map.regions().unwrap().len(), 10);
@@ -44,19 +43,25 @@ fn opacities_are_numbers_from_0_to_1() {
     let tree = BspTree::build([square([0.0; 2], 1.0, 0.0), square([0.0; 2], 1.0, 1.0)]).unwrap();
     let eye = DVec3::new(0.1, 0.2, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [9, 7]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
     for wrong in [f64::NAN, -0.001, 1.001, f64::INFINITY] {
         let opacity = |polygon: usize| if polygon == 1 { wrong } else { 0.5 };
-        let error = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap_err();
+        let options = with_opacities(&tree, opacity);
+        let error = tree.visibility(&camera, &options).unwrap_err();
         assert_eq!(error.polygon(), Some(1));
         let expected =
             format!("the opacity of polygon 1 is {wrong}: expected a number from 0 to 1");
         assert_eq!(error.to_string(), expected);
     }
+    let options = ViewOptions::DEFAULT.with_opacities(vec![0.5]);
+    let error = tree.visibility(&camera, &options).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "there are 1 opacities, but 2 polygons: give one for each polygon"
+    );
     let shown = |opacities: [f64; 2]| -> Vec<usize> {
         let opacity = |polygon: usize| opacities[polygon];
-        let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
-        let edges = map.edges().unwrap();
+        let map = map_with(&tree, &camera, opacity);
+        let edges = map.edges(Hidden::Keep).unwrap();
         let shown: Vec<usize> = map.polygons().map(|shown| shown.polygon).collect();
         let visible = edges.iter().filter(|run| run.is_visible);
         let mut with_edges: Vec<usize> = visible.map(|run| run.polygon).collect();
@@ -103,14 +108,13 @@ fn eyes_on_polygons_and_away_from_all() {
     ] {
         for size in [[1, 1], [50, 40], [300, 2]] {
             let camera = Camera::perspective(eye, target, DVec3::Y, 1.2, size).unwrap();
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let all = Drawing::translucent(&tree, rays.clone()).unwrap();
-            check(&tree, &camera, rays.clone(), &mut Score::default()).unwrap();
+            let all = Drawing::translucent(&tree, &camera, &ViewOptions::DEFAULT, None).unwrap();
+            check(&tree, &camera, &mut Score::default()).unwrap();
             for (opacities, expected) in [[0.5, 0.25, 1.0, 1.0], [1.0; 4]].into_iter().zip(expected)
             {
                 let opacity = |polygon: usize| opacities[polygon];
-                check_mixed(&tree, &camera, rays.clone(), &opacity, &mut score).unwrap();
-                let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
+                check_mixed(&tree, &camera, &opacity, &mut score).unwrap();
+                let map = map_with(&tree, &camera, opacity);
                 if size == [50, 40] {
                     assert_eq!(map.polygons().count(), expected, "{eye}, {opacities:?}");
                 }
@@ -121,7 +125,6 @@ fn eyes_on_polygons_and_away_from_all() {
     enough!(score.polygons > 20; "{score:?}");
     let none = BspTree::build::<Vec<DVec3>>([]).unwrap();
     let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
-    let rays = Rays::new(&camera, none.faces()).unwrap();
-    let map = VisibilityMap::with_opacities(&none, rays, |_| 0.5).unwrap();
+    let map = map_with(&none, &camera, |_| 0.5);
     assert!(map.regions().unwrap().is_empty() && map.drawing().unwrap().paths().len() == 0);
 }

@@ -47,10 +47,10 @@ struct Score {
 }
 
 fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
-    let (faces, lattice) = (tree.faces(), *tree.faces().lattice());
+    let lattice = *tree.faces().lattice();
     let Some(sightlines) = Sightlines::of(tree, camera) else { return };
-    let map = VisibilityMap::of(tree, Rays::new(camera, faces).unwrap()).unwrap();
-    let (all, shown) = (map.crossings_with_hidden().unwrap(), map.crossings().unwrap());
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT).unwrap();
+    let (all, shown) = (map.crossings(Hidden::Keep).unwrap(), map.crossings(Hidden::Skip).unwrap());
     let is_edge_on = |face: &Face| match &sightlines.origin {
         Origin::Eye(eye) => face.plane.at(eye).is_zero(),
         Origin::Along(way) => rational::scalar(&face.plane.normal, way).is_zero(),

@@ -1,9 +1,9 @@
 //! Where polygons go through one another, shown or hidden, against rays in rationals.
 
-use super::map_of;
 use super::on_grid;
 use super::overlay::{between, place_in};
 use super::sightlines::{Sightlines, common};
+use super::{map_of, map_with};
 use binspace::drawing::{EdgeKind, EdgeRun};
 use testkit::hard::bounds;
 use testkit::model::Face;
@@ -40,9 +40,8 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     polygons.push(rectangle([-3.0, -3.0], [3.0, 3.0], -3.0));
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let tree = BspTree::build(&polygons).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
-    let map = VisibilityMap::of(&tree, rays.clone()).unwrap();
-    let mut runs = map.crossings_in_layers().unwrap();
+    let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
+    let mut runs = map.crossings(Hidden::Count).unwrap();
     runs.sort_by(|a, b| a.ends[0][1].min(a.ends[1][1]).total_cmp(&b.ends[0][1].min(b.ends[1][1])));
     let found: Vec<(Option<u32>, f64)> =
         runs.iter().map(|run| (run.layers, (length(run) * 1e6).round() / 1e6)).collect();
@@ -55,8 +54,8 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     }
     // What is behind glass shows.
     let glass = |polygon: usize| if polygon == 2 || polygon == 3 { 0.5 } else { 1.0 };
-    let map = VisibilityMap::with_opacities(&tree, rays, glass).unwrap();
-    let runs = map.crossings_in_layers().unwrap();
+    let map = map_with(&tree, &camera, glass);
+    let runs = map.crossings(Hidden::Count).unwrap();
     assert!(runs.iter().all(|run| run.is_visible && run.layers == Some(0)), "{runs:?}");
     assert!((runs.iter().map(length).sum::<f64>() - 40.0).abs() < 1e-6, "{runs:?}");
 }
@@ -96,9 +95,9 @@ fn crossings_have_as_many_layers_as_rays_meet() {
             let camera = camera.unwrap();
             let Some(sightlines) = Sightlines::of(&tree, &camera) else { continue };
             let map = map_of(&tree, &camera);
-            let runs = map.crossings_in_layers().unwrap();
+            let runs = map.crossings(Hidden::Count).unwrap();
             let mut judged_runs = 0;
-            let shown = map.crossings().unwrap();
+            let shown = map.crossings(Hidden::Skip).unwrap();
             let visible: f64 = shown.iter().map(length).sum();
             let same: f64 = runs.iter().filter(|run| run.is_visible).map(length).sum();
             assert!((visible - same).abs() < 1e-3, "{visible} {same}");

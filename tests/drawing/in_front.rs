@@ -13,8 +13,8 @@ use testkit::shapes::rectangle;
 
 fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let map = map_of(tree, camera);
-    let runs = map.edges().unwrap();
-    let layered = map.edges_in_layers().unwrap();
+    let runs = map.edges(Hidden::Keep).unwrap();
+    let layered = map.edges(Hidden::Count).unwrap();
     // They are the same runs, cut further.
     let mut rest = layered.iter();
     for run in &runs {

@@ -10,7 +10,7 @@ use testkit::prelude::*;
 use testkit::scenes::{polygons, triangles};
 
 fn edges(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
-    map_of(tree, camera).edges().unwrap()
+    map_of(tree, camera).edges(Hidden::Keep).unwrap()
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn edges_end_with_the_picture() {
     let runs = edges(&tree, &camera);
     assert!(!runs.is_empty());
     for [x, y] in runs.iter().flat_map(|run| run.ends) {
-        assert!((-0.501..=199.501).contains(&x) && (-0.501..=99.501).contains(&y), "{x} {y}");
+        assert!((-0.001..=200.001).contains(&x) && (-0.001..=100.001).contains(&y), "{x} {y}");
     }
 }
 

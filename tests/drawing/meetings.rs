@@ -1,6 +1,7 @@
 //! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide all that is
 //! behind, until a part is missing.
 
+use super::map_with;
 use testkit::fill::{Score, check};
 use testkit::layered::{Layers, check_mixed};
 use testkit::prelude::*;
@@ -16,17 +17,15 @@ fn square_shows(wall: &[Vec<DVec3>]) -> bool {
         .map(|[x, y]| DVec3::new(x, y, -500.0));
     let polygons: Vec<Vec<DVec3>> = wall.iter().cloned().chain([square.to_vec()]).collect();
     let tree = BspTree::build(&polygons).unwrap();
-    let rays = Rays::new(&camera(), tree.faces()).unwrap();
-    check(&tree, &camera(), rays.clone(), &mut Score::default()).unwrap();
+    check(&tree, &camera(), &mut Score::default()).unwrap();
     // The same behind a pane before all.
     let pane = [[-90.0, -90.0], [90.0, -90.0], [0.0, 90.0]].map(|[x, y]| DVec3::new(x, y, 300.0));
     let panes: Vec<Vec<DVec3>> = polygons.iter().cloned().chain([pane.to_vec()]).collect();
     let behind_glass = BspTree::build(&panes).unwrap();
     let opacity = |polygon: usize| if polygon == panes.len() - 1 { 0.5 } else { 1.0 };
-    let other = Rays::new(&camera(), behind_glass.faces()).unwrap();
-    check_mixed(&behind_glass, &camera(), other.clone(), &opacity, &mut Layers::default()).unwrap();
-    let through = VisibilityMap::with_opacities(&behind_glass, other, opacity).unwrap();
-    let map = VisibilityMap::of(&tree, rays).unwrap();
+    check_mixed(&behind_glass, &camera(), &opacity, &mut Layers::default()).unwrap();
+    let through = map_with(&behind_glass, &camera(), opacity);
+    let map = tree.visibility(&camera(), &ViewOptions::DEFAULT).unwrap();
     let is_shown =
         |map: &VisibilityMap<'_>| map.polygons().any(|shown| shown.polygon == wall.len());
     assert_eq!(is_shown(&map), is_shown(&through));

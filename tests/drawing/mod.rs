@@ -39,8 +39,7 @@ fn map_with<'t>(
     camera: &Camera,
     opacity: impl Fn(usize) -> f64,
 ) -> VisibilityMap<'t> {
-    let rays = Rays::new(camera, tree.faces()).unwrap();
-    VisibilityMap::with_opacities(tree, rays, opacity).unwrap()
+    tree.visibility(camera, &with_opacities(tree, opacity)).unwrap()
 }
 
 /// The point of a tree's grid that is next to a place.

@@ -44,14 +44,16 @@ fn check(
     let mut overlay = Overlay::new(tree);
     let shapes = Shapes::NONE.with_lines(lines).with_points(points.iter().copied());
     overlay.replace_with(tree, shapes).map_err(text)?;
-    let Ok(rays) = Rays::new(camera, tree.faces()) else { return Ok(()) };
+    if Rays::new(camera, tree.faces()).is_err() {
+        return Ok(());
+    }
     let Some(sightlines) = Sightlines::of(tree, camera) else { return Ok(()) };
-    let map = VisibilityMap::of(tree, rays).map_err(text)?;
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT).map_err(text)?;
     let lattice = *tree.faces().lattice();
     let snap = |point: DVec3| rational::point(lattice.snap(point));
-    let runs = map.lines(&overlay).map_err(text)?;
+    let runs = map.lines(&overlay, Hidden::Keep).map_err(text)?;
     score.pictures += 1;
-    for run in map.lines_in_layers(&overlay).map_err(text)? {
+    for run in map.lines(&overlay, Hidden::Count).map_err(text)? {
         let ends = [run.segment, run.segment + 1].map(|k| snap(lines[run.line][k]));
         for _ in 0..each {
             let share = dice.below(1 << 12) as f64 / f64::from(1 << 12);
@@ -129,7 +131,7 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
     let mut overlay = Overlay::new(&tree);
     overlay.replace_with(&tree, Shapes::NONE.with_lines([line])).unwrap();
     let map = map_of(&tree, &camera);
-    let runs = map.lines(&overlay).unwrap();
+    let runs = map.lines(&overlay, Hidden::Keep).unwrap();
     let rounded = |x: f64| (x * 1e6).round() / 1e6;
     runs.iter()
         .map(|run| (rounded((run.ends[1][0] - run.ends[0][0]) / 10.0), run.is_visible))
@@ -209,14 +211,14 @@ fn lines_across_the_eye_end_with_the_picture() {
     let behind = [[5.0, 1.0, 1.0], [-5.0, 1.0, 1.0]];
     let through = [[0.0, 0.0, 5.0], [0.0, 0.0, -50.0]];
     overlay.replace_with(&tree, Shapes::NONE.with_lines([line, behind, through])).unwrap();
-    let runs = map.lines(&overlay).unwrap();
+    let runs = map.lines(&overlay, Hidden::Keep).unwrap();
     let [seen, hidden] = runs[..] else { panic!("{runs:?}") };
     assert!(seen.is_visible && !hidden.is_visible && seen.line == 0);
     // From the right end of the picture to the vanishing point, to a thousandth of a pixel.
     let pixel = camera.pixel_size();
-    let expected = [199.5, 99.5 + 0.001 / 90.0 / pixel, 99.5 + 0.001 / 1e6 / pixel];
+    let expected = [200.0, 100.0 + 0.001 / 90.0 / pixel, 100.0 + 0.001 / 1e6 / pixel];
     for (at, x) in [seen.ends[0], seen.ends[1], hidden.ends[1]].into_iter().zip(expected) {
-        assert!((at[0] - x).abs() < 1.1e-3 && (at[1] - 49.5).abs() < 1.1e-3, "{at:?} {x}");
+        assert!((at[0] - x).abs() < 1.1e-3 && (at[1] - 50.0).abs() < 1.1e-3, "{at:?} {x}");
     }
 }
 
@@ -226,18 +228,18 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
     let other = BspTree::build([[DVec3::ZERO, DVec3::X, DVec3::Y]]).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let map = map_of(&tree, &camera);
-    assert!(map.lines(&Overlay::new(&other)).is_err());
+    assert!(map.lines(&Overlay::new(&other), Hidden::Keep).is_err());
     let mut overlay = Overlay::new(&tree);
-    assert_eq!(map.lines(&overlay), Ok(vec![]));
+    assert_eq!(map.lines(&overlay, Hidden::Keep), Ok(vec![]));
     assert_eq!(map.markers(&overlay), Ok(vec![]));
     let line = [DVec3::ZERO, DVec3::X];
     // One without area is none.
     let polygons = [[DVec3::ZERO; 3], [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5]];
     let shapes = Shapes::NONE.with_lines([line]);
     overlay.replace_with(&tree, shapes.with_polygons(&polygons[..1])).unwrap();
-    assert_eq!(map.lines(&overlay).unwrap().len(), 1);
+    assert_eq!(map.lines(&overlay, Hidden::Keep).unwrap().len(), 1);
     overlay.replace_with(&tree, Shapes::NONE.with_polygons(polygons).with_lines([line])).unwrap();
-    let error = map.lines(&overlay).unwrap_err();
+    let error = map.lines(&overlay, Hidden::Keep).unwrap_err();
     assert!(error.polygon() == Some(1) && error.to_string().contains("polygon 1"), "{error}");
     assert_eq!(map.markers(&overlay).unwrap_err(), error);
 }

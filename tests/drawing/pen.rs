@@ -130,7 +130,7 @@ fn a_cube_is_two_lines() {
     let eye = DVec3::new(4.0, 3.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
     let map = map_of(&tree, &camera);
-    let runs = map.edges().unwrap();
+    let runs = map.edges(Hidden::Keep).unwrap();
     let visible: Vec<Segment> =
         runs.iter().filter(|run| run.is_visible).map(|run| run.ends).collect();
     let lines = polylines(visible.iter().copied()).unwrap();

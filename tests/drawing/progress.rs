@@ -1,6 +1,5 @@
 //! Progress of maps, of what is asked of them, and of drawings; and their cancellation.
 
-use binspace::drawing::Drawing;
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{Error, ErrorKind, Progress};
 use std::sync::Mutex;
@@ -10,7 +9,7 @@ use testkit::prelude::*;
 /// Many crossing triangles in a view, and lines and points between them.
 struct View {
     tree: BspTree,
-    rays: Rays,
+    camera: Camera,
     overlay: Overlay,
 }
 
@@ -19,14 +18,13 @@ fn view(triangles: u32) -> View {
     let tree = BspTree::build(scene.polygons()).unwrap();
     let (low, high) = scene.bounds().unwrap();
     let camera = Camera::looking_at_all([low, high], scene.up(), [400, 300]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
     let mut dice = Dice(5);
     let mut point = || low + dice.point(0.0, 1.0) * (high - low);
     let lines: Vec<Vec<DVec3>> = (0..3 * triangles).map(|_| vec![point(), point()]).collect();
     let points: Vec<DVec3> = (0..8 * triangles).map(|_| point()).collect();
     let mut overlay = Overlay::new(&tree);
     overlay.replace_with(&tree, Shapes::NONE.with_lines(&lines).with_points(points)).unwrap();
-    View { tree, rays, overlay }
+    View { tree, camera, overlay }
 }
 
 fn mixed(polygon: usize) -> f64 {
@@ -68,61 +66,35 @@ type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String
 
 const QUESTIONS: [Question; 10] = [
     ("drawing", |map, _| Ok(format!("{:?}", map.drawing()?))),
-    ("edges", |map, _| Ok(format!("{:?}", map.edges()?))),
-    ("edges in layers", |map, _| Ok(format!("{:?}", map.edges_in_layers()?))),
-    ("crossings", |map, _| Ok(format!("{:?}", map.crossings()?))),
-    ("crossings with hidden", |map, _| Ok(format!("{:?}", map.crossings_with_hidden()?))),
-    ("crossings in layers", |map, _| Ok(format!("{:?}", map.crossings_in_layers()?))),
-    ("lines", |map, overlay| Ok(format!("{:?}", map.lines(overlay)?))),
-    ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines_in_layers(overlay)?))),
+    ("edges", |map, _| Ok(format!("{:?}", map.edges(Hidden::Keep)?))),
+    ("edges in layers", |map, _| Ok(format!("{:?}", map.edges(Hidden::Count)?))),
+    ("crossings", |map, _| Ok(format!("{:?}", map.crossings(Hidden::Skip)?))),
+    ("crossings with hidden", |map, _| Ok(format!("{:?}", map.crossings(Hidden::Keep)?))),
+    ("crossings in layers", |map, _| Ok(format!("{:?}", map.crossings(Hidden::Count)?))),
+    ("lines", |map, overlay| Ok(format!("{:?}", map.lines(overlay, Hidden::Keep)?))),
+    ("lines in layers", |map, overlay| Ok(format!("{:?}", map.lines(overlay, Hidden::Count)?))),
     ("markers", |map, overlay| Ok(format!("{:?}", map.markers(overlay)?))),
     ("regions", |map, _| Ok(format!("{:?}", map.regions()?))),
 ];
 
-/// What makes a map or a drawing, with progress if someone listens.
-type Making = (&'static str, fn(&View, Option<&Listener>) -> Result<String, Error>);
+/// What makes a map or a drawing, as text.
+type Making = (&'static str, fn(&View, &ViewOptions<'_>) -> Result<String, Error>);
+
+fn cells(tree: &BspTree, camera: &Camera, options: &ViewOptions<'_>) -> Result<String, Error> {
+    Ok(format!("{:?}", tree.visibility(camera, options)?.cells().collect::<Vec<_>>()))
+}
 
 const MAKINGS: [Making; 4] = [
-    ("map", |View { tree, rays, .. }, listener| {
-        let map = match listener {
-            Some(listener) => {
-                let hear = |progress| listener.hear(progress);
-                VisibilityMap::of_with_progress(tree, rays.clone(), hear)?
-            }
-            None => VisibilityMap::of(tree, rays.clone())?,
-        };
-        Ok(format!("{:?}", map.cells().collect::<Vec<_>>()))
+    ("map", |View { tree, camera, .. }, options| cells(tree, camera, options)),
+    ("map with opacities", |View { tree, camera, .. }, options| {
+        let opacities = with_opacities(tree, mixed).opacities;
+        cells(tree, camera, &options.clone().with_opacities(opacities))
     }),
-    ("map with opacities", |View { tree, rays, .. }, listener| {
-        let map = match listener {
-            Some(listener) => {
-                let hear = |progress| listener.hear(progress);
-                VisibilityMap::with_opacities_and_progress(tree, rays.clone(), mixed, hear)?
-            }
-            None => VisibilityMap::with_opacities(tree, rays.clone(), mixed)?,
-        };
-        Ok(format!("{:?}", map.cells().collect::<Vec<_>>()))
+    ("translucent", |View { tree, camera, .. }, options| {
+        Ok(format!("{:?}", Drawing::translucent(tree, camera, options, None)?))
     }),
-    ("translucent", |View { tree, rays, .. }, listener| {
-        let drawing = match listener {
-            Some(listener) => {
-                let hear = |progress| listener.hear(progress);
-                Drawing::translucent_with_progress(tree, rays.clone(), hear)?
-            }
-            None => Drawing::translucent(tree, rays.clone())?,
-        };
-        Ok(format!("{drawing:?}"))
-    }),
-    ("translucent with an overlay", |View { tree, rays, overlay }, listener| {
-        let rays = rays.clone();
-        let drawing = match listener {
-            Some(listener) => {
-                let hear = |progress| listener.hear(progress);
-                Drawing::translucent_with_overlay_and_progress(tree, rays, overlay, hear)?
-            }
-            None => Drawing::translucent_with_overlay(tree, rays, overlay)?,
-        };
-        Ok(format!("{drawing:?}"))
+    ("translucent with an overlay", |View { tree, camera, overlay }, options| {
+        Ok(format!("{:?}", Drawing::translucent(tree, camera, options, Some(overlay))?))
     }),
 ];
 
@@ -163,10 +135,12 @@ fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
 #[test]
 fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
+    let hear = |progress| listener.hear(progress);
+    let heard = ViewOptions::DEFAULT.with_progress(&hear);
     alone(|| {
         for (name, make) in MAKINGS {
-            let found = check(name, &listener, || make(&view, Some(&listener)));
-            assert!(found == make(&view, None).unwrap(), "{name}");
+            let found = check(name, &listener, || make(&view, &heard));
+            assert!(found == make(&view, &ViewOptions::DEFAULT).unwrap(), "{name}");
         }
     });
 }
@@ -175,17 +149,15 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
 #[test]
 fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
-    let View { tree, rays, overlay } = &view;
+    let View { tree, camera, overlay } = &view;
     listener.cancel_at(usize::MAX);
     let hear = |progress| listener.hear(progress);
-    let opaque = (
-        VisibilityMap::of(tree, rays.clone()).unwrap(),
-        VisibilityMap::of_with_progress(tree, rays.clone(), hear).unwrap(),
-    );
-    let translucent = (
-        VisibilityMap::with_opacities(tree, rays.clone(), mixed).unwrap(),
-        VisibilityMap::with_opacities_and_progress(tree, rays.clone(), mixed, hear).unwrap(),
-    );
+    let maps = |options: ViewOptions<'static>| {
+        let silent = tree.visibility(camera, &options).unwrap();
+        (silent, tree.visibility(camera, &options.with_progress(&hear)).unwrap())
+    };
+    let opaque = maps(ViewOptions::DEFAULT);
+    let translucent = maps(with_opacities(tree, mixed));
     alone(|| {
         for (silent, map) in [&opaque, &translucent] {
             for (name, ask) in QUESTIONS {
@@ -201,14 +173,16 @@ fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
 fn threads_report_in_order() {
     let (view, listener) = (view(330), Listener::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
+    let hear = |progress| listener.hear(progress);
+    let options = ViewOptions::DEFAULT.with_progress(&hear);
     pool.install(|| {
         for (name, make) in MAKINGS {
             listener.cancel_at(usize::MAX);
-            make(&view, Some(&listener)).unwrap();
+            make(&view, &options).unwrap();
             let heard = listener.heard();
             check_calls(name, &heard);
             listener.cancel_at(heard.len() / 2);
-            let error = make(&view, Some(&listener)).unwrap_err();
+            let error = make(&view, &options).unwrap_err();
             assert!(
                 error.kind() == ErrorKind::Cancelled && listener.heard().len() == heard.len() / 2,
                 "{name}"
@@ -229,9 +203,8 @@ fn discs(corners: u32) -> View {
     let tree = BspTree::build([disc(0.0), disc(0.3)]).unwrap();
     let eye = DVec3::new(0.4, -0.7, 3.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [400, 300]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
     let overlay = Overlay::new(&tree);
-    View { tree, rays, overlay }
+    View { tree, camera, overlay }
 }
 
 /// A cell that a face of many corners cuts is work for each corner that it has so far: it is heard of and can be
@@ -239,11 +212,11 @@ fn discs(corners: u32) -> View {
 #[test]
 fn what_is_done_at_many_corners_is_heard() {
     let calls = [512, 1024].map(|corners| {
-        let (View { tree, rays, overlay }, listener) = (discs(corners), Listener::default());
+        let (View { tree, camera, overlay }, listener) = (discs(corners), Listener::default());
         listener.cancel_at(usize::MAX);
         alone(|| {
             let hear = |progress| listener.hear(progress);
-            let map = VisibilityMap::of_with_progress(&tree, rays, hear).unwrap();
+            let map = tree.visibility(&camera, &ViewOptions::DEFAULT.with_progress(&hear)).unwrap();
             let mut calls = vec![listener.heard().len()];
             for (name, ask) in QUESTIONS {
                 if ["drawing", "crossings with hidden"].contains(&name) {

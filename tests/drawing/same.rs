@@ -1,9 +1,7 @@
-//! The same results on however many threads, for pictures of every size, and for parts of pictures.
+//! The same results on however many threads, and for pictures of every size.
 
 use super::map_with;
 use super::scenes::cameras;
-use binspace::drawing::Drawing;
-use std::ops::Range;
 use testkit::prelude::*;
 
 /// Every third polygon is translucent.
@@ -26,12 +24,11 @@ fn drawings_do_not_depend_on_threads() {
     let tree = BspTree::build(scene.polygons()).unwrap();
     let mut paths = 0;
     for camera in &cameras(&scene, 2, [240, 180])[..4] {
-        let rays = Rays::new(camera, tree.faces()).unwrap();
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let opaque = VisibilityMap::of(&tree, rays.clone()).unwrap();
-                let map = VisibilityMap::with_opacities(&tree, rays.clone(), mixed).unwrap();
+                let opaque = tree.visibility(camera, &ViewOptions::DEFAULT).unwrap();
+                let map = map_with(&tree, camera, mixed);
                 let cell = |cell: binspace::drawing::MapCell<'_>| {
                     let corners = cell.corners().map(|corner| corner.map(f64::to_bits));
                     (cell.polygon(), corners.collect::<Vec<_>>())
@@ -45,7 +42,7 @@ fn drawings_do_not_depend_on_threads() {
                 let all = [
                     opaque.drawing().unwrap(),
                     map.drawing().unwrap(),
-                    Drawing::translucent(&tree, rays.clone()).unwrap(),
+                    Drawing::translucent(&tree, camera, &ViewOptions::DEFAULT, None).unwrap(),
                 ];
                 (cells, regions, all.each_ref().map(bits))
             })
@@ -88,38 +85,4 @@ fn pictures_of_all_sizes_show_the_same_polygons() {
         }
     }
     enough!(compared > 3_000; "{compared}");
-}
-
-/// A picture row by row, and in three parts: lists of pieces, and the tiles in which they are cut, are all others.
-#[test]
-fn parts_of_a_picture_show_what_the_picture_shows() {
-    let mut compared = 0;
-    let rows: Vec<Range<u32>> = (0..45).map(|row| row..row + 1).collect();
-    for (scene, size, parts, opacity) in [
-        (Builtin::Random.build(Some(300), 3), [60, 45], rows, mixed as fn(usize) -> f64),
-        (Builtin::City.build(Some(1000), 3), [240, 180], vec![0..50, 50..51, 51..180], |_| 1.0),
-    ] {
-        let tree = BspTree::build(scene.polygons()).unwrap();
-        for camera in cameras(&scene, 4, size) {
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let areas = |rays: Rays| {
-                let map = VisibilityMap::with_opacities(&tree, rays, opacity).unwrap();
-                map.polygons().map(|shown| (shown.polygon, shown.area)).collect::<Vec<_>>()
-            };
-            let whole = areas(rays.clone());
-            let mut found: Vec<(usize, f64)> =
-                parts.iter().flat_map(|rows| areas(rays.rows(rows.clone()))).collect();
-            found.sort_by_key(|&(polygon, _)| polygon);
-            let sums: Vec<(usize, f64)> = found
-                .chunk_by(|a, b| a.0 == b.0)
-                .map(|same| (same[0].0, same.iter().map(|part| part.1).sum()))
-                .collect();
-            assert_eq!(sums.len(), whole.len());
-            for (sum, whole) in sums.iter().zip(&whole) {
-                assert!(sum.0 == whole.0 && (sum.1 - whole.1).abs() < 1e-6, "{sum:?} {whole:?}");
-                compared += 1;
-            }
-        }
-    }
-    enough!(compared > 1_000; "{compared}");
 }

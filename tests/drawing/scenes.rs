@@ -23,10 +23,9 @@ pub(crate) fn cameras(scene: &Scene, count: usize, size: [u32; 2]) -> Vec<Camera
 fn check_scene(scene: &Scene, score: &mut Score) {
     let tree = BuildOptions::DEFAULT.build(scene.polygons()).unwrap();
     for camera in cameras(scene, 4, SIZE) {
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let checked = check(&tree, &camera, rays.clone(), score);
+        let checked = check(&tree, &camera, score);
         checked
-            .and_then(|()| check_rays(&tree, &camera, rays, score))
+            .and_then(|()| check_rays(&tree, &camera, score))
             .unwrap_or_else(|fault| panic!("{}, {camera:?}: {fault}", scene.name()));
     }
 }

@@ -1,8 +1,8 @@
 //! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in these scenes
 //! lies on a grid, so that cuts coincide with edges of others, and edges with borders of the picture's tiles.
 
-use super::map_of;
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
+use super::{map_of, map_with};
 use binspace::drawing::Drawing;
 use std::collections::{BTreeMap, BTreeSet};
 use testkit::prelude::*;
@@ -40,9 +40,7 @@ fn seam(outlines: &[Outline]) -> f64 {
 
 /// All outlines that a view is drawn with, those that are filled together, and what they are.
 fn outlines(tree: &BspTree, camera: &Camera, opacities: &[f64]) -> Vec<(String, Vec<Outline>)> {
-    let rays = Rays::new(camera, tree.faces()).unwrap();
-    let map =
-        VisibilityMap::with_opacities(tree, rays.clone(), |polygon| opacities[polygon]).unwrap();
+    let map = map_with(tree, camera, |polygon| opacities[polygon]);
     let copy = |outlines: &mut dyn Iterator<Item = &[[f64; 2]]>| {
         outlines.map(<[_]>::to_vec).collect::<Vec<Outline>>()
     };
@@ -51,7 +49,10 @@ fn outlines(tree: &BspTree, camera: &Camera, opacities: &[f64]) -> Vec<(String, 
         let name = format!("region {:?}", region.polygons());
         all.push((name, copy(&mut region.outlines())));
     }
-    let drawings = [map.drawing().unwrap(), Drawing::translucent(tree, rays).unwrap()];
+    let drawings = [
+        map.drawing().unwrap(),
+        Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, None).unwrap(),
+    ];
     for path in drawings.iter().flat_map(Drawing::paths) {
         all.push((format!("path of {}", path.polygon()), copy(&mut path.outlines())));
     }
@@ -158,10 +159,9 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
         // around the scene and in it.
         let [height, side] = [[8.0, 64.0], [16.0, 37.0], [8.0, 1.0], [9.75, 50.0]][round % 4];
         let camera = from_above(height, [side as u32; 2]);
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
-        let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
-        let opaque = VisibilityMap::of(&tree, rays).unwrap();
+        let map = map_with(&tree, &camera, opacity);
+        let opaque = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
         // What shows over each half of a square, front to back. (Of a plane the last one comes first.)
         let mut stacks: BTreeMap<Vec<usize>, Area> = BTreeMap::new();
         let mut shown: BTreeMap<usize, Area> = BTreeMap::new();

@@ -71,7 +71,7 @@ impl Sightlines {
     pub(crate) fn project(&self, point: &Point) -> Option<[f64; 2]> {
         // Pixels of cameras begin at the picture's corner.
         let rounded = self.lattice.to_world(to_f64(point).to_array());
-        self.camera.project(rounded).map(|at| at.map(|c| c - 0.5))
+        self.camera.project(rounded)
     }
 
     /// The faces of a polygon.

@@ -38,7 +38,7 @@ fn silhouettes_of_closed_bodies_are_closed() {
             let eye = dice.point(-1.0, 1.0).normalize() * 30.0;
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
-            let runs = map_of(&tree, &camera).edges().unwrap();
+            let runs = map_of(&tree, &camera).edges(Hidden::Keep).unwrap();
             assert!(runs.iter().all(|run| run.kind != EdgeKind::Border));
             // Each edge once, in however many runs.
             let mut silhouette = BTreeSet::new();
@@ -75,8 +75,8 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
             let up = DVec3::new(0.1, 0.2, 1.0);
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
             let map = map_of(&tree, &camera);
-            let runs = map.edges().unwrap();
-            let layered = map.edges_in_layers().unwrap();
+            let runs = map.edges(Hidden::Keep).unwrap();
+            let layered = map.edges(Hidden::Count).unwrap();
             let count = |runs: &[EdgeRun]| runs.iter().filter(|run| run.edge.is_none()).count();
             assert!(count(&layered) >= count(&runs));
             assert!(runs.iter().all(|run| run.edge.is_some() || run.kind == EdgeKind::Silhouette));

@@ -1,6 +1,7 @@
 //! Drawings of scenes in which nothing is hidden, and of those in which some polygons are translucent and
 //! some are not.
 
+use super::map_with;
 use super::scenes::cameras;
 use binspace::drawing::{EdgeKind, EdgeRun};
 use testkit::layered::{Layers, check_layers, check_mixed, check_sight};
@@ -24,10 +25,9 @@ struct Scores {
 fn check_scene(scene: &Scene, Scores { all, mixed }: &mut Scores) {
     let tree = BspTree::build(scene.polygons()).unwrap();
     for (i, camera) in cameras(scene, 4, [96, 72]).into_iter().enumerate() {
-        let rays = || Rays::new(&camera, tree.faces()).unwrap();
-        check_layers(&tree, &camera, rays(), all)
-            .and_then(|()| check_mixed(&tree, &camera, rays(), &MIXES[i % 3], mixed))
-            .and_then(|()| check_sight(&tree, &camera, rays(), &MIXES[i % 3], mixed))
+        check_layers(&tree, &camera, all)
+            .and_then(|()| check_mixed(&tree, &camera, &MIXES[i % 3], mixed))
+            .and_then(|()| check_sight(&tree, &camera, &MIXES[i % 3], mixed))
             .unwrap_or_else(|fault| panic!("{}, {i}, {camera:?}: {fault}", scene.name()));
     }
 }
@@ -76,11 +76,10 @@ fn panes_cross_in_one_line() {
     let tree = BspTree::build([upright, level].map(|square| square.map(DVec3::from))).unwrap();
     let eye = DVec3::new(4.0, 3.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.9, [300, 200]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
     let runs = |opacities: [f64; 2]| {
         let opacity = |polygon: usize| opacities[polygon];
-        let map = VisibilityMap::with_opacities(&tree, rays.clone(), opacity).unwrap();
-        map.crossings().unwrap()
+        let map = map_with(&tree, &camera, opacity);
+        map.crossings(Hidden::Skip).unwrap()
     };
     let length = |run: &EdgeRun| {
         let [[ax, ay], [bx, by]] = run.ends;

@@ -1,7 +1,6 @@
 //! A progress callback that panics is not called again by what it was called from.
 
 use binspace::Progress;
-use binspace::drawing::Drawing;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use testkit::prelude::*;
@@ -10,7 +9,7 @@ use testkit::prelude::*;
 /// was called.
 fn calls_until_panic(
     at: usize,
-    call: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Send + Sync)) + Send,
+    call: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) + Send,
 ) -> usize {
     let calls = AtomicUsize::new(0);
     let callback = |_: Progress| {
@@ -44,14 +43,14 @@ fn after_a_panic_in_its_callback_a_drawing_stops() {
     let (low, high) = scene.bounds().expect("corners");
     let (eye, middle) = (high + (high - low), (low + high) * 0.5);
     let camera = Camera::perspective(eye, middle, DVec3::Z, 0.6, [400, 300]).expect("a camera");
-    let rays = Rays::new(&camera, tree.faces()).expect("near");
     for at in [0, 1, 5, 20] {
         let calls = calls_until_panic(at, |callback| {
-            let _ = VisibilityMap::of_with_progress(&tree, rays.clone(), callback);
+            let _ = tree.visibility(&camera, &ViewOptions::DEFAULT.with_progress(&callback));
         });
         assert_eq!(calls, at + 1, "it was called again by a map");
         let calls = calls_until_panic(at, |callback| {
-            let _ = Drawing::translucent_with_progress(&tree, rays.clone(), callback);
+            let options = ViewOptions::DEFAULT.with_progress(&callback);
+            let _ = Drawing::translucent(&tree, &camera, &options, None);
         });
         assert_eq!(calls, at + 1, "it was called again by a drawing");
     }
@@ -63,20 +62,23 @@ fn a_map_goes_on_after_a_panic_in_its_callback() {
     let tree = BspTree::build(scene::city(200, 1).polygons()).expect("within budget");
     let (eye, target) = (DVec3::new(30.0, 40.0, 50.0), DVec3::new(5.0, 5.0, 0.0));
     let camera = Camera::perspective(eye, target, DVec3::Z, 0.6, [64, 48]).expect("a camera");
-    let rays = Rays::new(&camera, tree.faces()).expect("near");
     let (is_bad, calls) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let map = VisibilityMap::of_with_progress(&tree, rays.clone(), |_| {
+    let hear = |_: Progress| {
         calls.fetch_add(1, Ordering::SeqCst);
         assert!(is_bad.load(Ordering::SeqCst) == 0, "the caller's fault");
         ControlFlow::Continue(())
-    });
+    };
+    let map = tree.visibility(&camera, &ViewOptions::DEFAULT.with_progress(&hear));
     let map = map.expect("within memory");
-    let expected = VisibilityMap::of(&tree, rays).and_then(|map| map.edges()).expect("edges");
+    let expected = tree
+        .visibility(&camera, &ViewOptions::DEFAULT)
+        .and_then(|map| map.edges(Hidden::Keep))
+        .expect("edges");
     is_bad.store(1, Ordering::SeqCst);
     let before = calls.load(Ordering::SeqCst);
-    assert!(catch_unwind(AssertUnwindSafe(|| map.edges())).is_err());
+    assert!(catch_unwind(AssertUnwindSafe(|| map.edges(Hidden::Keep))).is_err());
     assert_eq!(calls.load(Ordering::SeqCst), before + 1);
     is_bad.store(0, Ordering::SeqCst);
-    assert_eq!(map.edges().expect("edges"), expected);
+    assert_eq!(map.edges(Hidden::Keep).expect("edges"), expected);
     assert!(calls.load(Ordering::SeqCst) > before + 2);
 }

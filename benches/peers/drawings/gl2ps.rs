@@ -222,8 +222,7 @@ fn filled_of(line: &str) -> Option<Filled> {
     let points = line.split_once("points=\"")?.1.split('"').next()?;
     let corner = |point: &str| -> Option<[f64; 2]> {
         let (x, y) = point.split_once(',')?;
-        // The centre of the first pixel is at 0, not at ½.
-        Some([x.parse::<f64>().ok()? - 0.5, y.parse::<f64>().ok()? - 0.5])
+        Some([x.parse::<f64>().ok()?, y.parse::<f64>().ok()?])
     };
     let corners: Option<Vec<_>> = points.split_whitespace().map(corner).collect();
     Some((number, corners?))

@@ -11,9 +11,8 @@ pub(crate) mod gl2ps;
 mod translucent;
 
 use binspace::BspTree;
-use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::drawing::{Drawing, ViewOptions};
 use binspace::glam::DVec3;
-use binspace::raster::Rays;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -196,22 +195,20 @@ fn camera(scene: &Scene, up: DVec3) -> Camera {
 
 /// The map, the order and the paths.
 fn drawn(tree: &BspTree, camera: &Camera) -> Drawing {
-    let rays = Rays::new(camera, tree.faces()).expect("a picture");
-    VisibilityMap::of(tree, rays).expect("memory").drawing().expect("memory")
+    tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory").drawing().expect("memory")
 }
 
 /// A drawing's figures. It panics if a pixel is wrong, in the drawing or in the map, or if there is not
 /// exactly one path for each polygon that shows.
 fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, goal: &Goal) -> [String; 10] {
-    let rays = Rays::new(camera, tree.faces()).expect("a picture");
-    let map = VisibilityMap::of(tree, rays.clone()).expect("memory");
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     let visible = map.polygons().count();
     let mut score = Score::default();
-    let mut checked = fill::check(tree, camera, rays.clone(), &mut score);
+    let mut checked = fill::check(tree, camera, &mut score);
     // In real scenes, polygons lie within the tolerance of one another: there the tree's order says which
     // of them shows, not the ray.
     if !goal.scene.ends_with(".obj") {
-        checked = checked.and_then(|()| fill::check_rays(tree, camera, rays, &mut score));
+        checked = checked.and_then(|()| fill::check_rays(tree, camera, &mut score));
     }
     checked.unwrap_or_else(|fault| panic!("{}: {fault}", goal.scene));
     assert_eq!(score.paths, visible, "{}", goal.scene);

@@ -3,7 +3,7 @@
 use super::fill::{Picture, Pixel};
 use super::{Goal, cpu_time, maybe_against};
 use binspace::BspTree;
-use binspace::drawing::Drawing;
+use binspace::drawing::{Drawing, ViewOptions};
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
@@ -15,7 +15,9 @@ use testkit::fragment_pixels::for_each_pixel;
 /// The figures of a scene.
 pub(super) fn row(tree: &BspTree, camera: &Camera, goal: &Goal, building: Duration) -> Vec<String> {
     let rays = Rays::new(camera, tree.faces()).expect("a picture");
-    let (taken, drawing) = cpu_time(|| Drawing::translucent(tree, rays.clone()).expect("memory"));
+    let (taken, drawing) = cpu_time(|| {
+        Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, None).expect("memory")
+    });
     let judged = check(tree, camera, &rays, &drawing, goal.scene);
     let polygons: HashSet<usize> = drawing.paths().map(|path| path.polygon()).collect();
     let ratio = drawing.paths().len() as f64 / polygons.len() as f64;

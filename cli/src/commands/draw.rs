@@ -7,8 +7,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use binspace::drawing::{Drawing, VisibilityMap};
-use binspace::raster::Rays;
+use binspace::drawing::{Drawing, ViewOptions, VisibilityMap};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 use serde::Serialize;
@@ -48,8 +47,6 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if args.cull.cull == Cull::None {
         note_backs(&scene, &tree, &camera);
     }
-    let rays = Rays::new(&camera, tree.faces()).map_err(|error| camera::about(&scene, &error))?;
-    let rays = args.cull.cull.rays(rays);
     let colours = Colours::new(&scene, args.colours);
     let is_opaque = args.opaque || !colours.are_translucent();
     if !args.opaque {
@@ -64,7 +61,9 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         is_opaque,
         seams,
     };
-    let view = View { args, style, bar: Mutex::default() };
+    let bar = Mutex::default();
+    let go_on = |progress| go_on(&bar, progress);
+    let view = View { args, style, bar: &bar, options: options(args, &style, &go_on) };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -78,7 +77,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         || format == DrawFormat::Png
         || seams == Seams::PlusLighter
         || edges != EdgeChoice::None;
-    let map = needs_map.then(|| view.map(&tree, rays.clone())).transpose().map_err(about)?;
+    let map = needs_map.then(|| view.map(&tree)).transpose().map_err(about)?;
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         figures.visible = map.polygons().count();
         let mut pixels = match is_opaque {
@@ -98,7 +97,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         figures.bytes = output.write_counted(write)?;
     } else {
         let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
-        let fills = view.fills(&tree, rays, map.as_ref(), start, &mut figures).map_err(about)?;
+        let fills = view.fills(&tree, map.as_ref(), start, &mut figures).map_err(about)?;
         let drawn = view.drawn(fills, strokes, &mut figures);
         view.show(None);
         figures.bytes = output.write_counted(|out| match format {
@@ -119,8 +118,35 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
 struct View<'a> {
     args: &'a DrawArgs,
     style: Style<'a>,
-    /// What is being done, by all that is asked of the map too: that keeps a callback.
-    bar: Mutex<Option<Progress>>,
+    /// The progress bar of the step that is being done, if one is shown.
+    bar: &'a Mutex<Option<Progress>>,
+    options: ViewOptions<'a>,
+}
+
+/// How far a step is.
+fn go_on(bar: &Mutex<Option<Progress>>, progress: binspace::Progress) -> ControlFlow<()> {
+    if let Some(bar) = &*bar.lock().unwrap_or_else(PoisonError::into_inner) {
+        bar.set(progress.done, progress.total);
+    }
+    ControlFlow::Continue(())
+}
+
+fn options<'a>(
+    args: &DrawArgs,
+    style: &Style<'_>,
+    progress: &'a (dyn Fn(binspace::Progress) -> ControlFlow<()> + Sync),
+) -> ViewOptions<'a> {
+    let opacities = (0..style.scene.len()).map(|polygon| f64::from(style.opacity(polygon)));
+    let options = ViewOptions::DEFAULT
+        .with_opacities(opacities.collect())
+        .with_least_area(min_size(args) * min_size(args))
+        .with_progress(progress);
+    if args.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
+}
+
+/// The side of the square that a polygon, and the length that a line, has to show to be drawn.
+fn min_size(args: &DrawArgs) -> f64 {
+    args.min_size.unwrap_or(MIN_SIZE)
 }
 
 impl<'a> View<'a> {
@@ -129,40 +155,24 @@ impl<'a> View<'a> {
         *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
     }
 
-    /// Goes on, and shows how far it is.
-    fn go_on(&self, progress: binspace::Progress) -> ControlFlow<()> {
-        if let Some(bar) = &*self.bar.lock().unwrap_or_else(PoisonError::into_inner) {
-            bar.set(progress.done, progress.total);
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn min_size(&self) -> f64 {
-        self.args.min_size.unwrap_or(MIN_SIZE)
-    }
-
-    fn map<'t>(&'t self, tree: &'t BspTree, rays: Rays) -> Result<VisibilityMap<'t>, Error> {
+    fn map<'t>(&self, tree: &'t BspTree) -> Result<VisibilityMap<'t>, Error>
+    where
+        'a: 't,
+    {
         self.show(Some("finding what shows"));
-        let progress = |progress| self.go_on(progress);
-        let opacity = |polygon| f64::from(self.style.opacity(polygon));
-        VisibilityMap::with_opacities_and_progress(tree, rays, opacity, progress)
+        tree.visibility(self.style.camera, &self.options)
     }
 
     /// The filled paths, counted; none if there are to be lines alone.
     fn fills(
         &self,
         tree: &BspTree,
-        rays: Rays,
         map: Option<&VisibilityMap<'_>>,
         start: Instant,
         figures: &mut Figures,
     ) -> Result<Vec<Filled<'a>>, Error> {
         let Self { args, style, .. } = self;
-        let mut is_small = vec![false; style.scene.len()];
-        for shown in map.iter().flat_map(|map| map.polygons()) {
-            figures.visible += 1;
-            is_small[shown.polygon] = shown.area < self.min_size() * self.min_size();
-        }
+        figures.visible = map.map_or(0, |map| map.polygons().count());
         figures.draw_seconds = start.elapsed().as_secs_f64();
         if args.lines {
             return Ok(vec![]);
@@ -170,21 +180,16 @@ impl<'a> View<'a> {
         self.show(Some("drawing"));
         let drawing = match map {
             Some(map) if style.seams == Seams::PlusLighter => {
-                let mut regions = map.regions()?;
-                regions.retain(|region| region.area() >= self.min_size() * self.min_size());
+                let regions = map.regions()?;
                 figures.paths = regions.len();
                 figures.draw_seconds = start.elapsed().as_secs_f64();
                 return Ok(filled_regions(&regions, style));
             }
             Some(map) if !args.translucent => map.drawing()?,
-            _ => Drawing::translucent_with_progress(tree, rays, |progress| self.go_on(progress))?,
+            _ => Drawing::translucent(tree, style.camera, &self.options, None)?,
         };
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        let is_drawn = |polygon: usize| match args.translucent {
-            true => style.opacity(polygon) > 0.0,
-            false => !is_small[polygon],
-        };
-        let paths: Vec<_> = drawing.paths().filter(|path| is_drawn(path.polygon())).collect();
+        let paths: Vec<_> = drawing.paths().collect();
         figures.paths = paths.len();
         figures.clipped = paths.iter().filter(|path| path.is_clipped()).count();
         if args.translucent {
@@ -201,20 +206,12 @@ impl<'a> View<'a> {
     ) -> Result<Vec<Strokes>, Error> {
         let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
         self.show(Some("finding lines"));
-        let hidden = self.args.hidden.unwrap_or(Hidden::None);
-        let mut runs = match hidden {
-            Hidden::Layers => map.edges_in_layers()?,
-            _ => map.edges()?,
-        };
+        let hidden = self.args.hidden.unwrap_or(Hidden::None).into();
+        let mut runs = map.edges(hidden)?;
         if edges != EdgeChoice::Silhouettes {
-            let mut crossings = match hidden {
-                Hidden::None => map.crossings()?,
-                Hidden::Dashed => map.crossings_with_hidden()?,
-                Hidden::Layers => map.crossings_in_layers()?,
-            };
-            runs.append(&mut crossings);
+            runs.append(&mut map.crossings(hidden)?);
         }
-        strokes(&runs, edges, hidden, self.min_size())
+        strokes(&runs, edges, min_size(self.args))
     }
 
     /// The paths and lines that are written, counted.

@@ -1,8 +1,8 @@
 //! Anti-aliasing.
 
-use binspace::drawing::VisibilityMap;
+use binspace::drawing::ViewOptions;
 use binspace::glam::{DVec3, dvec3};
-use binspace::raster::{Rays, colour_of};
+use binspace::raster::colour_of;
 use binspace::scene::{self, Scene};
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions};
@@ -47,8 +47,9 @@ fn tree_of(scene: &Scene) -> Result<BspTree, Failure> {
 }
 
 fn areas(tree: &BspTree, camera: &Camera) -> Result<(Areas, f64), Failure> {
-    let rays = Rays::new(camera, tree.faces()).map_err(view)?;
-    let map = VisibilityMap::of(tree, rays).map_err(|error| Failure::about("a map", error))?;
+    let map = tree
+        .visibility(camera, &ViewOptions::DEFAULT)
+        .map_err(|error| Failure::about("a map", error))?;
     let whole: f64 = map.polygons().map(|shown| shown.area).sum();
     Ok((Areas::of(&map), whole))
 }

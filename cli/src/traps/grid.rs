@@ -29,8 +29,7 @@ impl Grid {
         let [width, height] = size.map(f64::from);
         let cells = sides.clamp(1, MOST_CELLS) as f64;
         let cell = (width * height / cells).sqrt().max(1.0);
-        // One more for the half pixel before the first centre.
-        let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 2);
+        let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
         Self { cell, columns, rows, sides: vec![], cells: vec![vec![]; columns * rows] }
     }
 

@@ -3,7 +3,7 @@
 use std::fs;
 
 use binspace::BspTree;
-use binspace::drawing::{Shown, VisibilityMap};
+use binspace::drawing::{ViewOptions, VisiblePolygon};
 use binspace::glam::DVec3;
 use binspace::paint::paint_tree;
 use binspace::raster::{NONE, Rays};
@@ -72,10 +72,9 @@ impl View {
     }
 
     /// What shows, by the library.
-    fn shown(&self) -> Vec<Shown> {
+    fn shown(&self) -> Vec<VisiblePolygon> {
         let tree = self.tree();
-        let rays = Rays::new(&self.camera(), tree.faces()).unwrap();
-        VisibilityMap::of(&tree, rays).unwrap().polygons().collect()
+        tree.visibility(&self.camera(), &ViewOptions::DEFAULT).unwrap().polygons().collect()
     }
 
     /// The polygon at each pixel's centre; `None` near an edge.

@@ -25,7 +25,7 @@ impl Areas {
         let [width, height] = map.size();
         let mut pixels = vec![Vec::new(); width as usize * height as usize];
         for cell in map.cells() {
-            let corners: Vec<_> = cell.corners().map(|p| p.map(|c| c + 0.5)).collect();
+            let corners: Vec<_> = cell.corners().collect();
             for_each_share(&corners, map.size(), |pixel, area| {
                 let shares: &mut Vec<(usize, f64)> = &mut pixels[pixel];
                 match shares.iter_mut().find(|(polygon, _)| *polygon == cell.polygon()) {

@@ -1,10 +1,15 @@
 //! Fills outlines at the centres of pixels, in floats: what is too near to tell is left out.
 
-use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::drawing::{Drawing, ViewOptions};
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, Facing, Hit, Viewpoint};
+
+/// A view of polygons with opacities.
+pub fn with_opacities(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> ViewOptions<'static> {
+    ViewOptions::DEFAULT.with_opacities((0..tree.preparation().polygons).map(opacity).collect())
+}
 
 /// What covers the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,8 +44,9 @@ impl Picture {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         for outline in outlines {
-            for (i, &a) in outline.iter().enumerate() {
-                let b = outline[(i + 1) % outline.len()];
+            for (i, a) in outline.iter().enumerate() {
+                // From the centre of the first pixel.
+                let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.mark_near(a, b);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };
                 let rows = low[1].ceil().max(0.0) as usize..height;
@@ -116,10 +122,15 @@ pub struct Score {
 }
 
 /// Compares map and drawing of a view with what the tree's order paints, pixel by pixel, by integers
-/// of another hand; and with rays.
-pub fn check(tree: &BspTree, camera: &Camera, rays: Rays, score: &mut Score) -> Result<(), String> {
+/// of another hand. Every fourth picture is of polygons seen from their fronts alone.
+pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
+    let rays = Rays::new(camera, tree.faces()).map_err(|error| error.to_string())?;
+    let (rays, options) = match score.pictures % 4 {
+        3 => (rays.with_front_faces_only(), ViewOptions::DEFAULT.with_front_faces_only()),
+        _ => (rays, ViewOptions::DEFAULT),
+    };
     let truth = paint_tree(tree, camera.viewpoint(), &rays);
-    let map = VisibilityMap::of(tree, rays).expect("memory");
+    let map = tree.visibility(camera, &options).expect("memory");
     let drawing = map.drawing().expect("memory");
     let shown: Vec<usize> = map.polygons().map(|shown| shown.polygon).collect();
     let mut drawn: Vec<usize> = drawing.paths().map(|path| path.polygon()).collect();
@@ -164,13 +175,8 @@ pub fn check(tree: &BspTree, camera: &Camera, rays: Rays, score: &mut Score) -> 
 }
 
 /// Every polygon of a map is what a ray through its point meets first.
-pub fn check_rays(
-    tree: &BspTree,
-    camera: &Camera,
-    rays: Rays,
-    score: &mut Score,
-) -> Result<(), String> {
-    let map = VisibilityMap::of(tree, rays).expect("memory");
+pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     for shown in map.polygons().filter(|shown| shown.area > 0.1) {
         score.rays += 1;
         // Nothing is seen edge-on; and of polygons of one plane the order decides.
@@ -190,8 +196,8 @@ pub fn check_rays(
 /// The ray through a point of the picture.
 pub fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
     let [width, height] = camera.size().map(f64::from);
-    let across = camera.right() * ((x + 0.5 - 0.5 * width) * camera.pixel_size());
-    let down = camera.up() * ((y + 0.5 - 0.5 * height) * -camera.pixel_size());
+    let across = camera.right() * ((x - 0.5 * width) * camera.pixel_size());
+    let down = camera.up() * ((y - 0.5 * height) * -camera.pixel_size());
     match camera.viewpoint() {
         Viewpoint::Eye(eye) => binspace::Ray::new(eye, camera.forward() + across + down),
         Viewpoint::Direction(direction) => {

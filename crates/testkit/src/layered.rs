@@ -4,9 +4,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::fill::{Picture, Pixel, ray};
+use super::fill::{Picture, Pixel, ray, with_opacities};
 use super::fragment_pixels::for_each_pixel;
-use binspace::drawing::{Drawing, VisibilityMap};
+use binspace::drawing::{Drawing, ViewOptions, VisibilityMap};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, Facing};
@@ -30,24 +30,20 @@ pub struct Layers {
 }
 
 /// The polygons at the centre of each pixel, back to front.
-fn truth(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Vec<usize>> {
+fn truth(tree: &BspTree, camera: &Camera) -> Result<Vec<Vec<usize>>, String> {
+    let rays = &Rays::new(camera, tree.faces()).map_err(|error| error.to_string())?;
     let [width, height] = rays.size().map(|side| side as usize);
     let mut pixels = vec![vec![]; width * height];
     for fragment in tree.back_to_front(camera.viewpoint()) {
         let polygon = fragment.polygon();
         for_each_pixel(tree, &fragment, rays, |pixel| pixels[pixel].push(polygon));
     }
-    pixels
+    Ok(pixels)
 }
 
-pub fn check_layers(
-    tree: &BspTree,
-    camera: &Camera,
-    rays: Rays,
-    score: &mut Layers,
-) -> Result<(), String> {
-    let truth = truth(tree, camera, &rays);
-    let drawing = Drawing::translucent(tree, rays).expect("memory");
+pub fn check_layers(tree: &BspTree, camera: &Camera, score: &mut Layers) -> Result<(), String> {
+    let truth = truth(tree, camera)?;
+    let drawing = Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, None).expect("memory");
     let is_unsure = vec![false; truth.len()];
     let is_flat = tree.preparation().flattened == 0;
     compare(&drawing, &truth, is_unsure, is_flat, &|_| 0.5, score)?;
@@ -59,12 +55,11 @@ pub fn check_layers(
 pub fn check_mixed(
     tree: &BspTree,
     camera: &Camera,
-    rays: Rays,
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<(), String> {
-    let truth = truth(tree, camera, &rays);
-    let map = VisibilityMap::with_opacities(tree, rays, opacity).expect("memory");
+    let truth = truth(tree, camera)?;
+    let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     let drawing = map.drawing().expect("memory");
     // Of needles thinner than that, outlines have nothing.
     let mut by_cells = Picture::new(map.size());
@@ -102,11 +97,10 @@ pub fn check_mixed(
 pub fn check_sight(
     tree: &BspTree,
     camera: &Camera,
-    rays: Rays,
     opacity: &dyn Fn(usize) -> f64,
     score: &mut Layers,
 ) -> Result<(), String> {
-    let map = VisibilityMap::with_opacities(tree, rays, opacity).expect("memory");
+    let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     for shown in map.polygons().filter(|shown| shown.area > 0.01) {
         score.rays += 1;
         let mut hits = tree.hits(ray(camera, shown.point)).filter(|hit| {

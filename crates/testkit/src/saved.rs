@@ -2,6 +2,7 @@
 
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
+use binspace::drawing::{Hidden, ViewOptions};
 use binspace::glam::{DVec3, dvec3};
 use binspace::mesh::Mesh;
 use binspace::overlay::{Overlay, Shape, Shapes};
@@ -237,9 +238,9 @@ fn use_pictures(tree: &BspTree) {
 
 /// The map of what is visible, and the drawings of it; a forged tree may have none.
 fn use_drawing(tree: &BspTree, camera: &view::Camera) {
-    let Ok(rays) = binspace::raster::Rays::new(camera, tree.faces()) else { return };
-    let Ok(map) = binspace::drawing::VisibilityMap::of(tree, rays) else { return };
+    let Ok(map) = tree.visibility(camera, &ViewOptions::DEFAULT) else { return };
     let corners: usize = map.cells().map(|cell| cell.corners().len()).sum();
     let paths = map.drawing().map_or(0, |drawing| drawing.paths().len());
-    let _ = (corners, paths, map.polygons().count(), map.edges().map(|runs| runs.len()));
+    let _ =
+        (corners, paths, map.polygons().count(), map.edges(Hidden::Keep).map(|runs| runs.len()));
 }

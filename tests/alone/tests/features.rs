@@ -106,12 +106,12 @@ fn layers_are_cut_and_put_in_order() {
 #[cfg(feature = "drawing")]
 #[test]
 fn drawings_have_a_path_for_each_polygon_that_shows() {
-    use binspace::{drawing::VisibilityMap, raster::Rays, view};
+    use binspace::{drawing::ViewOptions, view};
 
     let tree = BspTree::build(squares(3)).unwrap();
     let corners = [[0.0; 3], [3.0; 3]].map(Point::to_dvec3);
     for camera in view::views(corners, binspace::glam::DVec3::Z, 2, [80, 60], 1).unwrap() {
-        let map = VisibilityMap::of(&tree, Rays::new(&camera, tree.faces()).unwrap()).unwrap();
+        let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
         let drawing = map.drawing().unwrap();
         assert!(drawing.paths().len() == map.polygons().count() && drawing.paths().len() > 5);
     }

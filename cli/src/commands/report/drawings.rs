@@ -3,7 +3,7 @@
 use std::io;
 use std::time::Instant;
 
-use binspace::drawing::VisibilityMap;
+use binspace::drawing::ViewOptions;
 use binspace::paint::paint_tree;
 use binspace::raster::Rays;
 use binspace::scene::{Builtin, Scene};
@@ -85,7 +85,7 @@ fn draw(scene: &Scene, size: [u32; 2]) -> Result<Figures, Failure> {
     let rays = Rays::new(&camera, tree.faces()).map_err(|error| camera::about(scene, &error))?;
     let truth = paint_tree(&tree, camera.viewpoint(), &rays);
     let start = Instant::now();
-    let map = VisibilityMap::of(&tree, rays).map_err(about)?;
+    let map = tree.visibility(&camera, &ViewOptions::DEFAULT).map_err(about)?;
     let drawing = map.drawing().map_err(about)?;
     let drawn = start.elapsed().as_secs_f64();
     let mut judge = Judge::new(size);

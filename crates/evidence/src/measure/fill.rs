@@ -41,15 +41,16 @@ impl Filled {
         Self { size, pixels: vec![Pixel::Nothing; size[0] * size[1]] }
     }
 
-    /// Fills what outlines wind around (the nonzero rule); corners are in pixels from the centre of the first
-    /// one, x to the right and y down.
+    /// Fills what outlines wind around (the nonzero rule); corners are in pixels, x to the right and y down, from the
+    /// corner of the first one.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         let mut near: Vec<usize> = Vec::new();
         for outline in outlines {
-            for (i, &a) in outline.iter().enumerate() {
-                let b = outline[(i + 1) % outline.len()];
+            for (i, a) in outline.iter().enumerate() {
+                // From the centre of the first pixel.
+                let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.find_near(a, b, &mut near);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };
                 let rows = low[1].ceil().max(0.0) as usize..height;
@@ -122,7 +123,7 @@ impl Filled {
 mod tests {
     use super::*;
     use binspace::BspTree;
-    use binspace::drawing::VisibilityMap;
+    use binspace::drawing::ViewOptions;
     use binspace::paint::paint_tree;
     use binspace::raster::Rays;
     use binspace::scene::Builtin;
@@ -130,7 +131,7 @@ mod tests {
 
     #[test]
     fn a_square_has_the_pixels_whose_centres_it_covers() {
-        let square = [[0.5, 0.5], [3.5, 0.5], [3.5, 2.5], [0.5, 2.5]];
+        let square = [[1.0, 1.0], [4.0, 1.0], [4.0, 3.0], [1.0, 3.0]];
         let mut filled = Filled::new([5, 4]);
         filled.fill(7, std::iter::once(&square[..]));
         let covered = |x: usize, y: usize| (1..=3).contains(&x) && (1..=2).contains(&y);
@@ -139,7 +140,7 @@ mod tests {
             assert_eq!(pixel, expected, "{i}");
         }
         // A side through centres cannot be told; what is later covers it.
-        filled.fill(8, std::iter::once(&[[0.0, -0.5], [1.5, -0.5], [1.5, 3.5], [0.0, 3.5]][..]));
+        filled.fill(8, std::iter::once(&[[0.5, 0.0], [2.0, 0.0], [2.0, 4.0], [0.5, 4.0]][..]));
         assert_eq!(filled.pixels[5], Pixel::Unsure);
         assert_eq!(filled.pixels[6], Pixel::Polygon(8));
         assert_eq!(filled.pixels[7], Pixel::Polygon(7));
@@ -153,7 +154,7 @@ mod tests {
         let camera = Camera::looking_at_all([low, high], scene.up(), [160, 120]).unwrap();
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let truth = paint_tree(&tree, camera.viewpoint(), &rays);
-        let drawing = VisibilityMap::of(&tree, rays).unwrap().drawing().unwrap();
+        let drawing = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap().drawing().unwrap();
         let paths: Vec<_> = drawing.paths().collect();
         let judge = |order: &mut dyn Iterator<Item = usize>| {
             let mut filled = Filled::new([160, 120]);

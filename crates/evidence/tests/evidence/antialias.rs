@@ -86,8 +86,7 @@ fn areas_in_pixels_are_those_of_rationals() {
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap();
         let centre = dvec3(4.0, 4.0, 0.0);
         let camera = Camera::parallel(-DVec3::Z, DVec3::Y, centre, 8.0, SIZE).unwrap();
-        let rays = Rays::new(&camera, tree.faces()).unwrap();
-        let areas = Areas::of(&VisibilityMap::of(&tree, rays).unwrap());
+        let areas = Areas::of(&tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap());
         let outlines: [Vec<Point>; 3] =
             from_fn(|k| triangles[k].iter().map(|p| p.map(|c| rational(c, 8))).collect());
         for (k, shares) in (0..).zip(areas.pixels()) {
@@ -115,8 +114,7 @@ fn areas_sum_to_the_picture_and_samples_come_near() {
         let tree = BspTree::build(scene.polygons()).unwrap();
         let (low, high) = scene.bounds().unwrap();
         for camera in views([low, high], scene.up(), 2, [48, 36], 3).unwrap() {
-            let rays = Rays::new(&camera, tree.faces()).unwrap();
-            let map = VisibilityMap::of(&tree, rays).unwrap();
+            let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
             let areas = Areas::of(&map);
             let mut sums = vec![0.0; scene.len()];
             for shares in areas.pixels() {
@@ -149,8 +147,7 @@ fn a_constant_surface_is_constant_by_areas_and_has_seams_by_blending() {
     // Inside of the square.
     let centre = dvec3(0.1, 0.1, 0.0);
     let camera = Camera::parallel(-DVec3::Z, DVec3::Y, centre, 1.4, [40, 40]).unwrap();
-    let rays = Rays::new(&camera, tree.faces()).unwrap();
-    let areas = Areas::of(&VisibilityMap::of(&tree, rays).unwrap());
+    let areas = Areas::of(&tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap());
     let (black, white) = (|_| [0.0; 3], [1.0; 3]);
     let exact = areas.picture(black, white);
     assert!(exact.iter().flatten().all(|c| c.abs() < 1e-6));

@@ -22,12 +22,14 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
     let Ok(tree) = options.build(&polygons) else { return Ok(()) };
     for camera in views.into_iter().flatten() {
         // Some cameras are too near to a scene, or too far from it, for its pixels to be told apart.
-        let Ok(rays) = Rays::new(&camera, tree.faces()) else { continue };
+        if Rays::new(&camera, tree.faces()).is_err() {
+            continue;
+        }
         // One of four polygons is translucent, another is left out.
         let opacity = |polygon: usize| [1.0, 0.5, 1.0, 0.0][polygon % 4];
-        let checked = check(&tree, &camera, rays.clone(), &mut Score::default());
-        let checked = checked
-            .and_then(|()| check_mixed(&tree, &camera, rays, &opacity, &mut Layers::default()));
+        let checked = check(&tree, &camera, &mut Score::default());
+        let checked =
+            checked.and_then(|()| check_mixed(&tree, &camera, &opacity, &mut Layers::default()));
         if let Err(what) = checked {
             panic!("{what}: {camera:?} {polygons:?}");
         }
