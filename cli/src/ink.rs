@@ -211,7 +211,7 @@ mod tests {
             &[[1.0, 1.0], [8.0, 1.0], [8.0, 6.5], [1.0, 6.5], [1.0, 1.0]],
             // Sharp turns, short steps, and beyond the picture.
             &[[2.0, 7.0], [9.0, 6.6], [2.0, 6.2], [2.1, 6.1], [2.2, 6.3]],
-            &[[-5.0, 4.0], [3.0, -4.0], [20.0, 4.0]],
+            &[[-4.5, 4.5], [3.5, -3.5], [20.5, 4.5]],
             &[[5.5, 5.5], [5.5, 5.5000001]],
         ];
         const EACH: i32 = 100;
@@ -219,7 +219,7 @@ mod tests {
             let found = covered(line, 0, [12, 9]);
             let mut sum = 0.0;
             for (at, &found) in found.iter().enumerate() {
-                let corner = [at % 12, at / 12].map(|c| c as f64 - 0.5);
+                let corner = [at % 12, at / 12].map(|c| c as f64);
                 let inside = (0..EACH * EACH).filter(|k| {
                     let part = |k: i32| (f64::from(k) + 0.5) / f64::from(EACH);
                     let point = [corner[0] + part(k % EACH), corner[1] + part(k / EACH)];
@@ -258,7 +258,7 @@ mod tests {
             let lines = polylines([ends]).unwrap();
             Strokes { depth: 0, class, runs: vec![], lines }
         };
-        let along = [[1.0, 2.0], [6.0, 2.0]];
+        let along = [[1.5, 2.5], [6.5, 2.5]];
         let mut once = vec![200; 3 * 8 * 5];
         let mut twice = once.clone();
         draw(&mut once, [8, 5], &[strokes("border", along)]);
