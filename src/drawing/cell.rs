@@ -293,8 +293,8 @@ mod tests {
             let eye = random.point(-1.0, 1.0) * size * [2.0, 1e3, 1e6][round % 3];
             let fov = [1.5, 3e-3, 3e-6][round % 3];
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, fov, [320, 200]).unwrap();
-            let rims = all_lines(&tree, &camera).unwrap();
-            let lines = &rims.lines;
+            let stock = all_lines(&tree, &camera).unwrap();
+            let lines = &stock.lines;
             let halves: Vec<HalfPlane> = (0..lines.len() as u32).map(HalfPlane::of).collect();
             for (i, &a) in halves.iter().enumerate() {
                 for &b in &halves[..i] {

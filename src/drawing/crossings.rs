@@ -13,7 +13,7 @@ use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique}
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
 use super::sight::{ProjectedSegment, parts};
-use super::stock::{OutlineCache, Primitives, View};
+use super::stock::{Primitives, View};
 use super::tile::{CUT, Growth, LINES, NARROWED, Tile, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
@@ -130,7 +130,8 @@ impl VisibilityMap<'_> {
     /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
-        let is_wanted = |line: HalfPlane| self.rims.lines.is_cut(line) || bends.contains_key(&line);
+        let is_wanted =
+            |line: HalfPlane| self.stock.lines.is_cut(line) || bends.contains_key(&line);
         let edges = self.edges_on(is_wanted, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {
@@ -160,7 +161,7 @@ impl VisibilityMap<'_> {
     /// The outlines of faces. (Those of polygons that do not show have no lines.)
     fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
         let faces = 0..self.stock.views.len() as u32;
-        faces.map(|face| (face, self.rims.known_outline(face)))
+        faces.map(|face| (face, self.stock.outline(face)))
     }
 
     /// The lines of edges inside polygons.
@@ -203,7 +204,7 @@ impl VisibilityMap<'_> {
 
     /// The ends of a side in the order in which they are along a line, and where that is.
     fn along(&self, line: HalfPlane, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
-        let [_, kx, ky] = self.rims.lines.rounded(line).k;
+        let [_, kx, ky] = self.stock.lines.rounded(line).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
             ends.swap(0, 1);
@@ -213,7 +214,7 @@ impl VisibilityMap<'_> {
 
     /// Whether two faces go through one another in the line between cells of theirs.
     fn do_cross(&self, a: &CutSide, b: &CutSide, inner: &InnerEdges, known: &mut Known) -> bool {
-        let (lines, faces) = (&self.rims.lines, self.stock.frame.faces);
+        let (lines, faces) = (&self.stock.lines, self.stock.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return false;
         }
@@ -383,17 +384,26 @@ fn crossings_of(
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
-    let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
+    // With the lines in which the faces cut one another.
+    let mut lines = stock.lines.clone();
+    let mut cuts = Vec::with_capacity(pairs.len());
+    for pair in each(watch, LINES, pairs) {
+        let Pair { below, above } = *pair?;
+        let View { is_positive, .. } = stock.views[below as usize];
+        cuts.push(lines.cut(below, PlaneId::face(above), true, is_positive)?);
+    }
+    let lines = &lines;
+    let shares: Vec<_> = pairs.chunks(SHARE).zip(cuts.chunks(SHARE)).enumerate().collect();
     let count = shares.len();
-    let share = |(i, pairs): (usize, &[Pair])| {
-        let (mut rims, mut found) = (OutlineCache::new(stock), Vec::new());
-        for &Pair { below, above } in pairs {
+    let share = |(i, (pairs, cuts)): (usize, (&[Pair], &[HalfPlane]))| {
+        let mut found = Vec::new();
+        for (&Pair { below, above }, &cut) in pairs.iter().zip(cuts) {
             let faces = [below, above];
             let corners: usize = faces.map(|face| stock.edges_work(face)).iter().sum();
-            watch.work(2 * LINES + CUT + corners * LINES / 4)?;
+            watch.work(CUT + corners)?;
             let sight = match inner.bend(stock.frame.faces, faces) {
-                Some(bend) => bent(&bend, stock, &mut rims, watch)?,
-                None => straight(faces, stock, &mut rims, watch)?,
+                Some(bend) => bent(&bend, stock, lines, watch)?,
+                None => straight(faces, cut, stock, lines, watch)?,
             };
             if let Some(sight) = sight {
                 found.push(Crossing { faces, sight });
@@ -414,15 +424,13 @@ fn crossings_of(
 /// away.
 fn straight(
     [one, other]: [u32; 2],
+    cut: HalfPlane,
     stock: &Primitives<'_>,
-    rims: &mut OutlineCache<'_>,
+    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
-    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(rims.outline(stock, one)?);
-    halves.extend_from_slice(rims.outline(stock, other)?);
-    let View { is_positive, .. } = stock.views[one as usize];
-    let cut = rims.lines.cut(one, PlaneId::face(other), true, is_positive)?;
-    let lines = &rims.lines;
+    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(stock.outline(one));
+    halves.extend_from_slice(stock.outline(other));
     let Some(common) = picture(stock, lines).within(lines, &halves, None, watch)? else {
         return Ok(None);
     };
@@ -439,24 +447,22 @@ fn straight(
 fn bent(
     bend: &Bend,
     stock: &Primitives<'_>,
-    rims: &mut OutlineCache<'_>,
+    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
     let faces = stock.frame.faces;
-    let sight = ProjectedSegment::new(&rims.lines, faces.ends(face, k));
+    let sight = ProjectedSegment::new(lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
     let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
-        Some(k) => ProjectedSegment::new(&rims.lines, faces.ends(other, k)).map(|along| {
+        Some(k) => ProjectedSegment::new(lines, faces.ends(other, k)).map(|along| {
             let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));
             [a.min(b), a.max(b)]
         }),
         None => {
-            let halves: SmallVec<[HalfPlane; 8]> =
-                SmallVec::from_slice(rims.outline(stock, other)?);
-            let cell = picture(stock, &rims.lines).within(&rims.lines, &halves, None, watch)?;
-            cell.and_then(|cell| sight.chord(&rims.lines, &cell))
+            let cell = picture(stock, lines).within(lines, stock.outline(other), None, watch)?;
+            cell.and_then(|cell| sight.chord(lines, &cell))
         }
     };
     Ok(common.and_then(|common| sight.within(common)))

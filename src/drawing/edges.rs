@@ -13,8 +13,7 @@ use super::leaf::Visible;
 use super::lines::{LineTable, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by};
 use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
-use super::stock::OutlineCache;
-use super::tile::{CUT, LINES, Reaches, VISITED};
+use super::tile::{CUT, Reaches, VISITED};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
@@ -66,7 +65,7 @@ impl VisibilityMap<'_> {
         let is_drawn = |face| self.stock.opacity(face) > 0.0;
         let mut views = Views { map: self, sides: Table::default() };
         let side = |face| views.side(face);
-        let (mut edges, numbers) = shared_edges(&self.rims.lines, is_drawn, side, watch)?;
+        let (mut edges, numbers) = shared_edges(&self.stock.lines, is_drawn, side, watch)?;
         self.collect(&mut edges, &numbers, watch)?;
         let count = edges.len();
         let mut list = Vec::with_capacity(count);
@@ -97,9 +96,8 @@ impl VisibilityMap<'_> {
         let faces = stock.frame.faces;
         for face in each(watch, VISITED, 0..faces.len() as u32) {
             let face = face?;
-            // Faces of polygons that do not show have no lines.
             let corners = 0..faces.corners(face).len() as u32;
-            for (k, half) in corners.zip(self.rims.known_outline(face)) {
+            for (k, half) in corners.zip(self.stock.outline(face)) {
                 watch.work(VISITED)?;
                 if numbers.contains_key(&(face, k)) {
                     edges.reserve(1);
@@ -389,7 +387,7 @@ impl VisibilityMap<'_> {
                     continue;
                 }
                 let (face, k) = edge.faces[0];
-                if let Some(sight) = ProjectedSegment::new(&self.rims.lines, faces.ends(face, k)) {
+                if let Some(sight) = ProjectedSegment::new(&self.stock.lines, faces.ends(face, k)) {
                     *place = hidden.len() as u32;
                     hidden.push(*number);
                     sights.push(sight);
@@ -425,19 +423,17 @@ impl VisibilityMap<'_> {
         }
         let (stock, faces) = (&self.stock, self.stock.frame.faces);
         let mut reaches = Reaches::default();
-        // Polygons that do not show hide edges too.
-        let mut rims = OutlineCache::new(stock);
+        // Hidden polygons hide edges too.
         for face in 0..faces.len() {
             let number = face as u32;
-            watch.work(1)?;
+            watch.work(VISITED + stock.edges_work(number))?;
             if stock.sees(number) {
-                watch.work(LINES + stock.edges_work(number) * LINES / 4)?;
-                reaches.push(number, rims.outline(stock, number)?)?;
+                reaches.push(number, stock.outline(number))?;
             }
             finish_item(watch, face, faces.len());
         }
         let around = |face: u32| stock.views[face as usize].around;
-        let pieces = Pieces { lines: &rims.lines, reaches, face: &|face| face, around: &around };
+        let pieces = Pieces { lines: &stock.lines, reaches, face: &|face| face, around: &around };
         let passing = Passing { sights, spots: &[] };
         let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
         let mut passes = found.sights;

@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
 use super::lines::{HalfPlane, LineTable};
-use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
+use super::stock::{FEW_CORNERS, Primitives};
 use super::tile::{CUT, Growth, Tile};
 use crate::Error;
 use crate::progress::Watch;
@@ -39,33 +39,32 @@ pub(super) const SHORT: usize = 64;
 
 impl Leaf {
     /// Computes the visible parts of items in a tile. The items are sorted front to back.
-    pub(super) fn new<'t>(
+    pub(super) fn new(
         tile: Tile,
         items: &[u32],
-        stock: &Primitives<'t>,
-        rims: &mut OutlineCache<'t>,
+        stock: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let (whole, sides) = (Cell::rectangle(&rims.lines, tile.low, tile.high), tile.sides());
+        let lines = &stock.lines;
+        let (whole, sides) = (Cell::rectangle(lines, tile.low, tile.high), tile.sides());
         if items.len() <= SHORT {
             let mut area = OpenArea::new(whole);
             for &item in items {
                 watch.work(area.open.len() * CUT)?;
                 let around = &stock.items[item as usize].around;
-                // The lines of an item outside of the open area are not needed.
                 if area.is_apart(around) {
                     continue;
                 }
-                let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
-                area.subtract(item, around, &halves, stock, &rims.lines, watch)?;
+                let Some(halves) = stock.crossing(item, &sides) else { continue };
+                area.subtract(item, around, &halves, stock, watch)?;
             }
             return Ok(Self { tile, cells: area.cells });
         }
         let mut region = Region { cell: whole, pieces: vec![], growth: Growth::NONE };
         for &item in items {
             watch.work(CUT)?;
-            let Some(halves) = rims.crossing(stock, item, &sides)? else { continue };
-            if let Some(cell) = region.cell.within(&rims.lines, &halves, None, watch)?
+            let Some(halves) = stock.crossing(item, &sides) else { continue };
+            if let Some(cell) = region.cell.within(lines, &halves, None, watch)?
                 && region.push(Visible { item, cell }, stock)
             {
                 break;
@@ -74,9 +73,9 @@ impl Leaf {
         let mut cells = Vec::new();
         let mut regions = vec![region];
         while let Some(region) = regions.pop() {
-            match region.divider(&rims.lines, watch)? {
-                Some(half) => regions.extend(region.halves(half, stock, &rims.lines, watch)?),
-                None => cells.extend(region.visible(stock, &rims.lines, watch)?),
+            match region.divider(&stock.lines, watch)? {
+                Some(half) => regions.extend(region.halves(half, stock, watch)?),
+                None => cells.extend(region.visible(stock, watch)?),
             }
         }
         Ok(Self { tile, cells })
@@ -113,9 +112,9 @@ impl Region {
         self,
         half: HalfPlane,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<[Self; 2], Error> {
+        let lines = &stock.lines;
         let signs = self.cell.signs(lines, half);
         let mut parts = [false, true].map(|is_back| {
             let cell = self.cell.part(lines, half.flipped(is_back), &signs, sign(is_back));
@@ -178,12 +177,7 @@ impl Region {
     }
 
     /// Computes the visible parts of the pieces.
-    fn visible(
-        self,
-        stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Vec<Visible>, Error> {
+    fn visible(self, stock: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Visible>, Error> {
         let mut area = OpenArea::new(self.cell);
         for Visible { item, cell } in self.pieces {
             watch.work(area.open.len() * CUT)?;
@@ -191,7 +185,7 @@ impl Region {
             if !area.is_apart(&around) {
                 let halves: SmallVec<[HalfPlane; 8]> =
                     cell.sides.iter().map(|side| side.half).collect();
-                area.subtract(item, &around, &halves, stock, lines, watch)?;
+                area.subtract(item, &around, &halves, stock, watch)?;
             }
         }
         Ok(area.cells)
@@ -234,7 +228,6 @@ impl OpenArea {
         around: &Rect,
         halves: &[HalfPlane],
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         // The caller counts the work for fewer corners.
@@ -247,7 +240,9 @@ impl OpenArea {
         while let Some(cell) = open.get(i) {
             let shown = match are_apart(&boxes[i], around) {
                 true => None,
-                false => cell.within(lines, halves, is_opaque.then_some(&mut *outside), watch)?,
+                false => {
+                    cell.within(&stock.lines, halves, is_opaque.then_some(&mut *outside), watch)?
+                }
             };
             let is_taken = is_opaque && shown.is_some();
             cells.extend(shown.map(|cell| Visible { item, cell }));

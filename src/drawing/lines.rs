@@ -20,8 +20,8 @@ const FEW: usize = 8;
 /// Borders of tiles are not so far out, in steps.
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
-/// All lines that a picture was asked for.
-#[derive(Debug)]
+/// The lines of a picture: of the edges of all faces that it may show, and of the cuts of their pieces.
+#[derive(Clone, Debug)]
 pub(super) struct LineTable<'t> {
     pub(super) frame: Frame<'t>,
     /// The largest coordinates in the picture.
@@ -304,72 +304,7 @@ impl<'t> LineTable<'t> {
     }
 }
 
-/// The halves on which another list's lines are positive, by their numbers there, of those that were taken over.
-pub(in crate::drawing) struct Adopted(Vec<Option<HalfPlane>>);
-
-impl Adopted {
-    /// None of another list's lines so far.
-    pub(in crate::drawing) fn of(other: &LineTable<'_>) -> Adopted {
-        Self(vec![None; other.keys.len()])
-    }
-}
-
 impl LineTable<'_> {
-    /// The half that another list's half is in this one, to which its line is added if it is new.
-    pub(in crate::drawing) fn adopted(
-        &mut self,
-        other: &Self,
-        half: HalfPlane,
-        Adopted(adopted): &mut Adopted,
-    ) -> Result<HalfPlane, Error> {
-        let Some(line) = half.number() else { return Ok(half) };
-        let own = match adopted[line as usize] {
-            Some(own) => own,
-            None => self.adopted_line(other, line)?,
-        };
-        adopted[line as usize] = Some(own);
-        Ok(own.flipped(half.is_negative()))
-    }
-
-    /// Takes over which of another list's lines, of those that were taken over and of borders, are lines of cuts.
-    pub(in crate::drawing) fn adopt_cuts(&mut self, other: &Self, Adopted(adopted): &Adopted) {
-        for half in other.cuts.keys() {
-            let own = match half.number() {
-                Some(line) => adopted[line as usize].map(HalfPlane::positive),
-                None => Some(*half),
-            };
-            if let Some(own) = own {
-                self.cuts.insert(own, ());
-            }
-        }
-    }
-
-    /// The half on which another list's line is positive.
-    fn adopted_line(&mut self, other: &Self, line: u32) -> Result<HalfPlane, Error> {
-        let mut points = other.through[line as usize];
-        for point in points.iter_mut().filter(|point| **point != NOWHERE) {
-            let (corner, at) = other.corners[*point as usize];
-            *point = match other.moved.get(&corner) == Some(point) {
-                true => self.moved(corner),
-                false => self.point(corner, at),
-            };
-        }
-        // Edges are positive by the order of their points, and the other list may number these the other way.
-        let (key, flip) = match other.key(line) {
-            Key::Edge(_) if points[0] > points[1] => {
-                points.reverse();
-                (Key::Edge(points), true)
-            }
-            Key::Edge(_) => (Key::Edge(points), false),
-            key => (key, false),
-        };
-        let own = match self.halves.get(&key) {
-            Some(&own) => own,
-            None => self.new_half(key, other.rounded[line as usize].flipped(flip), points)?,
-        };
-        Ok(own.flipped(flip))
-    }
-
     /// A half's line in floats.
     #[inline]
     pub(in crate::drawing) fn rounded(&self, half: HalfPlane) -> Rounded {
@@ -542,7 +477,7 @@ pub(super) struct Foot {
 
 /// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
 /// shows a scene from very far, all are in one place.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
 
 type Place = [i64; 3];

@@ -10,11 +10,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::ControlFlow;
 
-use super::cell::{Cell, Side};
+use super::cell::Cell;
 use super::leaf::{Leaf, SHORT, Visible};
-use super::lines::Adopted;
-use super::stock::{OutlineCache, Primitives};
-use super::tile::{CUT, Growth, LINES, List, TINY, Tile, found_in};
+use super::stock::Primitives;
+use super::tile::{Growth, List, TINY, Tile, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -57,8 +56,6 @@ use crate::view::Camera;
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
     pub(super) stock: Primitives<'t>,
-    /// Of the faces of polygons that show, and of the items of translucent ones.
-    pub(super) rims: OutlineCache<'t>,
     pub(super) leaves: Vec<Leaf>,
     /// Drawings leave out polygons whose visible area is less.
     pub(super) least_area: f64,
@@ -189,14 +186,12 @@ impl BspTree {
         let rays = drawing_rays(self, camera, front_faces_only)?;
         let opacities = checked(self, opacities)?;
         let reporter = Reporter::new(progress);
-        let (stock, rims, leaves) = reporter.watch(3, |watch| {
-            let picture = Tile::picture(rays.size());
+        let (stock, leaves) = reporter.watch(2, |watch| {
             let stock = Primitives::new(self, rays, opacities, watch)?;
-            let (leaves, mut rims) = visible(&stock, picture, watch)?;
-            add_shown(&mut rims, &stock, &leaves, watch)?;
-            Ok((stock, rims, leaves))
+            let leaves = visible(&stock, watch)?;
+            Ok((stock, leaves))
         })?;
-        Ok(VisibilityMap { tree: self, stock, rims, leaves, least_area, reporter })
+        Ok(VisibilityMap { tree: self, stock, leaves, least_area, reporter })
     }
 }
 
@@ -248,36 +243,6 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Adds the outlines of all faces of polygons that show, and of the items of translucent ones: a phase.
-fn add_shown<'t>(
-    rims: &mut OutlineCache<'t>,
-    stock: &Primitives<'t>,
-    leaves: &[Leaf],
-    watch: &Watch<'_>,
-) -> Result<(), Error> {
-    let faces = stock.frame.faces;
-    let mut shows = vec![false; stock.polygons_end(watch)?];
-    for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
-        shows[stock.polygon(visible?.item)] = true;
-    }
-    for face in each(watch, 1, 0..faces.len() as u32) {
-        let face = face?;
-        if stock.sees(face) && shows[faces.polygon(face)] {
-            watch.work(LINES + stock.edges_work(face) * LINES / 4)?;
-            rims.outline(stock, face)?;
-        }
-        finish_item(watch, face as usize, faces.len());
-    }
-    for item in each(watch, 1, 0..stock.items.len() as u32) {
-        let item = item?;
-        if !stock.is_opaque(item) && shows[stock.polygon(item)] {
-            watch.work(LINES)?;
-            rims.item(stock, item)?;
-        }
-    }
-    Ok(())
-}
-
 /// The opacities of all polygons; none if all are opaque.
 pub(super) fn checked(tree: &BspTree, opacities: &[f64]) -> Result<Vec<f64>, Error> {
     let expected = tree.preparation().polygons;
@@ -322,65 +287,38 @@ struct TileList {
     growth: Growth,
 }
 
-/// What a thread finds in its part of the picture, with the lines that it needed.
-struct Found<'t> {
-    rims: OutlineCache<'t>,
-    leaves: Vec<Leaf>,
-}
-
-/// What is visible of all items, in the order of the tiles, by lines that are made for it: two phases.
-pub(super) fn visible<'t>(
-    stock: &Primitives<'t>,
-    picture: Tile,
-    watch: &Watch<'_>,
-) -> Result<(Vec<Leaf>, OutlineCache<'t>), Error> {
-    let new = || Found { rims: OutlineCache::new(stock), leaves: vec![] };
-    let halves =
-        |part: &TileList, found: &mut Found<'t>| part.halves(stock, &mut found.rims, watch);
-    let leaf = |part: &TileList, found: &mut Found<'t>| {
-        if part.list.items.is_empty() {
-            return Ok(());
+/// The visible parts of all items, in the order of the tiles: a phase.
+pub(super) fn visible(stock: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
+    let halves = |part: &TileList, _: &mut Vec<Leaf>| part.halves(stock, watch);
+    let leaf = |TileList { tile, list, .. }: &TileList, found: &mut Vec<Leaf>| {
+        if !list.items.is_empty() {
+            found.push(Leaf::new(*tile, &list.items, stock, watch)?);
         }
-        let TileList { tile, list, .. } = part;
-        found.leaves.push(Leaf::new(*tile, &list.items, stock, &mut found.rims, watch)?);
         Ok(())
     };
-    let mut rims = OutlineCache::new(stock);
-    let list = List::of_all(stock, &mut rims, picture, watch)?;
+    let picture = Tile::picture(stock.frame.rays.size());
+    let list = List::of_all(stock, picture, watch)?;
     let all = TileList { tile: picture, list, growth: Growth::NONE };
     let mut leaves = Vec::new();
-    let shares = found_in(all, new, halves, leaf, watch)?;
-    let count = shares.len();
-    for (i, mut found) in shares.into_iter().enumerate() {
-        let mut adopted = Adopted::of(&found.rims.lines);
-        for Leaf { cells, .. } in &mut found.leaves {
-            watch.work(cells.len() * CUT)?;
-            for Side { half, .. } in cells.iter_mut().flat_map(|visible| &mut visible.cell.sides) {
-                *half = rims.lines.adopted(&found.rims.lines, *half, &mut adopted)?;
-            }
-        }
-        rims.lines.adopt_cuts(&found.rims.lines, &adopted);
-        leaves.reserve(found.leaves.len());
-        leaves.append(&mut found.leaves);
-        finish_item(watch, i, count);
+    for mut found in found_in(all, Vec::new, halves, leaf, watch)? {
+        leaves.append(&mut found);
     }
-    Ok((leaves, rims))
+    Ok(leaves)
 }
 
 impl TileList {
     /// Both halves of the tile, each with what may show in it; `None` of a leaf.
-    fn halves<'t>(
+    fn halves(
         &self,
-        stock: &Primitives<'t>,
-        rims: &mut OutlineCache<'t>,
+        stock: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let tiles = self.tile.halves();
-        let first = self.list.narrowed(stock, rims, tiles[0], watch)?;
-        let second = self.list.narrowed(stock, rims, tiles[1], watch)?;
+        let first = self.list.narrowed(stock, tiles[0], watch)?;
+        let second = self.list.narrowed(stock, tiles[1], watch)?;
         let counts = [&first, &second].map(|list| list.items.len());
         let growth = self.growth.after(self.list.items.len(), counts);
         Ok(Some([

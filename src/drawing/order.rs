@@ -10,9 +10,9 @@ use std::hash::BuildHasherDefault;
 
 use super::cell::{NOWHERE, Rect, are_apart};
 use super::leaf::{Leaf, Visible};
-use super::lines::{LineTable, Mixer};
+use super::lines::Mixer;
 use super::map::{each, sort_by, sort_unique};
-use super::stock::{FEW_CORNERS, OutlineCache, Primitives};
+use super::stock::{FEW_CORNERS, Primitives};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::progress::Watch;
@@ -517,7 +517,6 @@ impl Wanted<'_> {
 /// not show; in pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
     stock: &Primitives<'_>,
-    rims: &OutlineCache<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     wanted: Wanted<'_>,
@@ -531,19 +530,18 @@ pub(super) fn pairs<'l>(
             continue;
         }
         if stock.views[face as usize].is_opaque {
-            reaches.push(face, rims.known_outline(face))?;
+            reaches.push(face, stock.outline(face))?;
         }
     }
     for item in each(watch, 2, 0..stock.items.len() as u32) {
         let item = item?;
         if !stock.is_opaque(item) && shows(&stock.face(item)) {
-            translucent.push(item, rims.known_item(stock, item))?;
+            translucent.push(item, stock.halves(item))?;
         }
     }
-    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, &rims.lines, watch);
-    let leaf = |part: &LeafReaches<'l>, found: &mut Found| {
-        part.leaf(stock, rims, place, wanted, found, watch)
-    };
+    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(stock, watch);
+    let leaf =
+        |part: &LeafReaches<'l>, found: &mut Found| part.leaf(stock, place, wanted, found, watch);
     let all = LeafReaches { leaves, reaches, translucent };
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
@@ -553,7 +551,6 @@ impl<'l> LeafReaches<'l> {
     fn halves(
         &self,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
@@ -564,8 +561,8 @@ impl<'l> LeafReaches<'l> {
             let around = around(leaves);
             let of_face = |face: u32| stock.views[face as usize].around;
             let of_item = |item: u32| stock.items[item as usize].around;
-            let reaches = self.reaches.narrowed(lines, &around, of_face, watch)?;
-            let translucent = self.translucent.narrowed(lines, &around, of_item, watch)?;
+            let reaches = self.reaches.narrowed(&stock.lines, &around, of_face, watch)?;
+            let translucent = self.translucent.narrowed(&stock.lines, &around, of_item, watch)?;
             Ok(Self { leaves, reaches, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -575,7 +572,6 @@ impl<'l> LeafReaches<'l> {
     fn leaf(
         &self,
         stock: &Primitives<'_>,
-        rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         wanted: Wanted<'_>,
         found: &mut Found,
@@ -590,7 +586,7 @@ impl<'l> LeafReaches<'l> {
                 let visible = visible?;
                 let face = stock.face(visible.item);
                 watch.work(stock.edges_work(face))?;
-                if is_whole(stock, rims, tile, visible) {
+                if is_whole(stock, tile, visible) {
                     whole.push(face);
                 }
             }
@@ -604,7 +600,7 @@ impl<'l> LeafReaches<'l> {
         for visible in cells() {
             let Visible { item, cell } = visible;
             if !self.translucent.list.is_empty() {
-                self.add_blended(stock, rims, place, visible, found, watch)?;
+                self.add_blended(stock, place, visible, found, watch)?;
             }
             if !stock.is_opaque(*item) {
                 continue;
@@ -628,7 +624,7 @@ impl<'l> LeafReaches<'l> {
                     continue;
                 }
                 watch.work(CUT)?;
-                if cell.meets(&rims.lines, reaches.halves_of(reach), watch)? {
+                if cell.meets(&stock.lines, reaches.halves_of(reach), watch)? {
                     add(found, pair);
                 }
             }
@@ -641,7 +637,6 @@ impl<'l> LeafReaches<'l> {
     fn add_blended(
         &self,
         stock: &Primitives<'_>,
-        rims: &OutlineCache<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         &Visible { item, ref cell }: &Visible,
         found: &mut Found,
@@ -662,7 +657,7 @@ impl<'l> LeafReaches<'l> {
             if is_apart || stock.face(other) == face || found.contains(&pair) {
                 continue;
             }
-            if cell.meets(&rims.lines, self.translucent.halves_of(reach), watch)? {
+            if cell.meets(&stock.lines, self.translucent.halves_of(reach), watch)? {
                 add(found, pair);
             }
         }
@@ -671,13 +666,8 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(
-    stock: &Primitives<'_>,
-    rims: &OutlineCache<'_>,
-    tile: &Tile,
-    visible: &Visible,
-) -> bool {
-    let outline = rims.known_outline(stock.face(visible.item));
+fn is_whole(stock: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool {
+    let outline = stock.outline(stock.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
     // Edges of others may lie where tiles elsewhere have borders.
     let mut sides = sides.filter(|half| !tile.has_border(*half));

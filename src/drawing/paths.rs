@@ -7,8 +7,10 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use smallvec::SmallVec;
+
 use super::cell::{Cell, Corner, Side};
-use super::exact_lines::{ROUNDING, Rounded};
+use super::exact_lines::{Frame, ROUNDING, Rounded};
 use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
@@ -30,6 +32,8 @@ pub struct Drawing {
     /// Where each outline begins, and all corners.
     outlines: Vec<u32>,
     corners: Vec<[f64; 2]>,
+    /// The edge of its polygon along which the side runs that begins at each corner.
+    edges: Vec<Option<u32>>,
     /// Lines and points, each with how many paths come before it: in the order to paint them.
     pub(super) overlaid: Vec<(u32, Overlaid)>,
 }
@@ -51,23 +55,35 @@ pub struct Path<'d> {
 impl Drawing {
     /// Nothing is painted.
     pub(super) fn empty(size: [u32; 2]) -> Self {
-        Self { size, paths: vec![], outlines: vec![], corners: vec![], overlaid: vec![] }
+        Self {
+            size,
+            paths: vec![],
+            outlines: vec![],
+            corners: vec![],
+            edges: vec![],
+            overlaid: vec![],
+        }
     }
 
-    /// Adds a path that fills an area.
+    /// Adds a path that fills an area, made of parts of these faces of a polygon.
     pub(super) fn push(
         &mut self,
         polygon: usize,
         is_clipped: bool,
         area: &Area,
-        lines: &LineTable<'_>,
+        faces: impl Iterator<Item = u32>,
+        stock: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        for outline in area.outlines(lines, watch)? {
+        let edges = PolygonEdges::of(stock, faces);
+        for outline in area.outlines(&stock.lines, watch)? {
             self.outlines.push(self.corners.len() as u32);
-            self.corners.reserve(outline.len());
-            self.corners.extend(outline);
+            for (i, side) in outline.iter().enumerate() {
+                let end = outline[if i + 1 == outline.len() { 0 } else { i + 1 }].start.at;
+                self.corners.push(side.start.at);
+                self.edges.push(edges.along(side, end));
+            }
         }
         let outlines = start..self.outlines.len() as u32;
         self.paths.push(Record { polygon, is_clipped, outlines });
@@ -77,15 +93,13 @@ impl Drawing {
     /// Adds the paths of another after its own.
     pub(super) fn append(&mut self, mut other: Self) -> Result<(), Error> {
         let [outlines, corners] = [place(self.outlines.len())?, place(self.corners.len())?];
-        self.paths.reserve(other.paths.len());
-        self.outlines.reserve(other.outlines.len());
-        self.corners.reserve(other.corners.len());
         self.paths.extend(other.paths.into_iter().map(|record| {
             let Range { start, end } = record.outlines;
             Record { outlines: start + outlines..end + outlines, ..record }
         }));
         self.outlines.extend(other.outlines.iter().map(|start| start + corners));
         self.corners.append(&mut other.corners);
+        self.edges.append(&mut other.edges);
         Ok(())
     }
 
@@ -119,12 +133,81 @@ impl<'d> Path<'d> {
     /// overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of needles may
     /// coincide.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
+        let corners = &self.drawing.corners;
+        self.ranges().map(move |range| &corners[range])
+    }
+
+    /// For each of the [`outlines`](Self::outlines), the edges of the polygon along which its sides run: a list as long as
+    /// that of corners, in which a number belongs to the side that begins at the corner.
+    ///
+    /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the border of the
+    /// picture, along other polygons, and along edges that triangulation made. Where a side runs along several edges of
+    /// one line, it has the number of the one at its middle.
+    pub fn edges(&self) -> impl Iterator<Item = &'d [Option<u32>]> + Clone + use<'d> {
+        let edges = &self.drawing.edges;
+        self.ranges().map(move |range| &edges[range])
+    }
+
+    /// Where the corners of each outline are.
+    fn ranges(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {
             let start = outlines[outline as usize] as usize;
             let end = outlines.get(outline as usize + 1).map_or(corners.len(), |&end| end as usize);
-            &corners[start..end]
+            start..end
         })
+    }
+}
+
+/// The edges of a polygon's faces, by the lines that they are on.
+struct PolygonEdges<'s, 't> {
+    stock: &'s Primitives<'t>,
+    /// The line, the face, and the number of the edge within the face; sorted.
+    edges: SmallVec<[(u64, u32, u32); 8]>,
+}
+
+impl<'s, 't> PolygonEdges<'s, 't> {
+    fn of(stock: &'s Primitives<'t>, faces: impl Iterator<Item = u32>) -> Self {
+        let edges_of = |face: u32| {
+            let numbered = (0..).zip(stock.outline(face));
+            numbered.map(move |(k, half)| (half.line(), face, k))
+        };
+        let mut edges: SmallVec<_> = faces.flat_map(edges_of).collect();
+        edges.sort_unstable();
+        Self { stock, edges }
+    }
+
+    /// The polygon's edge along which a side runs; `None` if it is none of the polygon's own.
+    fn along(&self, side: &Side, end: [f64; 2]) -> Option<u32> {
+        let line = side.half.line();
+        let first = self.edges.partition_point(|edge| edge.0 < line);
+        let count = self.edges[first..].iter().take_while(|edge| edge.0 == line).count();
+        let alike = &self.edges[first..first + count];
+        let &(_, face, k) = match alike {
+            [only] => only,
+            _ => {
+                let middle = [0, 1].map(|i: usize| 0.5 * (side.start.at[i] + end[i]));
+                let off = |edge: &&(u64, u32, u32)| self.off(edge.1, edge.2, middle);
+                alike.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?
+            }
+        };
+        self.stock.frame.faces.outline_edge(face, k)
+    }
+
+    /// How far a point on the line of an edge is beyond the ends of the edge, in pixels, rounded.
+    fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
+        let Frame { rays, faces } = &self.stock.frame;
+        let arms = faces.ends(face, k).map(|end| {
+            let ([x, y, weight], _) = rays.project(end);
+            // An end behind the eye is beyond the picture.
+            (weight > 0.0).then(|| [x / weight - at[0], y / weight - at[1]])
+        });
+        match arms {
+            [Some(a), Some(b)] if a[0] * b[0] + a[1] * b[1] > 0.0 => {
+                a[0].hypot(a[1]).min(b[0].hypot(b[1]))
+            }
+            _ => 0.0,
+        }
     }
 }
 
@@ -210,16 +293,15 @@ impl Area {
         &self.sides[start as usize..self.ends[i] as usize]
     }
 
-    /// The closed outlines of all parts, each with the area on its left. Sides that two neighbouring parts share in
+    /// The closed outlines of all parts, by their sides, each with the area on its left. Sides that two neighbouring parts share in
     /// opposite directions cancel. Where parts overlap, outlines wind around both.
     pub(super) fn outlines(
         &self,
         lines: &LineTable<'_>,
         watch: &Watch<'_>,
-    ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    ) -> Result<Vec<Vec<Side>>, Error> {
         if let [_] = self.ends[..] {
-            let corners = self.sides.iter().map(|side| side.start.at);
-            return Ok(vec![corners.collect()]);
+            return Ok(vec![self.sides.clone()]);
         }
         let sides = Sides::new(lines, self)?;
         // Corners that are one point.
@@ -260,9 +342,12 @@ impl Area {
                 debug_assert!(next.is_some(), "an outline is open");
             }
             let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
-            let corner = |piece: &Piece| self.sides[piece.from as usize].start.at;
-            let corners = outline[usize::from(is_one_line)..].iter().map(corner);
-            outlines.push(corners.collect());
+            // (An outline that begins in the middle of a side goes on where that begins, at its end.)
+            let side = |piece: &Piece| Side {
+                half: piece.half,
+                start: self.sides[piece.from as usize].start,
+            };
+            outlines.push(outline[usize::from(is_one_line)..].iter().map(side).collect());
         }
         Ok(outlines)
     }
@@ -398,14 +483,14 @@ impl VisibilityMap<'_> {
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
-        let Self { stock, rims, leaves, .. } = self;
+        let Self { stock, leaves, .. } = self;
         if stock.has_translucent() {
-            return mixed(stock, rims, leaves, watch);
+            return mixed(stock, leaves, watch);
         }
         let size = self.size();
         let shown = Nodes::of(stock, leaves, watch)?;
         let place = |face: u32| shown.places[face as usize];
-        let pairs = |wanted: Wanted<'_>| pairs(stock, rims, leaves, &place, wanted, watch);
+        let pairs = |wanted: Wanted<'_>| pairs(stock, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
         let cells = shown.cells(stock, leaves, &is_clipped, watch)?;
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
@@ -423,11 +508,12 @@ impl VisibilityMap<'_> {
                 } else {
                     for face in each(watch, CUT, &shown.faces[index]) {
                         let face = *face?;
-                        add_piece(&rims.lines, rims.known_outline(face), &mut area, watch)?;
+                        add_piece(&stock.lines, stock.outline(face), &mut area, watch)?;
                     }
                 }
                 let polygon = shown.polygons[index];
-                part.push(polygon, is_clipped[index], &area, &rims.lines, watch)?;
+                let faces = shown.faces[index].iter().copied();
+                part.push(polygon, is_clipped[index], &area, faces, stock, watch)?;
             }
             finish_item(watch, i, count);
             Ok(part)

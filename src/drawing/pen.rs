@@ -36,12 +36,11 @@ impl Polyline {
 /// It is for [runs of edges](super::EdgeRun), those that are drawn alike:
 ///
 /// ```
-/// use binspace::drawing::{EdgeRun, VisibilityMap, polylines};
+/// use binspace::drawing::{Hidden, VisibilityMap, polylines};
 ///
 /// # fn lines(map: &VisibilityMap<'_>) -> Result<(), binspace::Error> {
-/// let runs = map.edges()?;
-/// let visible = runs.iter().filter(|run| run.is_visible).map(|run| run.ends);
-/// for line in polylines(visible)? {
+/// let visible = map.edges(Hidden::Skip)?;
+/// for line in polylines(visible.iter().map(|run| run.ends))? {
 ///     println!("pen down at {:?}, {} more points", line.points[0], line.segments.len());
 /// }
 /// # Ok(())

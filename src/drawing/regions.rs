@@ -34,8 +34,9 @@ impl VisibilityMap<'_> {
     ///
     /// If it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
-        let mut regions =
-            self.reporter.watch(2, |watch| self.stacks(watch)?.regions(&self.rims.lines, watch))?;
+        let mut regions = self
+            .reporter
+            .watch(2, |watch| self.stacks(watch)?.regions(&self.stock.lines, watch))?;
         regions.retain(|region| region.area() >= self.least_area);
         Ok(regions)
     }
@@ -46,7 +47,7 @@ impl VisibilityMap<'_> {
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
-            let divided = |leaf| Divided::new(leaf, &self.stock, &self.rims.lines, watch);
+            let divided = |leaf| Divided::new(leaf, &self.stock, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided)? {
                 stacks.add(&divided, |item| self.stock.polygon(item), watch)?;
                 finish_item(watch, done, count);
@@ -125,7 +126,8 @@ impl Stacks {
             for part in each(watch, VISITED, own) {
                 area.push(parts.part(*part? as usize))?;
             }
-            let outlines = area.outlines(lines, watch)?;
+            let outlines = area.outlines(lines, watch)?.into_iter();
+            let outlines = outlines.map(|o| o.iter().map(|side| side.start.at).collect()).collect();
             finish_item(watch, i, count);
             Ok(Region { polygons, outlines })
         };
@@ -204,7 +206,6 @@ impl Divided {
     pub(super) fn new(
         leaf: &Leaf,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
@@ -217,6 +218,7 @@ impl Divided {
             }
             return Ok(divided);
         }
+        let lines = &stock.lines;
         let tile = Cell::rectangle(lines, leaf.tile.low, leaf.tile.high);
         let mut open = vec![LayeredCell::new(tile, 0)];
         let (mut left, mut outside) = (Vec::new(), Vec::new());
@@ -287,7 +289,7 @@ impl VisibilityMap<'_> {
                     see(*item, cell)?;
                 }
             } else {
-                let divided = Divided::new(leaf, &self.stock, &self.rims.lines, watch)?;
+                let divided = Divided::new(leaf, &self.stock, watch)?;
                 for part in &divided.cells {
                     for item in each(watch, CUT, divided.items(part)) {
                         see(item?, &part.cell)?;

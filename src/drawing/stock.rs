@@ -4,9 +4,9 @@ use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::exact_lines::Frame;
-use super::lines::{HalfPlane, LineTable, Table};
-use super::map::each;
-use super::tile::{Across, Tile};
+use super::lines::{HalfPlane, LineTable};
+use super::map::{each, finish_item};
+use super::tile::{Across, LINES, Tile};
 use crate::error::{Error, Kind};
 use crate::exact::{Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use crate::memory::place;
@@ -23,6 +23,8 @@ pub(super) struct Item {
     pub(super) fragment: u32,
     /// A box around what of it is in the picture.
     pub(super) around: Rect,
+    /// Where the half-planes that bound it begin and end.
+    halves: [u32; 2],
 }
 
 /// How the camera sees a face.
@@ -38,13 +40,18 @@ pub(super) struct View {
     pub(super) is_as_given: bool,
     /// The last of its items, if it has some.
     pub(super) last: u32,
+    /// Where the half-planes that bound it begin and end.
+    halves: [u32; 2],
 }
 
-/// All pieces that may show, front to back.
+/// All pieces that may be visible, front to back, and the lines that bound them.
 #[derive(Debug)]
 pub(super) struct Primitives<'t> {
     tree: &'t BspTree,
     pub(super) frame: Frame<'t>,
+    pub(super) lines: LineTable<'t>,
+    /// The half-planes that bound faces and items, one list after another.
+    halves: Vec<HalfPlane>,
     pub(super) items: Vec<Item>,
     /// Of all faces, by their numbers.
     pub(super) views: Vec<View>,
@@ -64,7 +71,7 @@ const LOOKED: usize = 16;
 
 impl<'t> Primitives<'t> {
     /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
-    /// are opaque.
+    /// are opaque. A phase.
     pub(super) fn new(
         tree: &'t BspTree,
         rays: Rays,
@@ -80,7 +87,9 @@ impl<'t> Primitives<'t> {
         for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {
             order.push(fragment?.index());
         }
-        let mut stock = Self { tree, frame, items: vec![], views: vec![], opacities };
+        let lines = LineTable::new(frame.clone());
+        let mut stock =
+            Self { tree, frame, lines, halves: vec![], items: vec![], views: vec![], opacities };
         let all: Vec<u32> = (0..faces.len() as u32).collect();
         let view = |face: u32| Some(stock.view(face));
         stock.views = shared(&all, view, watch)?;
@@ -90,7 +99,100 @@ impl<'t> Primitives<'t> {
             let (number, item) = numbered?;
             stock.views[item.face as usize].last = number;
         }
+        stock.add_halves(watch)?;
         Ok(stock)
+    }
+
+    /// Makes the lines of all faces and items that the picture may show: a phase.
+    fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
+        let faces = self.frame.faces;
+        for face in 0..faces.len() {
+            let View { is_positive, is_as_given, .. } = self.views[face];
+            let start = place(self.halves.len())?;
+            if self.sees(face as u32) {
+                let corners = faces.corners(face as u32).len() as u32;
+                watch.work(LINES + self.edges_work(face as u32) * LINES / 4)?;
+                for k in 0..corners {
+                    self.halves.push(self.lines.edge(face as u32, k, is_positive, is_as_given)?);
+                }
+            }
+            self.views[face].halves = [start, place(self.halves.len())?];
+            finish_item(watch, face, faces.len());
+        }
+        for item in 0..self.items.len() {
+            let Item { face, fragment, .. } = self.items[item];
+            let View { is_positive, halves, .. } = self.views[face as usize];
+            let fragment = self.tree.fragment(fragment);
+            self.items[item].halves = halves;
+            if fragment.is_whole() {
+                continue;
+            }
+            watch.work(LINES)?;
+            // All edges of the face: one that passes by the piece's box may still be what keeps a piece out that
+            // is beside the picture, whose box is not empty.
+            let start = place(self.halves.len())?;
+            self.halves.extend_from_within(halves[0] as usize..halves[1] as usize);
+            for line in fragment.lines() {
+                let Some(plane) = line.as_cut() else { continue };
+                let half = self.lines.cut(face, plane, line.is_behind(), is_positive)?;
+                self.halves.push(half);
+            }
+            self.items[item].halves = [start, place(self.halves.len())?];
+        }
+        Ok(())
+    }
+
+    /// The half-planes that bound a whole face: its edges, one after another; none of a face that the picture does not
+    /// show.
+    ///
+    /// No ray from an eye is in all of them that meets the face's plane behind the eye: the point where it
+    /// does would be outside of every edge of a bounded convex polygon. Nor is one along the plane.
+    pub(super) fn outline(&self, face: u32) -> &[HalfPlane] {
+        self.at(self.views[face as usize].halves)
+    }
+
+    /// The half-planes that bound an item.
+    pub(super) fn halves(&self, item: u32) -> &[HalfPlane] {
+        self.at(self.items[item as usize].halves)
+    }
+
+    fn at(&self, [start, end]: [u32; 2]) -> &[HalfPlane] {
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// Where a box lies against an item: inside, the item covers it.
+    pub(super) fn across(&self, halves: &[HalfPlane], sides: &Rect) -> Across {
+        let mut all = Across::Inside;
+        for &half in halves {
+            match self.lines.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return Across::Outside,
+                Across::Maybe => all = Across::Maybe,
+            }
+        }
+        all
+    }
+
+    /// The half-planes of an item whose lines may cross a box; `None` if the item certainly lies beside it.
+    pub(super) fn crossing(&self, item: u32, sides: &Rect) -> Option<SmallVec<[HalfPlane; 8]>> {
+        if is_within(&self.items[item as usize].around, sides) {
+            return Some(SmallVec::from_slice(self.halves(item)));
+        }
+        let mut crossing = SmallVec::new();
+        for &half in self.halves(item) {
+            match self.lines.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return None,
+                Across::Maybe => crossing.push(half),
+            }
+        }
+        Some(crossing)
+    }
+
+    /// Whether a face certainly covers a box.
+    pub(super) fn covers(&self, face: u32, sides: &Rect) -> bool {
+        is_within(sides, &self.views[face as usize].around)
+            && self.across(self.outline(face), sides) == Across::Inside
     }
 
     /// A fragment, unless the picture shows nothing of it.
@@ -100,7 +202,7 @@ impl<'t> Primitives<'t> {
         if is_empty(&around) {
             return None;
         }
-        let item = |around| Item { face, fragment: fragment.index(), around };
+        let item = |around| Item { face, fragment: fragment.index(), around, halves: [0; 2] };
         // Where corners were moved, what the edges in the picture bound may reach beyond the fragment.
         if fragment.is_whole() || self.frame.faces.dominant_axis(face).is_some() {
             return Some(item(around));
@@ -124,6 +226,7 @@ impl<'t> Primitives<'t> {
             is_opaque: false,
             is_as_given: false,
             last: 0,
+            halves: [0; 2],
         };
         let opacity = self.opacity(face);
         if opacity == 0.0 {
@@ -146,7 +249,7 @@ impl<'t> Primitives<'t> {
             return unseen;
         }
         let is_as_given = self.frame.is_convex_as_given(face, &moved, is_positive);
-        View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, last: 0 }
+        View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, ..unseen }
     }
 
     /// Whether the picture may show some of a face.
@@ -171,11 +274,6 @@ impl<'t> Primitives<'t> {
     pub(super) fn edges_work(&self, face: u32) -> usize {
         let corners = self.frame.faces.corners(face).len();
         if corners > FEW_CORNERS { corners } else { 0 }
-    }
-
-    /// The tree's fragment that an item is.
-    pub(super) fn fragment(&self, item: u32) -> Fragment<'t> {
-        self.tree.fragment(self.items[item as usize].fragment)
     }
 
     /// The face of an item.
@@ -365,168 +463,6 @@ fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 fn sum(factors: [f64; 3], numbers: [f64; 3]) -> f64 {
     factors[0] * numbers[0] + factors[1] * numbers[1] + factors[2] * numbers[2]
-}
-
-/// The halves that bound faces and items, of those that someone asked for.
-///
-/// Most of what is hidden is never asked for. Parts of a picture that several threads look at have rims
-/// each, with numbers of their own for lines.
-#[derive(Debug)]
-pub(super) struct OutlineCache<'t> {
-    pub(super) lines: LineTable<'t>,
-    halves: Vec<HalfPlane>,
-    of_faces: Table<u32, [u32; 2]>,
-    of_items: Table<u32, [u32; 2]>,
-}
-
-impl<'t> OutlineCache<'t> {
-    /// None so far.
-    pub(super) fn new(stock: &Primitives<'t>) -> Self {
-        let lines = LineTable::new(stock.frame.clone());
-        Self { lines, halves: vec![], of_faces: Table::default(), of_items: Table::default() }
-    }
-
-    /// The halves that bound a whole face: its edges, one after another.
-    ///
-    /// No ray from an eye is in all of them that meets the face's plane behind the eye: the point where it
-    /// does would be outside of every edge of a bounded convex polygon. Nor is one along the plane.
-    pub(super) fn outline(
-        &mut self,
-        stock: &Primitives<'_>,
-        face: u32,
-    ) -> Result<&[HalfPlane], Error> {
-        let ends = self.outline_place(stock, face)?;
-        Ok(self.at(ends))
-    }
-
-    /// The same, if it was asked for before; else none.
-    pub(super) fn known_outline(&self, face: u32) -> &[HalfPlane] {
-        self.of_faces.get(&face).map_or(&[], |&ends| self.at(ends))
-    }
-
-    /// The halves that bound an item.
-    pub(super) fn item(
-        &mut self,
-        stock: &Primitives<'_>,
-        item: u32,
-    ) -> Result<&[HalfPlane], Error> {
-        let ends = self.item_place(stock, item)?;
-        Ok(self.at(ends))
-    }
-
-    /// The same of an item that was asked for before, or is a whole face whose outline was.
-    pub(super) fn known_item(&self, stock: &Primitives<'_>, item: u32) -> &[HalfPlane] {
-        match self.of_items.get(&item) {
-            Some(&ends) => self.at(ends),
-            None => {
-                debug_assert!(stock.fragment(item).is_whole(), "item {item} was not asked for");
-                self.known_outline(stock.face(item))
-            }
-        }
-    }
-
-    /// Where a box lies against an item: inside, the item covers it.
-    pub(super) fn across_item(
-        &mut self,
-        stock: &Primitives<'_>,
-        item: u32,
-        sides: &Rect,
-    ) -> Result<Across, Error> {
-        let ends = self.item_place(stock, item)?;
-        Ok(self.across(ends, sides))
-    }
-
-    /// The halves of an item whose lines may cross a box; `None` if the item certainly lies beside it.
-    pub(super) fn crossing(
-        &mut self,
-        stock: &Primitives<'_>,
-        item: u32,
-        sides: &Rect,
-    ) -> Result<Option<SmallVec<[HalfPlane; 8]>>, Error> {
-        let ends = self.item_place(stock, item)?;
-        if is_within(&stock.items[item as usize].around, sides) {
-            return Ok(Some(SmallVec::from_slice(self.at(ends))));
-        }
-        let mut crossing = SmallVec::new();
-        for &half in self.at(ends) {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return Ok(None),
-                Across::Maybe => crossing.push(half),
-            }
-        }
-        Ok(Some(crossing))
-    }
-
-    /// Whether a face certainly covers a box.
-    pub(super) fn covers(
-        &mut self,
-        stock: &Primitives<'_>,
-        face: u32,
-        sides: &Rect,
-    ) -> Result<bool, Error> {
-        if !is_within(sides, &stock.views[face as usize].around) {
-            return Ok(false);
-        }
-        let ends = self.outline_place(stock, face)?;
-        Ok(self.across(ends, sides) == Across::Inside)
-    }
-
-    fn across(&self, ends: [u32; 2], sides: &Rect) -> Across {
-        let mut all = Across::Inside;
-        for &half in self.at(ends) {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return Across::Outside,
-                Across::Maybe => all = Across::Maybe,
-            }
-        }
-        all
-    }
-
-    fn at(&self, [start, end]: [u32; 2]) -> &[HalfPlane] {
-        &self.halves[start as usize..end as usize]
-    }
-
-    fn outline_place(&mut self, stock: &Primitives<'_>, face: u32) -> Result<[u32; 2], Error> {
-        if let Some(&ends) = self.of_faces.get(&face) {
-            return Ok(ends);
-        }
-        let Self { lines, halves, .. } = self;
-        let View { is_positive, is_as_given, .. } = stock.views[face as usize];
-        let start = place(halves.len())?;
-        for k in 0..stock.frame.faces.corners(face).len() as u32 {
-            halves.push(lines.edge(face, k, is_positive, is_as_given)?);
-        }
-        let ends = [start, place(halves.len())?];
-        self.of_faces.insert(face, ends);
-        Ok(ends)
-    }
-
-    fn item_place(&mut self, stock: &Primitives<'_>, item: u32) -> Result<[u32; 2], Error> {
-        if let Some(&ends) = self.of_items.get(&item) {
-            return Ok(ends);
-        }
-        let Item { face, .. } = stock.items[item as usize];
-        let rim = self.outline_place(stock, face)?;
-        let fragment = stock.fragment(item);
-        if fragment.is_whole() {
-            return Ok(rim);
-        }
-        let start = self.halves.len();
-        // All edges of the face: one that passes by the piece's box may still be what keeps a piece out that
-        // is beside the picture, whose box is not empty.
-        self.halves.reserve((rim[1] - rim[0]) as usize);
-        self.halves.extend_from_within(rim[0] as usize..rim[1] as usize);
-        let View { is_positive, .. } = stock.views[face as usize];
-        for line in fragment.lines() {
-            let Some(plane) = line.as_cut() else { continue };
-            self.halves.push(self.lines.cut(face, plane, line.is_behind(), is_positive)?);
-        }
-        let ends = [place(start)?, place(self.halves.len())?];
-        self.of_items.insert(item, ends);
-        Ok(ends)
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::cell::{Rect, are_apart, is_within, reaches_across};
 use super::lines::{HalfPlane, LineTable, STEPS};
 use super::map::{each, finish_item};
-use super::stock::{Item, OutlineCache, Primitives};
+use super::stock::{Item, Primitives};
 use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -200,15 +200,14 @@ pub(super) struct List {
 
 impl List {
     /// What of all items may show in a tile.
-    pub(super) fn of_all<'t>(
-        stock: &Primitives<'t>,
-        rims: &mut OutlineCache<'t>,
+    pub(super) fn of_all(
+        stock: &Primitives<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(stock, rims, tile, u32::MAX, stock.items.len());
+        let mut narrow = Narrow::new(stock, tile, u32::MAX, stock.items.len());
         for item in each(watch, NARROWED, 0..stock.items.len() as u32) {
-            if !narrow.add(item?)? {
+            if !narrow.add(item?) {
                 break;
             }
         }
@@ -216,16 +215,15 @@ impl List {
     }
 
     /// What of the list may show in a part of the tile.
-    pub(super) fn narrowed<'t>(
+    pub(super) fn narrowed(
         &self,
-        stock: &Primitives<'t>,
-        rims: &mut OutlineCache<'t>,
+        stock: &Primitives<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(stock, rims, tile, self.limit, self.items.len());
+        let mut narrow = Narrow::new(stock, tile, self.limit, self.items.len());
         for item in each(watch, NARROWED, &self.items) {
-            if !narrow.add(*item?)? {
+            if !narrow.add(*item?) {
                 break;
             }
         }
@@ -236,50 +234,43 @@ impl List {
 /// Makes the list of a tile.
 struct Narrow<'a, 't> {
     stock: &'a Primitives<'t>,
-    rims: &'a mut OutlineCache<'t>,
     sides: Rect,
     list: List,
 }
 
 impl<'a, 't> Narrow<'a, 't> {
     /// The list will be of so many items at most, none behind `limit`.
-    fn new(
-        stock: &'a Primitives<'t>,
-        rims: &'a mut OutlineCache<'t>,
-        tile: Tile,
-        limit: u32,
-        most: usize,
-    ) -> Narrow<'a, 't> {
+    fn new(stock: &'a Primitives<'t>, tile: Tile, limit: u32, most: usize) -> Narrow<'a, 't> {
         let items = Vec::with_capacity(most);
-        Self { stock, rims, sides: tile.sides(), list: List { items, limit } }
+        Self { stock, sides: tile.sides(), list: List { items, limit } }
     }
 
     /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
     /// show.
-    fn add(&mut self, item: u32) -> Result<bool, Error> {
-        let Self { stock, rims, sides, list } = self;
+    fn add(&mut self, item: u32) -> bool {
+        let Self { stock, sides, list } = self;
         if item > list.limit {
-            return Ok(false);
+            return false;
         }
         let Item { ref around, .. } = stock.items[item as usize];
         if are_apart(sides, around) {
-            return Ok(true);
+            return true;
         }
-        // Lines are made and looked at only where they may tell more than boxes.
+        // Lines are looked at only where they may tell more than boxes.
         if reaches_across(around, sides) {
-            match rims.across_item(stock, item, sides)? {
+            match stock.across(stock.halves(item), sides) {
                 Across::Inside if stock.is_opaque(item) => list.limit = item,
-                Across::Outside => return Ok(true),
+                Across::Outside => return true,
                 Across::Inside | Across::Maybe => {}
             }
         }
         list.items.push(item);
-        Ok(item < list.limit)
+        item < list.limit
     }
 
     /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
     fn finish(self, watch: &Watch<'_>) -> Result<List, Error> {
-        let Self { stock, rims, sides, mut list } = self;
+        let Self { stock, sides, mut list } = self;
         let mut end = list.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
         for (place, &item) in list.items.iter().enumerate() {
@@ -291,7 +282,7 @@ impl<'a, 't> Narrow<'a, 't> {
             if tried.contains(&face)
                 || !stock.is_opaque(item)
                 || stock.views[face as usize].last > list.limit
-                || !rims.covers(stock, face, &sides)?
+                || !stock.covers(face, &sides)
             {
                 continue;
             }

@@ -5,15 +5,14 @@ use std::cmp::Reverse;
 use super::cell::Cell;
 use super::join::Groups;
 use super::leaf::{Leaf, Visible};
-use super::lines::LineTable;
 use super::map::{
     Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by, sort_unique,
 };
 use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
-use super::stock::{OutlineCache, Primitives};
-use super::tile::{CUT, Growth, LINES, Reaches, TINIEST, Tile, VISITED, found_in};
+use super::stock::Primitives;
+use super::tile::{CUT, Growth, Reaches, TINIEST, Tile, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Watch;
@@ -73,16 +72,9 @@ impl Drawing {
             overlay.expect_no_polygons(tree)?;
         }
         reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
-            let picture = Tile::picture(rays.size());
             let stock = Primitives::new(tree, rays, opacities, watch)?;
-            let (mut rims, count) = (OutlineCache::new(&stock), stock.items.len());
-            for item in 0..count {
-                watch.work(LINES)?;
-                rims.item(&stock, item as u32)?;
-                finish_item(watch, item, count);
-            }
-            let overlaps = overlaps(&stock, &rims, picture, watch)?;
-            let between = overlay.map(|overlay| Between::of(&stock, &rims, overlay, watch));
+            let overlaps = overlaps(&stock, watch)?;
+            let between = overlay.map(|overlay| Between::of(&stock, overlay, watch));
             let between = between.transpose()?;
             let (mut touching, mut known) = (Vec::new(), Found::default());
             let mut rounds = 0;
@@ -106,7 +98,7 @@ impl Drawing {
                     touching.push(pair);
                 }
             };
-            let (mut drawing, paths) = parts.drawing(&stock, &rims, &ordered, None, watch)?;
+            let (mut drawing, paths) = parts.drawing(&stock, &ordered, None, watch)?;
             for placed in each(watch, 1, placed) {
                 let (parts, what): (u32, Overlaid) = placed?;
                 drawing.overlaid.push((paths[parts as usize], what));
@@ -121,7 +113,6 @@ impl Drawing {
 /// as in [`Drawing::translucent`], and what shows nowhere is left out. Two phases.
 pub(super) fn mixed(
     stock: &Primitives<'_>,
-    rims: &OutlineCache<'_>,
     leaves: &[Leaf],
     watch: &Watch<'_>,
 ) -> Result<Drawing, Error> {
@@ -143,7 +134,7 @@ pub(super) fn mixed(
         let polygon = faces.polygon(face);
         first.get(polygon).copied().unwrap_or(u32::MAX)
     };
-    let pairs = pairs(stock, rims, leaves, &place, Wanted::ALL, watch)?;
+    let pairs = pairs(stock, leaves, &place, Wanted::ALL, watch)?;
     let mut blended: Vec<Pair> = Vec::new();
     for pair in each(watch, 1, &pairs) {
         let pair = *pair?;
@@ -153,7 +144,7 @@ pub(super) fn mixed(
     }
     let parts = Parts::new(stock, &blended, &[], watch)?;
     let ordered = parts.order(stock, &pairs, Some(leaves), watch)?;
-    let (drawing, _) = parts.drawing(stock, rims, &ordered, Some(leaves), watch)?;
+    let (drawing, _) = parts.drawing(stock, &ordered, Some(leaves), watch)?;
     Ok(drawing)
 }
 
@@ -170,21 +161,17 @@ const FEW: usize = 8;
 
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
 /// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps(
-    stock: &Primitives<'_>,
-    rims: &OutlineCache<'_>,
-    picture: Tile,
-    watch: &Watch<'_>,
-) -> Result<Vec<Pair>, Error> {
+pub(super) fn overlaps(stock: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+    let picture = Tile::picture(stock.frame.rays.size());
     let mut reaches = Reaches::default();
     for item in each(watch, 2, 0..stock.items.len() as u32) {
         let item = item?;
-        reaches.push(item, rims.known_item(stock, item))?;
+        reaches.push(item, stock.halves(item))?;
     }
     let all = TileStack { tile: picture, reaches, growth: Growth::NONE };
-    let halves = |part: &TileStack, _: &mut Found| part.halves(stock, &rims.lines, watch);
-    let leaf = |part: &TileStack, found: &mut Found| part.leaf(stock, &rims.lines, found, watch);
-    let all = all.narrowed(stock, &rims.lines, picture, watch)?;
+    let halves = |part: &TileStack, _: &mut Found| part.halves(stock, watch);
+    let leaf = |part: &TileStack, found: &mut Found| part.leaf(stock, found, watch);
+    let all = all.narrowed(stock, picture, watch)?;
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
@@ -199,14 +186,13 @@ impl TileStack {
     fn halves(
         &self,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         watch: &Watch<'_>,
     ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(stock, lines, tile, watch);
+        let narrowed = |tile| self.narrowed(stock, tile, watch);
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
         let counts = [open(&parts[0]), open(&parts[1])];
@@ -218,12 +204,11 @@ impl TileStack {
     fn narrowed(
         &self,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let around = |item: u32| stock.items[item as usize].around;
-        let reaches = self.reaches.narrowed(lines, &tile.sides(), around, watch)?;
+        let reaches = self.reaches.narrowed(&stock.lines, &tile.sides(), around, watch)?;
         Ok(Self { tile, reaches, growth: Growth::NONE })
     }
 
@@ -231,11 +216,11 @@ impl TileStack {
     fn leaf(
         &self,
         stock: &Primitives<'_>,
-        lines: &LineTable<'_>,
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+        let lines = &stock.lines;
         // The last item that covers the tile, and those behind it so far, with what they cover.
         let mut cover: Option<u32> = None;
         let mut behind: Vec<(u32, Cell)> = Vec::new();
@@ -389,7 +374,6 @@ impl Parts {
     pub(super) fn drawing(
         &self,
         stock: &Primitives<'_>,
-        rims: &OutlineCache<'_>,
         ordered: &Ordered,
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
@@ -415,12 +399,15 @@ impl Parts {
                         area.push(&cell?.sides)?;
                     }
                 }
-                _ => counts.add_pieces(stock, rims, items, &mut area, watch)?,
+                _ => counts.add_pieces(stock, items, &mut area, watch)?,
             }
             if !area.is_empty() {
                 let polygon = stock.polygon(items[0]);
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
-                drawing.push(polygon, is_part, &area, &rims.lines, watch)?;
+                // Items of one face follow one another.
+                let faces = items.chunk_by(|&a, &b| stock.face(a) == stock.face(b));
+                let faces = faces.map(|same| stock.face(same[0]));
+                drawing.push(polygon, is_part, &area, faces, stock, watch)?;
             }
             paths.push(drawing.paths.len() as u32);
             finish_item(watch, i, count);
@@ -463,7 +450,6 @@ impl Counts {
     fn add_pieces(
         &self,
         stock: &Primitives<'_>,
-        rims: &OutlineCache<'_>,
         items: &[u32],
         area: &mut Area,
         watch: &Watch<'_>,
@@ -472,11 +458,11 @@ impl Counts {
             let face = stock.face(same[0]);
             // The outline of a face is its own where none of its pieces is missing.
             if same.len() as u32 == self.of_face[face as usize] {
-                add_piece(&rims.lines, rims.known_outline(face), area, watch)?;
+                add_piece(&stock.lines, stock.outline(face), area, watch)?;
                 continue;
             }
             for item in each(watch, CUT, same) {
-                add_piece(&rims.lines, rims.known_item(stock, *item?), area, watch)?;
+                add_piece(&stock.lines, stock.halves(*item?), area, watch)?;
             }
         }
         Ok(())

@@ -22,6 +22,7 @@ mod same;
 mod scenes;
 mod seams;
 mod sheets;
+mod sides;
 mod sightlines;
 mod silhouettes;
 mod translucent;

@@ -1,12 +1,10 @@
 use glam::DVec3;
 
-use super::{Adopted, HalfPlane, Key, LineTable, Rounded};
-use crate::BuildOptions;
-use crate::drawing::stock::{OutlineCache, Primitives};
+use super::{HalfPlane, Key, LineTable, Rounded};
+use crate::drawing::stock::Primitives;
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
-use crate::scene::Builtin;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
@@ -16,14 +14,9 @@ const SIZE: [u32; 2] = [320, 200];
 pub(in crate::drawing) fn all_lines<'t>(
     tree: &'t BspTree,
     camera: &Camera,
-) -> Option<OutlineCache<'t>> {
+) -> Option<Primitives<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
-    let stock = Primitives::new(tree, rays, vec![], &Watch::default()).unwrap();
-    let mut rims = OutlineCache::new(&stock);
-    for item in 0..stock.items.len() as u32 {
-        rims.item(&stock, item).unwrap();
-    }
-    Some(rims)
+    Some(Primitives::new(tree, rays, vec![], &Watch::default()).unwrap())
 }
 
 /// Whether a line in floats is no further from another one, in the picture, than both say.
@@ -81,10 +74,10 @@ fn lines_in_floats_are_as_near_as_they_say() {
             Camera::perspective(eye, off + towards, DVec3::Z, 1.0 / distance.max(1.0), SIZE);
         let parallel = Camera::parallel(towards, DVec3::Z, off, 3.0 * size, SIZE);
         for camera in [perspective, parallel] {
-            let Some(rims) = all_lines(&tree, &camera.unwrap()) else { continue };
-            let LineTable { keys, rounded, reach, .. } = &rims.lines;
+            let Some(stock) = all_lines(&tree, &camera.unwrap()) else { continue };
+            let LineTable { keys, rounded, reach, .. } = &stock.lines;
             for (key, rounded) in keys.iter().zip(rounded) {
-                let exact = Rounded::new(&rims.lines.exact_of(*key), *reach);
+                let exact = Rounded::new(&stock.lines.exact_of(*key), *reach);
                 assert!(agree(rounded, &exact, *reach), "{key:?}: {rounded:?}, not {exact:?}");
                 lines += 1;
                 kinds[match key {
@@ -111,10 +104,10 @@ fn edges_on_one_line_are_one() {
     let tree = BspTree::build(&walls).unwrap();
     let eye = DVec3::new(1.3, -9.7, 0.6);
     let camera = Camera::perspective(eye, DVec3::new(3.0, 0.0, 1.0), DVec3::Z, 1.2, SIZE).unwrap();
-    let rims = all_lines(&tree, &camera).unwrap();
+    let stock = all_lines(&tree, &camera).unwrap();
     // The ground, the common line, the upper edge of the beam; and nine ends of walls and beam.
-    assert_eq!(rims.lines.keys.len(), 3 + 8 + 2);
-    let halves = |face: u32| rims.known_outline(face);
+    assert_eq!(stock.lines.keys.len(), 3 + 8 + 2);
+    let halves = |face: u32| stock.outline(face);
     for face in 0..7 {
         // Walls are above the ground and below the beam; those beside share an edge from two sides.
         assert_eq!([halves(face)[0], halves(face)[2]], [halves(0)[0], halves(0)[2]]);
@@ -122,55 +115,4 @@ fn edges_on_one_line_are_one() {
         assert_eq!(halves(face)[2], beam.flipped(true));
     }
     assert_eq!(halves(2)[1], halves(3)[3].flipped(true));
-}
-
-#[test]
-fn lines_of_another_list_keep_their_sides() {
-    let mut random = SplitMix64::new(11);
-    let quads = quads(&mut random, 1.0, DVec3::ZERO);
-    // All of them are flattened.
-    let tree = BuildOptions::DEFAULT.with_tolerance(1e-6).build(&quads).unwrap();
-    let camera = Camera::perspective(DVec3::splat(2.5), DVec3::ZERO, DVec3::Z, 1.0, SIZE).unwrap();
-    check_lists(&tree, &camera);
-    // Neighbours number the corners that they share in either order.
-    let teapot = Builtin::Teapot.build(Some(3), 1);
-    let (low, high) = teapot.bounds().unwrap();
-    let camera = Camera::looking_at_all([low, high], teapot.up(), SIZE).unwrap();
-    check_lists(&BspTree::build(teapot.polygons()).unwrap(), &camera);
-}
-
-fn check_lists(tree: &BspTree, camera: &Camera) {
-    let rays = Rays::new(camera, tree.faces()).unwrap();
-    let stock = Primitives::new(tree, rays, vec![], &Watch::default()).unwrap();
-    let count = stock.items.len() as u32;
-    assert!(count > 15, "{count}");
-    // The one list asks from the front to the back, the other the other way.
-    let (mut first, mut second) = (OutlineCache::new(&stock), OutlineCache::new(&stock));
-    for item in 0..count {
-        first.item(&stock, item).unwrap();
-        second.item(&stock, count - 1 - item).unwrap();
-    }
-    let (mut adopted, before) = (Adopted::of(&second.lines), first.lines.keys.len());
-    for item in 0..count {
-        let own = first.known_item(&stock, item).to_vec();
-        for (half, other) in own.iter().zip(second.known_item(&stock, item).to_vec()) {
-            let other = first.lines.adopted(&second.lines, other, &mut adopted).unwrap();
-            assert_eq!(other, *half);
-        }
-    }
-    assert_eq!(first.lines.keys.len(), before);
-    // A list that knows nothing has the same lines afterwards.
-    let mut third = OutlineCache::new(&stock);
-    let mut adopted = Adopted::of(&second.lines);
-    for item in 0..count {
-        for half in second.known_item(&stock, item).to_vec() {
-            let own = third.lines.adopted(&second.lines, half, &mut adopted).unwrap();
-            let [ours, theirs] = [third.lines.rounded(own), second.lines.rounded(half)];
-            let is_same = own.is_negative() == half.is_negative();
-            let sign = if is_same { 1.0 } else { -1.0 };
-            let middle = [160.0, 100.0];
-            let off = (ours.at(middle) - sign * theirs.at(middle)).abs();
-            assert!(off <= ours.error + theirs.error, "{ours:?}, {theirs:?}");
-        }
-    }
 }
