@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::lines::{HalfPlane, LineTable};
-use super::stock::FEW_CORNERS;
+use super::picture::FEW_CORNERS;
+use super::tile::Tile;
 use crate::Error;
 use crate::progress::Watch;
 
@@ -52,6 +53,12 @@ impl Cell {
             Side { half: halves[i], start }
         });
         Self { sides: sides.collect() }
+    }
+
+    /// The whole picture.
+    pub(super) fn picture(lines: &LineTable<'_>) -> Self {
+        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
+        Self::rectangle(lines, low, high)
     }
 
     /// The part of the cell in all of the halves, if it has one. The rest of it goes to `outside`, in
@@ -293,8 +300,8 @@ mod tests {
             let eye = random.point(-1.0, 1.0) * size * [2.0, 1e3, 1e6][round % 3];
             let fov = [1.5, 3e-3, 3e-6][round % 3];
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, fov, [320, 200]).unwrap();
-            let stock = all_lines(&tree, &camera).unwrap();
-            let lines = &stock.lines;
+            let picture = all_lines(&tree, &camera).unwrap();
+            let lines = &picture.lines;
             let halves: Vec<HalfPlane> = (0..lines.len() as u32).map(HalfPlane::of).collect();
             for (i, &a) in halves.iter().enumerate() {
                 for &b in &halves[..i] {

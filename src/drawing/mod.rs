@@ -52,9 +52,9 @@ mod order;
 mod overlaid;
 mod paths;
 mod pen;
+mod picture;
 mod regions;
 mod sight;
-mod stock;
 mod tile;
 mod translucent;
 

@@ -57,8 +57,8 @@ pub(super) const MARGIN: f64 = 1e-3;
 impl ProjectedSegment {
     /// `None` if it is not in the picture, or a point there.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
-        let picture = Tile::picture(lines.frame.rays.size()).sides();
-        let certain = certain_ends(lines, ends, &picture);
+        let tile = Tile::picture(lines.frame.rays.size());
+        let certain = certain_ends(lines, ends, &tile.sides());
         if certain == Certain::Outside {
             return None;
         }
@@ -66,10 +66,9 @@ impl ProjectedSegment {
         let [from, to] = match certain {
             Certain::Inside(ends) => ends.map(|end| sight.course.place(end)),
             _ => {
-                let Tile { low, high } = Tile::picture(lines.frame.rays.size());
-                let picture = Cell::rectangle(lines, low, high);
-                sight.picture = beside(&sight.signs(lines, &picture));
-                sight.in_cell(lines, &picture, ends)?
+                let all = Cell::picture(lines);
+                sight.picture = beside(&sight.signs(lines, &all));
+                sight.in_cell(lines, &all, ends)?
             }
         };
         if (to - from).is_nan() || to - from < SHORTEST {
@@ -329,8 +328,7 @@ impl Spot {
         }
         let [weight, x, y] = image.map(Int::to_f64);
         let spot = Self { point, at: [x / weight, y / weight] };
-        let Tile { low, high } = Tile::picture(lines.frame.rays.size());
-        spot.is_in(lines, &Cell::rectangle(lines, low, high)).then_some(spot)
+        spot.is_in(lines, &Cell::picture(lines)).then_some(spot)
     }
 
     /// A box around it.

@@ -46,9 +46,8 @@ pub(super) struct View {
 
 /// All pieces that may be visible, front to back, and the lines that bound them.
 #[derive(Debug)]
-pub(super) struct Primitives<'t> {
+pub(super) struct Picture<'t> {
     tree: &'t BspTree,
-    pub(super) frame: Frame<'t>,
     pub(super) lines: LineTable<'t>,
     /// The half-planes that bound faces and items, one list after another.
     halves: Vec<HalfPlane>,
@@ -69,7 +68,7 @@ const FEW_CORNERS_AS_GIVEN: usize = 8;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
-impl<'t> Primitives<'t> {
+impl<'t> Picture<'t> {
     /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
     /// are opaque. A phase.
     pub(super) fn new(
@@ -87,25 +86,25 @@ impl<'t> Primitives<'t> {
         for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {
             order.push(fragment?.index());
         }
-        let lines = LineTable::new(frame.clone());
-        let mut stock =
-            Self { tree, frame, lines, halves: vec![], items: vec![], views: vec![], opacities };
+        let lines = LineTable::new(frame);
+        let mut picture =
+            Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
         let all: Vec<u32> = (0..faces.len() as u32).collect();
-        let view = |face: u32| Some(stock.view(face));
-        stock.views = shared(&all, view, watch)?;
-        let item = |index: u32| stock.item(&tree.fragment(index));
-        stock.items = shared(&order, item, watch)?;
-        for numbered in each(watch, 1, (0..).zip(&stock.items)) {
+        let view = |face: u32| Some(picture.view(face));
+        picture.views = shared(&all, view, watch)?;
+        let item = |index: u32| picture.item(&tree.fragment(index));
+        picture.items = shared(&order, item, watch)?;
+        for numbered in each(watch, 1, (0..).zip(&picture.items)) {
             let (number, item) = numbered?;
-            stock.views[item.face as usize].last = number;
+            picture.views[item.face as usize].last = number;
         }
-        stock.add_halves(watch)?;
-        Ok(stock)
+        picture.add_halves(watch)?;
+        Ok(picture)
     }
 
     /// Makes the lines of all faces and items that the picture may show: a phase.
     fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
-        let faces = self.frame.faces;
+        let faces = self.lines.frame.faces;
         for face in 0..faces.len() {
             let View { is_positive, is_as_given, .. } = self.views[face];
             let start = place(self.halves.len())?;
@@ -204,22 +203,22 @@ impl<'t> Primitives<'t> {
         }
         let item = |around| Item { face, fragment: fragment.index(), around, halves: [0; 2] };
         // Where corners were moved, what the edges in the picture bound may reach beyond the fragment.
-        if fragment.is_whole() || self.frame.faces.dominant_axis(face).is_some() {
+        if fragment.is_whole() || self.lines.frame.faces.dominant_axis(face).is_some() {
             return Some(item(around));
         }
-        self.around(&self.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
+        self.around(&self.lines.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
     }
 
     /// A box around the part of a convex hull that is in the picture, of points that may be off by so much; `None` if
     /// there is none.
     fn around(&self, points: &[[f64; 3]], off: f64) -> Option<Rect> {
-        let picture = Tile::picture(self.frame.rays.size()).sides();
-        let around = common(&self.frame.rays.region(points, off)?, &picture);
+        let rays = &self.lines.frame.rays;
+        let around = common(&rays.region(points, off)?, &Tile::picture(rays.size()).sides());
         (!is_empty(&around)).then_some(around)
     }
 
     fn view(&self, face: u32) -> View {
-        let Frame { rays, faces } = &self.frame;
+        let Frame { rays, faces } = &self.lines.frame;
         let unseen = View {
             around: NOWHERE,
             is_positive: false,
@@ -243,12 +242,12 @@ impl<'t> Primitives<'t> {
         };
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
-        let side = certain.unwrap_or_else(|| self.frame.sheet(plane).side());
+        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
         let is_positive = side.is_gt();
         if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
             return unseen;
         }
-        let is_as_given = self.frame.is_convex_as_given(face, &moved, is_positive);
+        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, is_positive);
         View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, ..unseen }
     }
 
@@ -263,7 +262,7 @@ impl<'t> Primitives<'t> {
         for face in each(watch, 1, 0..self.views.len() as u32) {
             let face = face?;
             if self.sees(face) {
-                end = end.max(self.frame.faces.polygon(face) + 1);
+                end = end.max(self.lines.frame.faces.polygon(face) + 1);
             }
         }
         Ok(end)
@@ -272,7 +271,7 @@ impl<'t> Primitives<'t> {
     /// To look at all edges of a face takes as long as a build takes to examine so many pieces; 0 for faces of few
     /// corners, whose edges are part of what is counted for a face.
     pub(super) fn edges_work(&self, face: u32) -> usize {
-        let corners = self.frame.faces.corners(face).len();
+        let corners = self.lines.frame.faces.corners(face).len();
         if corners > FEW_CORNERS { corners } else { 0 }
     }
 
@@ -283,7 +282,7 @@ impl<'t> Primitives<'t> {
 
     /// The opacity of a face.
     pub(super) fn opacity(&self, face: u32) -> f64 {
-        self.opacities.get(self.frame.faces.polygon(face)).copied().unwrap_or(1.0)
+        self.opacities.get(self.lines.frame.faces.polygon(face)).copied().unwrap_or(1.0)
     }
 
     /// Whether an item hides what is behind it.
@@ -300,7 +299,7 @@ impl<'t> Primitives<'t> {
 
     /// The polygon of an item.
     pub(super) fn polygon(&self, item: u32) -> usize {
-        self.frame.faces.polygon(self.face(item))
+        self.lines.frame.faces.polygon(self.face(item))
     }
 }
 
