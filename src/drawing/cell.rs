@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::lines::{HalfPlane, LineTable};
-use super::picture::FEW_CORNERS;
+use super::primitives::FEW_CORNERS;
 use super::tile::Tile;
 use crate::Error;
 use crate::progress::Watch;
@@ -300,8 +300,8 @@ mod tests {
             let eye = random.point(-1.0, 1.0) * size * [2.0, 1e3, 1e6][round % 3];
             let fov = [1.5, 3e-3, 3e-6][round % 3];
             let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, fov, [320, 200]).unwrap();
-            let picture = all_lines(&tree, &camera).unwrap();
-            let lines = &picture.lines;
+            let primitives = all_lines(&tree, &camera).unwrap();
+            let lines = &primitives.lines;
             let halves: Vec<HalfPlane> = (0..lines.len() as u32).map(HalfPlane::of).collect();
             for (i, &a) in halves.iter().enumerate() {
                 for &b in &halves[..i] {

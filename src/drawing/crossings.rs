@@ -12,7 +12,7 @@ use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
-use super::picture::{Picture, View};
+use super::primitives::{Primitives, View};
 use super::sight::{ProjectedSegment, parts};
 use super::tile::{CUT, Growth, LINES, NARROWED, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
@@ -81,7 +81,7 @@ impl VisibilityMap<'_> {
 
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let inner = InnerEdges::of(self.picture.lines.frame.faces, watch)?;
+            let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
             let common = self.common_sides(&inner, watch)?;
             let mut runs = Vec::new();
             for line in common.chunk_by(|a, b| a.line == b.line) {
@@ -131,11 +131,11 @@ impl VisibilityMap<'_> {
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
-            |line: HalfPlane| self.picture.lines.is_cut(line) || bends.contains_key(&line);
+            |line: HalfPlane| self.primitives.lines.is_cut(line) || bends.contains_key(&line);
         let edges = self.edges_on(is_wanted, inner, watch)?;
         let mut found = Vec::new();
         let add_sides = |item: u32, cell: &Cell| {
-            let (face, sides) = (self.picture.face(item), &cell.sides);
+            let (face, sides) = (self.primitives.face(item), &cell.sides);
             for (i, side) in sides.iter().enumerate() {
                 let line = side.half.positive();
                 if !is_wanted(line) {
@@ -160,8 +160,8 @@ impl VisibilityMap<'_> {
 
     /// The outlines of faces. (Those of polygons that do not show have no lines.)
     fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
-        let faces = 0..self.picture.views.len() as u32;
-        faces.map(|face| (face, self.picture.outline(face)))
+        let faces = 0..self.primitives.views.len() as u32;
+        faces.map(|face| (face, self.primitives.outline(face)))
     }
 
     /// The lines of edges inside polygons.
@@ -197,14 +197,14 @@ impl VisibilityMap<'_> {
                     edges.insert((face, line), edge);
                 }
             }
-            finish_item(watch, face as usize, self.picture.views.len());
+            finish_item(watch, face as usize, self.primitives.views.len());
         }
         Ok(edges)
     }
 
     /// The ends of a side in the order in which they are along a line, and where that is.
     fn along(&self, line: HalfPlane, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
-        let [_, kx, ky] = self.picture.lines.rounded(line).k;
+        let [_, kx, ky] = self.primitives.lines.rounded(line).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
         if place(ends[0]) > place(ends[1]) {
             ends.swap(0, 1);
@@ -214,7 +214,7 @@ impl VisibilityMap<'_> {
 
     /// Whether two faces go through one another in the line between cells of theirs.
     fn do_cross(&self, a: &CutSide, b: &CutSide, inner: &InnerEdges, known: &mut Known) -> bool {
-        let (lines, faces) = (&self.picture.lines, self.picture.lines.frame.faces);
+        let (lines, faces) = (&self.primitives.lines, self.primitives.lines.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
             return false;
         }
@@ -239,7 +239,7 @@ impl VisibilityMap<'_> {
     }
 
     fn run(&self, side: &CommonSide) -> EdgeRun {
-        let [a, b] = side.faces.map(|face| self.picture.lines.frame.faces.polygon(face));
+        let [a, b] = side.faces.map(|face| self.primitives.lines.frame.faces.polygon(face));
         let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
         EdgeRun { polygon, edge: None, kind, ends: side.ends, is_visible: true, layers: None }
     }
@@ -322,18 +322,18 @@ impl VisibilityMap<'_> {
 
     /// All crossings in the picture, and what shows of them, by their faces: four phases.
     fn all_crossings(&self, watch: &Watch<'_>) -> Result<(Vec<Crossing>, Vec<CommonSide>), Error> {
-        let picture = &self.picture;
-        let inner = InnerEdges::of(picture.lines.frame.faces, watch)?;
+        let primitives = &self.primitives;
+        let inner = InnerEdges::of(primitives.lines.frame.faces, watch)?;
         let mut shown = self.common_sides(&inner, watch)?;
         sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
-        let mut pairs = straddling(picture, &inner, watch)?;
+        let mut pairs = straddling(primitives, &inner, watch)?;
         // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
         for side in each(watch, VISITED, &shown) {
             let [below, above] = side?.faces;
             pairs.push(Pair { below, above });
         }
         sort_unique(&mut pairs, watch)?;
-        Ok((crossings_of(&pairs, picture, &inner, watch)?, shown))
+        Ok((crossings_of(&pairs, primitives, &inner, watch)?, shown))
     }
 
     /// The runs of crossings, with how many polygons are in front of each if that is known.
@@ -344,7 +344,7 @@ impl VisibilityMap<'_> {
         depths: Option<&Depths>,
         watch: &Watch<'_>,
     ) -> Result<Vec<EdgeRun>, Error> {
-        let faces = self.picture.lines.frame.faces;
+        let faces = self.primitives.lines.frame.faces;
         let (mut runs, mut visible) = (Vec::new(), Vec::new());
         for numbered in each(watch, VISITED, crossings.iter().enumerate()) {
             let (i, crossing) = numbered?;
@@ -380,16 +380,16 @@ impl VisibilityMap<'_> {
 /// Those pairs that go through one another in the picture: a phase.
 fn crossings_of(
     pairs: &[Pair],
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
     // With the lines in which the faces cut one another.
-    let mut lines = picture.lines.clone();
+    let mut lines = primitives.lines.clone();
     let mut cuts = Vec::with_capacity(pairs.len());
     for pair in each(watch, LINES, pairs) {
         let Pair { below, above } = *pair?;
-        let View { is_positive, .. } = picture.views[below as usize];
+        let View { is_positive, .. } = primitives.views[below as usize];
         cuts.push(lines.cut(below, PlaneId::face(above), true, is_positive)?);
     }
     let lines = &lines;
@@ -399,11 +399,11 @@ fn crossings_of(
         let mut found = Vec::new();
         for (&Pair { below, above }, &cut) in pairs.iter().zip(cuts) {
             let faces = [below, above];
-            let corners: usize = faces.map(|face| picture.edges_work(face)).iter().sum();
+            let corners: usize = faces.map(|face| primitives.edges_work(face)).iter().sum();
             watch.work(CUT + corners)?;
-            let sight = match inner.bend(picture.lines.frame.faces, faces) {
-                Some(bend) => bent(&bend, picture, lines, watch)?,
-                None => straight(faces, cut, picture, lines, watch)?,
+            let sight = match inner.bend(primitives.lines.frame.faces, faces) {
+                Some(bend) => bent(&bend, primitives, lines, watch)?,
+                None => straight(faces, cut, primitives, lines, watch)?,
             };
             if let Some(sight) = sight {
                 found.push(Crossing { faces, sight });
@@ -425,12 +425,12 @@ fn crossings_of(
 fn straight(
     [one, other]: [u32; 2],
     cut: HalfPlane,
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
-    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(picture.outline(one));
-    halves.extend_from_slice(picture.outline(other));
+    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(primitives.outline(one));
+    halves.extend_from_slice(primitives.outline(other));
     let Some(common) = Cell::picture(lines).within(lines, &halves, None, watch)? else {
         return Ok(None);
     };
@@ -446,12 +446,12 @@ fn straight(
 /// Where a face goes through a polygon along an edge inside it.
 fn bent(
     bend: &Bend,
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
-    let faces = picture.lines.frame.faces;
+    let faces = primitives.lines.frame.faces;
     let sight = ProjectedSegment::new(lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
     let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
@@ -461,7 +461,8 @@ fn bent(
             [a.min(b), a.max(b)]
         }),
         None => {
-            let cell = Cell::picture(lines).within(lines, picture.outline(other), None, watch)?;
+            let cell =
+                Cell::picture(lines).within(lines, primitives.outline(other), None, watch)?;
             cell.and_then(|cell| sight.chord(lines, &cell))
         }
     };
@@ -483,17 +484,17 @@ struct Block {
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
 /// these than the tolerance, that may go through one another: a phase.
 pub(super) fn straddling(
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
-    let faces = picture.lines.frame.faces;
+    let faces = primitives.lines.frame.faces;
     let boxes: Vec<Aabb> =
         ((0..faces.len() as u32).map(|face| aabb(faces.corners(face)))).collect();
     let (mut seen, mut all) = (Vec::new(), NOTHING);
     for face in each(watch, 1, 0..faces.len() as u32) {
         let face = face?;
-        if picture.sees(face) {
+        if primitives.sees(face) {
             seen.push(face);
             all = around(all, boxes[face as usize]);
         }

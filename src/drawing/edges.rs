@@ -62,10 +62,10 @@ impl VisibilityMap<'_> {
 
     /// The runs of all edges: two phases.
     pub(super) fn edge_runs(&self, watch: &Watch<'_>) -> Result<Runs, Error> {
-        let is_drawn = |face| self.picture.opacity(face) > 0.0;
+        let is_drawn = |face| self.primitives.opacity(face) > 0.0;
         let mut views = Views { map: self, sides: Table::default() };
         let side = |face| views.side(face);
-        let (mut edges, numbers) = shared_edges(&self.picture.lines, is_drawn, side, watch)?;
+        let (mut edges, numbers) = shared_edges(&self.primitives.lines, is_drawn, side, watch)?;
         self.collect(&mut edges, &numbers, watch)?;
         let count = edges.len();
         let mut list = Vec::with_capacity(count);
@@ -90,14 +90,14 @@ impl VisibilityMap<'_> {
         numbers: &Numbers,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let picture = &self.picture;
+        let primitives = &self.primitives;
         // Which edges of a face lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
-        let faces = picture.lines.frame.faces;
+        let faces = primitives.lines.frame.faces;
         for face in each(watch, VISITED, 0..faces.len() as u32) {
             let face = face?;
             let corners = 0..faces.corners(face).len() as u32;
-            for (k, half) in corners.zip(self.picture.outline(face)) {
+            for (k, half) in corners.zip(self.primitives.outline(face)) {
                 watch.work(VISITED)?;
                 if numbers.contains_key(&(face, k)) {
                     edges.reserve(1);
@@ -109,7 +109,7 @@ impl VisibilityMap<'_> {
         for (i, leaf) in self.leaves.iter().enumerate() {
             for visible in each(watch, SIDES, &leaf.cells) {
                 let Visible { item, cell } = visible?;
-                let face = picture.face(*item);
+                let face = primitives.face(*item);
                 for (i, side) in cell.sides.iter().enumerate() {
                     let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
                     for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
@@ -138,20 +138,20 @@ struct Views<'m> {
 
 impl Views<'_> {
     fn side(&mut self, face: u32) -> Ordering {
-        let frame = &self.map.picture.lines.frame;
+        let frame = &self.map.primitives.lines.frame;
         *self.sides.entry(face).or_insert_with(|| frame.seen_side(face))
     }
 
     /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
     /// polygon shows a side there.
     fn runs(&mut self, edge: &SharedEdge, course: &ImageLine, give: impl FnMut(EdgeRun)) {
-        let fronts_only = self.map.picture.lines.frame.rays.is_front_only();
+        let fronts_only = self.map.primitives.lines.frame.rays.is_front_only();
         let sides: SmallVec<[Ordering; 2]> =
             edge.faces.iter().map(|&(face, _)| self.side(face)).collect();
         let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !fronts_only;
         let fronts = sides.iter().position(|side| side.is_gt());
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return };
-        let faces = self.map.picture.lines.frame.faces;
+        let faces = self.map.primitives.lines.frame.faces;
         let mut numbered = sides.iter().enumerate();
         // Of an edge along a border of the picture, none may be in the picture.
         if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
@@ -375,7 +375,7 @@ impl VisibilityMap<'_> {
     /// The runs of all edges with the numbers of polygons in front of them: four phases.
     fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(4, |watch| {
-            let faces = self.picture.lines.frame.faces;
+            let faces = self.primitives.lines.frame.faces;
             let Runs { edges, list } = self.edge_runs(watch)?;
             // The edges with hidden runs, and the number of each among these.
             let (mut hidden, mut sights) = (Vec::new(), Vec::new());
@@ -387,7 +387,8 @@ impl VisibilityMap<'_> {
                     continue;
                 }
                 let (face, k) = edge.faces[0];
-                if let Some(sight) = ProjectedSegment::new(&self.picture.lines, faces.ends(face, k))
+                if let Some(sight) =
+                    ProjectedSegment::new(&self.primitives.lines, faces.ends(face, k))
                 {
                     *place = hidden.len() as u32;
                     hidden.push(*number);
@@ -422,19 +423,20 @@ impl VisibilityMap<'_> {
         if sights.is_empty() {
             return Ok(Depths { begins: vec![0], ..Depths::default() });
         }
-        let (picture, faces) = (&self.picture, self.picture.lines.frame.faces);
+        let (primitives, faces) = (&self.primitives, self.primitives.lines.frame.faces);
         let mut reaches = Reaches::default();
         // Hidden polygons hide edges too.
         for face in 0..faces.len() {
             let number = face as u32;
-            watch.work(VISITED + picture.edges_work(number))?;
-            if picture.sees(number) {
-                reaches.push(number, picture.outline(number))?;
+            watch.work(VISITED + primitives.edges_work(number))?;
+            if primitives.sees(number) {
+                reaches.push(number, primitives.outline(number))?;
             }
             finish_item(watch, face, faces.len());
         }
-        let around = |face: u32| picture.views[face as usize].around;
-        let pieces = Pieces { lines: &picture.lines, reaches, face: &|face| face, around: &around };
+        let around = |face: u32| primitives.views[face as usize].around;
+        let pieces =
+            Pieces { lines: &primitives.lines, reaches, face: &|face| face, around: &around };
         let passing = Passing { sights, spots: &[] };
         let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
         let mut passes = found.sights;

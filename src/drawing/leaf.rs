@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
 use super::lines::{HalfPlane, LineTable};
-use super::picture::{FEW_CORNERS, Picture};
+use super::primitives::{FEW_CORNERS, Primitives};
 use super::tile::{CUT, Growth, Tile};
 use crate::Error;
 use crate::progress::Watch;
@@ -42,30 +42,30 @@ impl Leaf {
     pub(super) fn new(
         tile: Tile,
         items: &[u32],
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let lines = &picture.lines;
+        let lines = &primitives.lines;
         let (whole, sides) = (Cell::rectangle(lines, tile.low, tile.high), tile.sides());
         if items.len() <= SHORT {
             let mut area = OpenArea::new(whole);
             for &item in items {
                 watch.work(area.open.len() * CUT)?;
-                let around = &picture.items[item as usize].around;
+                let around = &primitives.items[item as usize].around;
                 if area.is_apart(around) {
                     continue;
                 }
-                let Some(halves) = picture.crossing(item, &sides) else { continue };
-                area.subtract(item, around, &halves, picture, watch)?;
+                let Some(halves) = primitives.crossing(item, &sides) else { continue };
+                area.subtract(item, around, &halves, primitives, watch)?;
             }
             return Ok(Self { tile, cells: area.cells });
         }
         let mut region = Region { cell: whole, pieces: vec![], growth: Growth::NONE };
         for &item in items {
             watch.work(CUT)?;
-            let Some(halves) = picture.crossing(item, &sides) else { continue };
+            let Some(halves) = primitives.crossing(item, &sides) else { continue };
             if let Some(cell) = region.cell.within(lines, &halves, None, watch)?
-                && region.push(Visible { item, cell }, picture)
+                && region.push(Visible { item, cell }, primitives)
             {
                 break;
             }
@@ -73,9 +73,9 @@ impl Leaf {
         let mut cells = Vec::new();
         let mut regions = vec![region];
         while let Some(region) = regions.pop() {
-            match region.divider(&picture.lines, watch)? {
-                Some(half) => regions.extend(region.halves(half, picture, watch)?),
-                None => cells.extend(region.visible(picture, watch)?),
+            match region.divider(&primitives.lines, watch)? {
+                Some(half) => regions.extend(region.halves(half, primitives, watch)?),
+                None => cells.extend(region.visible(primitives, watch)?),
             }
         }
         Ok(Self { tile, cells })
@@ -97,10 +97,10 @@ const SAMPLE: usize = 48;
 
 impl Region {
     /// Adds a piece behind all others, and returns whether it is opaque and covers the region.
-    fn push(&mut self, piece: Visible, picture: &Picture<'_>) -> bool {
+    fn push(&mut self, piece: Visible, primitives: &Primitives<'_>) -> bool {
         let (own, all) = (&piece.cell.sides, &self.cell.sides);
         let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
-        let covers = picture.is_opaque(piece.item)
+        let covers = primitives.is_opaque(piece.item)
             && own.len() == all.len()
             && own.iter().all(|side| is_side(side.half));
         self.pieces.push(piece);
@@ -111,10 +111,10 @@ impl Region {
     fn halves(
         self,
         half: HalfPlane,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<[Self; 2], Error> {
-        let lines = &picture.lines;
+        let lines = &primitives.lines;
         let signs = self.cell.signs(lines, half);
         let mut parts = [false, true].map(|is_back| {
             let cell = self.cell.part(lines, half.flipped(is_back), &signs, sign(is_back));
@@ -133,7 +133,7 @@ impl Region {
                     true => cell.part(lines, half.flipped(is_back), &signs, sign(is_back)),
                     false => cell.clone(),
                 };
-                is_full[i] = parts[i].push(Visible { item, cell }, picture);
+                is_full[i] = parts[i].push(Visible { item, cell }, primitives);
             }
         }
         let growth = self.growth.after(count, parts.each_ref().map(|part| part.pieces.len()));
@@ -177,7 +177,11 @@ impl Region {
     }
 
     /// Computes the visible parts of the pieces.
-    fn visible(self, picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Vec<Visible>, Error> {
+    fn visible(
+        self,
+        primitives: &Primitives<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Visible>, Error> {
         let mut area = OpenArea::new(self.cell);
         for Visible { item, cell } in self.pieces {
             watch.work(area.open.len() * CUT)?;
@@ -185,7 +189,7 @@ impl Region {
             if !area.is_apart(&around) {
                 let halves: SmallVec<[HalfPlane; 8]> =
                     cell.sides.iter().map(|side| side.half).collect();
-                area.subtract(item, &around, &halves, picture, watch)?;
+                area.subtract(item, &around, &halves, primitives, watch)?;
             }
         }
         Ok(area.cells)
@@ -227,7 +231,7 @@ impl OpenArea {
         item: u32,
         around: &Rect,
         halves: &[HalfPlane],
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         // The caller counts the work for fewer corners.
@@ -235,14 +239,17 @@ impl OpenArea {
             watch.work(self.open.len() * halves.len())?;
         }
         let Self { open, boxes, cells, outside, left } = self;
-        let is_opaque = picture.is_opaque(item);
+        let is_opaque = primitives.is_opaque(item);
         let mut i = 0;
         while let Some(cell) = open.get(i) {
             let shown = match are_apart(&boxes[i], around) {
                 true => None,
-                false => {
-                    cell.within(&picture.lines, halves, is_opaque.then_some(&mut *outside), watch)?
-                }
+                false => cell.within(
+                    &primitives.lines,
+                    halves,
+                    is_opaque.then_some(&mut *outside),
+                    watch,
+                )?,
             };
             let is_taken = is_opaque && shown.is_some();
             cells.extend(shown.map(|cell| Visible { item, cell }));

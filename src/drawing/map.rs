@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 use super::cell::Cell;
 use super::leaf::{Leaf, SHORT, Visible};
-use super::picture::Picture;
+use super::primitives::Primitives;
 use super::tile::{Growth, List, TINY, Tile, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
@@ -55,7 +55,7 @@ use crate::view::Camera;
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
-    pub(super) picture: Picture<'t>,
+    pub(super) primitives: Primitives<'t>,
     pub(super) leaves: Vec<Leaf>,
     /// Drawings leave out polygons whose visible area is less.
     pub(super) least_area: f64,
@@ -186,12 +186,12 @@ impl BspTree {
         let rays = drawing_rays(self, camera, front_faces_only)?;
         let opacities = checked(self, opacities)?;
         let reporter = Reporter::new(progress);
-        let (picture, leaves) = reporter.watch(2, |watch| {
-            let picture = Picture::new(self, rays, opacities, watch)?;
-            let leaves = visible(&picture, watch)?;
-            Ok((picture, leaves))
+        let (primitives, leaves) = reporter.watch(2, |watch| {
+            let primitives = Primitives::new(self, rays, opacities, watch)?;
+            let leaves = visible(&primitives, watch)?;
+            Ok((primitives, leaves))
         })?;
-        Ok(VisibilityMap { tree: self, picture, leaves, least_area, reporter })
+        Ok(VisibilityMap { tree: self, primitives, leaves, least_area, reporter })
     }
 }
 
@@ -209,13 +209,14 @@ pub(super) fn drawing_rays(
 impl VisibilityMap<'_> {
     /// The picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
-        self.picture.lines.frame.rays.size()
+        self.primitives.lines.frame.rays.size()
     }
 
     /// All cells, in no particular order.
     pub fn cells(&self) -> impl Iterator<Item = MapCell<'_>> + Clone {
         let cells = self.leaves.iter().flat_map(|leaf| &leaf.cells);
-        cells.map(|Visible { item, cell }| MapCell { polygon: self.picture.polygon(*item), cell })
+        cells
+            .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
     /// The visible polygons, by their numbers.
@@ -288,16 +289,16 @@ struct TileList {
 }
 
 /// The visible parts of all items, in the order of the tiles: a phase.
-pub(super) fn visible(picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
-    let halves = |part: &TileList, _: &mut Vec<Leaf>| part.halves(picture, watch);
+pub(super) fn visible(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
+    let halves = |part: &TileList, _: &mut Vec<Leaf>| part.halves(primitives, watch);
     let leaf = |TileList { tile, list, .. }: &TileList, found: &mut Vec<Leaf>| {
         if !list.items.is_empty() {
-            found.push(Leaf::new(*tile, &list.items, picture, watch)?);
+            found.push(Leaf::new(*tile, &list.items, primitives, watch)?);
         }
         Ok(())
     };
-    let tile = Tile::picture(picture.lines.frame.rays.size());
-    let list = List::of_all(picture, tile, watch)?;
+    let tile = Tile::picture(primitives.lines.frame.rays.size());
+    let list = List::of_all(primitives, tile, watch)?;
     let all = TileList { tile, list, growth: Growth::NONE };
     let mut leaves = Vec::new();
     for mut found in found_in(all, Vec::new, halves, leaf, watch)? {
@@ -308,13 +309,17 @@ pub(super) fn visible(picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Vec<Le
 
 impl TileList {
     /// Both halves of the tile, each with what may show in it; `None` of a leaf.
-    fn halves(&self, picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        primitives: &Primitives<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let tiles = self.tile.halves();
-        let first = self.list.narrowed(picture, tiles[0], watch)?;
-        let second = self.list.narrowed(picture, tiles[1], watch)?;
+        let first = self.list.narrowed(primitives, tiles[0], watch)?;
+        let second = self.list.narrowed(primitives, tiles[1], watch)?;
         let counts = [&first, &second].map(|list| list.items.len());
         let growth = self.growth.after(self.list.items.len(), counts);
         Ok(Some([

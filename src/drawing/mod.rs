@@ -52,7 +52,7 @@ mod order;
 mod overlaid;
 mod paths;
 mod pen;
-mod picture;
+mod primitives;
 mod regions;
 mod sight;
 mod tile;

@@ -12,7 +12,7 @@ use super::cell::{NOWHERE, Rect, are_apart};
 use super::leaf::{Leaf, Visible};
 use super::lines::Mixer;
 use super::map::{each, sort_by, sort_unique};
-use super::picture::{FEW_CORNERS, Picture};
+use super::primitives::{FEW_CORNERS, Primitives};
 use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
 use crate::Error;
 use crate::progress::Watch;
@@ -516,7 +516,7 @@ impl Wanted<'_> {
 /// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
 /// not show; in pairs, opaque polygons have that, translucent items their own.
 pub(super) fn pairs<'l>(
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     wanted: Wanted<'_>,
@@ -524,41 +524,47 @@ pub(super) fn pairs<'l>(
 ) -> Result<Vec<Pair>, Error> {
     let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
     let shows = |face: &u32| place(*face) != u32::MAX;
-    for face in each(watch, 2, 0..picture.views.len() as u32) {
+    for face in each(watch, 2, 0..primitives.views.len() as u32) {
         let face = face?;
         if !shows(&face) {
             continue;
         }
-        if picture.views[face as usize].is_opaque {
-            reaches.push(face, picture.outline(face))?;
+        if primitives.views[face as usize].is_opaque {
+            reaches.push(face, primitives.outline(face))?;
         }
     }
-    for item in each(watch, 2, 0..picture.items.len() as u32) {
+    for item in each(watch, 2, 0..primitives.items.len() as u32) {
         let item = item?;
-        if !picture.is_opaque(item) && shows(&picture.face(item)) {
-            translucent.push(item, picture.halves(item))?;
+        if !primitives.is_opaque(item) && shows(&primitives.face(item)) {
+            translucent.push(item, primitives.halves(item))?;
         }
     }
-    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(picture, watch);
-    let leaf =
-        |part: &LeafReaches<'l>, found: &mut Found| part.leaf(picture, place, wanted, found, watch);
+    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(primitives, watch);
+    let leaf = |part: &LeafReaches<'l>, found: &mut Found| {
+        part.leaf(primitives, place, wanted, found, watch)
+    };
     let all = LeafReaches { leaves, reaches, translucent };
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
 impl<'l> LeafReaches<'l> {
     /// The first and the second half of the leaves; `None` of a single one.
-    fn halves(&self, picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        primitives: &Primitives<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
             return Ok(None);
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
         let part = |leaves: &'l [Leaf]| {
             let around = around(leaves);
-            let of_face = |face: u32| picture.views[face as usize].around;
-            let of_item = |item: u32| picture.items[item as usize].around;
-            let reaches = self.reaches.narrowed(&picture.lines, &around, of_face, watch)?;
-            let translucent = self.translucent.narrowed(&picture.lines, &around, of_item, watch)?;
+            let of_face = |face: u32| primitives.views[face as usize].around;
+            let of_item = |item: u32| primitives.items[item as usize].around;
+            let reaches = self.reaches.narrowed(&primitives.lines, &around, of_face, watch)?;
+            let translucent =
+                self.translucent.narrowed(&primitives.lines, &around, of_item, watch)?;
             Ok(Self { leaves, reaches, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
@@ -567,7 +573,7 @@ impl<'l> LeafReaches<'l> {
     /// Adds the pairs of a single leaf.
     fn leaf(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         wanted: Wanted<'_>,
         found: &mut Found,
@@ -580,9 +586,9 @@ impl<'l> LeafReaches<'l> {
         for Leaf { tile, cells } in *leaves {
             for visible in each(watch, VISITED, cells) {
                 let visible = visible?;
-                let face = picture.face(visible.item);
-                watch.work(picture.edges_work(face))?;
-                if is_whole(picture, tile, visible) {
+                let face = primitives.face(visible.item);
+                watch.work(primitives.edges_work(face))?;
+                if is_whole(primitives, tile, visible) {
                     whole.push(face);
                 }
             }
@@ -596,12 +602,12 @@ impl<'l> LeafReaches<'l> {
         for visible in cells() {
             let Visible { item, cell } = visible;
             if !self.translucent.list.is_empty() {
-                self.add_blended(picture, place, visible, found, watch)?;
+                self.add_blended(primitives, place, visible, found, watch)?;
             }
-            if !picture.is_opaque(*item) {
+            if !primitives.is_opaque(*item) {
                 continue;
             }
-            let above = place(picture.face(*item));
+            let above = place(primitives.face(*item));
             let around = cell.around();
             let below = match ((wanted.is_marked)(above), wanted.needs_both) {
                 (true, false) => &below,
@@ -611,7 +617,7 @@ impl<'l> LeafReaches<'l> {
             for reach in each(watch, VISITED, below) {
                 let reach = reach?;
                 let pair = Pair { below: place(reach.number), above };
-                let is_apart = are_apart(&around, &picture.views[reach.number as usize].around);
+                let is_apart = are_apart(&around, &primitives.views[reach.number as usize].around);
                 if is_apart
                     || pair.below == above
                     || !(wanted.is_wanted)(pair)
@@ -620,7 +626,7 @@ impl<'l> LeafReaches<'l> {
                     continue;
                 }
                 watch.work(CUT)?;
-                if cell.meets(&picture.lines, reaches.halves_of(reach), watch)? {
+                if cell.meets(&primitives.lines, reaches.halves_of(reach), watch)? {
                     add(found, pair);
                 }
             }
@@ -632,13 +638,13 @@ impl<'l> LeafReaches<'l> {
     /// pair, that of the one behind.
     fn add_blended(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         place: &(dyn Fn(u32) -> u32 + Sync),
         &Visible { item, ref cell }: &Visible,
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let (face, is_opaque) = (picture.face(item), picture.is_opaque(item));
+        let (face, is_opaque) = (primitives.face(item), primitives.is_opaque(item));
         let own = if is_opaque { place(face) } else { item };
         let around = cell.around();
         for reach in each(watch, CUT, &self.translucent.list) {
@@ -649,11 +655,11 @@ impl<'l> LeafReaches<'l> {
                 false if is_opaque => Pair { below: other, above: own },
                 false => break,
             };
-            let is_apart = are_apart(&around, &picture.items[other as usize].around);
-            if is_apart || picture.face(other) == face || found.contains(&pair) {
+            let is_apart = are_apart(&around, &primitives.items[other as usize].around);
+            if is_apart || primitives.face(other) == face || found.contains(&pair) {
                 continue;
             }
-            if cell.meets(&picture.lines, self.translucent.halves_of(reach), watch)? {
+            if cell.meets(&primitives.lines, self.translucent.halves_of(reach), watch)? {
                 add(found, pair);
             }
         }
@@ -662,8 +668,8 @@ impl<'l> LeafReaches<'l> {
 }
 
 /// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
-fn is_whole(picture: &Picture<'_>, tile: &Tile, visible: &Visible) -> bool {
-    let outline = picture.outline(picture.face(visible.item));
+fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool {
+    let outline = primitives.outline(primitives.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
     // Edges of others may lie where tiles elsewhere have borders.
     let mut sides = sides.filter(|half| !tile.has_border(*half));

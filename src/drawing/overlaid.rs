@@ -8,7 +8,7 @@ use super::leaf::{Leaf, Visible};
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
 use super::order::{Found, Pair, add, around};
-use super::picture::Picture;
+use super::primitives::Primitives;
 use super::sight::{Pass, Passes, Passing, Pieces, ProjectedSegment, Spot, kept, parts, passes};
 use super::tile::{CUT, Reaches, VISITED, found_in};
 use crate::Error;
@@ -79,7 +79,7 @@ impl VisibilityMap<'_> {
         overlay.expect_no_polygons(self.tree)?;
         let counts = hidden == Hidden::Count;
         self.reporter.watch(if counts { 3 } else { 1 }, |watch| {
-            let (segments, sights) = sights(&self.picture.lines, overlay, watch)?;
+            let (segments, sights) = sights(&self.primitives.lines, overlay, watch)?;
             let mut runs = self.line_runs(&segments, &sights, watch)?;
             match hidden {
                 Hidden::Skip => runs.retain(|run| run.is_visible),
@@ -147,7 +147,7 @@ impl VisibilityMap<'_> {
     pub fn markers(&self, overlay: &Overlay) -> Result<Vec<MarkerView>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         self.reporter.watch(1, |watch| {
-            let (mut views, spots) = spots(&self.picture.lines, overlay, watch)?;
+            let (mut views, spots) = spots(&self.primitives.lines, overlay, watch)?;
             let hidden = self.covered(Passing { sights: &[], spots: &spots }, watch)?.hidden_spots;
             for number in each(watch, 1, hidden) {
                 views[number? as usize].is_visible = false;
@@ -252,15 +252,15 @@ impl<'l> LeafPasses<'l> {
         found: &mut Covered,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let (picture, lines) = (&map.picture, &map.picture.lines);
+        let (primitives, lines) = (&map.primitives, &map.primitives.lines);
         for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
             watch.work(CUT)?;
             // What is behind something translucent shows through.
-            if !picture.is_opaque(*item) {
+            if !primitives.is_opaque(*item) {
                 continue;
             }
             let around = cell.around();
-            let face = picture.face(*item);
+            let face = primitives.face(*item);
             let mut side = None;
             let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
             for number in each(watch, CUT, &self.sights) {
@@ -306,20 +306,20 @@ pub(super) struct Between {
 
 impl Between {
     pub(super) fn of(
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         overlay: &Overlay,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let (segments, sights) = sights(&picture.lines, overlay, watch)?;
-        let (markers, spots) = spots(&picture.lines, overlay, watch)?;
+        let (segments, sights) = sights(&primitives.lines, overlay, watch)?;
+        let (markers, spots) = spots(&primitives.lines, overlay, watch)?;
         let mut reaches = Reaches::default();
-        for item in each(watch, VISITED, 0..picture.items.len() as u32) {
+        for item in each(watch, VISITED, 0..primitives.items.len() as u32) {
             let item = item?;
-            reaches.push(item, picture.halves(item))?;
+            reaches.push(item, primitives.halves(item))?;
         }
-        let face = |item: u32| picture.face(item);
-        let around = |item: u32| picture.items[item as usize].around;
-        let pieces = Pieces { lines: &picture.lines, reaches, face: &face, around: &around };
+        let face = |item: u32| primitives.face(item);
+        let around = |item: u32| primitives.items[item as usize].around;
+        let pieces = Pieces { lines: &primitives.lines, reaches, face: &face, around: &around };
         let passing = Passing { sights: &sights, spots: &spots };
         let mut passes = passes(pieces, passing, |_| true, watch)?;
         sort_by(&mut passes.sights, watch, |a, b| a.sight.cmp(&b.sight))?;

@@ -16,7 +16,7 @@ use super::lines::{HalfPlane, LineTable};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::order::{Ordered, Ranks, Wanted, order_by_rank, pairs};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
-use super::picture::Picture;
+use super::primitives::Primitives;
 use super::tile::{CUT, VISITED};
 use super::translucent::mixed;
 use crate::memory::place;
@@ -72,12 +72,12 @@ impl Drawing {
         is_clipped: bool,
         area: &Area,
         faces: impl Iterator<Item = u32>,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let start = self.outlines.len() as u32;
-        let edges = PolygonEdges::of(picture, faces);
-        for outline in area.outlines(&picture.lines, watch)? {
+        let edges = PolygonEdges::of(primitives, faces);
+        for outline in area.outlines(&primitives.lines, watch)? {
             self.outlines.push(self.corners.len() as u32);
             for (i, side) in outline.iter().enumerate() {
                 let end = outline[if i + 1 == outline.len() { 0 } else { i + 1 }].start.at;
@@ -161,20 +161,20 @@ impl<'d> Path<'d> {
 
 /// The edges of a polygon's faces, by the lines that they are on.
 struct PolygonEdges<'s, 't> {
-    picture: &'s Picture<'t>,
+    primitives: &'s Primitives<'t>,
     /// The line, the face, and the number of the edge within the face; sorted.
     edges: SmallVec<[(u64, u32, u32); 8]>,
 }
 
 impl<'s, 't> PolygonEdges<'s, 't> {
-    fn of(picture: &'s Picture<'t>, faces: impl Iterator<Item = u32>) -> Self {
+    fn of(primitives: &'s Primitives<'t>, faces: impl Iterator<Item = u32>) -> Self {
         let edges_of = |face: u32| {
-            let numbered = (0..).zip(picture.outline(face));
+            let numbered = (0..).zip(primitives.outline(face));
             numbered.map(move |(k, half)| (half.line(), face, k))
         };
         let mut edges: SmallVec<_> = faces.flat_map(edges_of).collect();
         edges.sort_unstable();
-        Self { picture, edges }
+        Self { primitives, edges }
     }
 
     /// The polygon's edge along which a side runs; `None` if it is none of the polygon's own.
@@ -191,12 +191,12 @@ impl<'s, 't> PolygonEdges<'s, 't> {
                 alike.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?
             }
         };
-        self.picture.lines.frame.faces.outline_edge(face, k)
+        self.primitives.lines.frame.faces.outline_edge(face, k)
     }
 
     /// How far a point on the line of an edge is beyond the ends of the edge, in pixels, rounded.
     fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
-        let Frame { rays, faces } = &self.picture.lines.frame;
+        let Frame { rays, faces } = &self.primitives.lines.frame;
         let arms = faces.ends(face, k).map(|end| {
             let ([x, y, weight], _) = rays.project(end);
             // An end behind the eye is beyond the picture.
@@ -481,16 +481,16 @@ impl VisibilityMap<'_> {
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
-        let Self { picture, leaves, .. } = self;
-        if picture.has_translucent() {
-            return mixed(picture, leaves, watch);
+        let Self { primitives, leaves, .. } = self;
+        if primitives.has_translucent() {
+            return mixed(primitives, leaves, watch);
         }
         let size = self.size();
-        let shown = Nodes::of(picture, leaves, watch)?;
+        let shown = Nodes::of(primitives, leaves, watch)?;
         let place = |face: u32| shown.places[face as usize];
-        let pairs = |wanted: Wanted<'_>| pairs(picture, leaves, &place, wanted, watch);
+        let pairs = |wanted: Wanted<'_>| pairs(primitives, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
-        let cells = shown.cells(picture, leaves, &is_clipped, watch)?;
+        let cells = shown.cells(primitives, leaves, &is_clipped, watch)?;
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
         let count = shares.len();
         let part = |(i, nodes): (usize, &[u32])| {
@@ -506,12 +506,12 @@ impl VisibilityMap<'_> {
                 } else {
                     for face in each(watch, CUT, &shown.faces[index]) {
                         let face = *face?;
-                        add_piece(&picture.lines, picture.outline(face), &mut area, watch)?;
+                        add_piece(&primitives.lines, primitives.outline(face), &mut area, watch)?;
                     }
                 }
                 let polygon = shown.polygons[index];
                 let faces = shown.faces[index].iter().copied();
-                part.push(polygon, is_clipped[index], &area, faces, picture, watch)?;
+                part.push(polygon, is_clipped[index], &area, faces, primitives, watch)?;
             }
             finish_item(watch, i, count);
             Ok(part)
@@ -536,20 +536,20 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(picture: &Picture<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
-        let faces = picture.lines.frame.faces;
+    fn of(primitives: &Primitives<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
+        let faces = primitives.lines.frame.faces;
         let none = Ranks { all: [u32::MAX, 0], shown: [u32::MAX, 0] };
-        let mut ranks = vec![none; picture.polygons_end(watch)?];
-        let rank = |item: u32| picture.items.len() as u32 - item;
+        let mut ranks = vec![none; primitives.polygons_end(watch)?];
+        let rank = |item: u32| primitives.items.len() as u32 - item;
         let extend = |[first, last]: [u32; 2], rank: u32| [first.min(rank), last.max(rank)];
-        for item in each(watch, 1, 0..picture.items.len() as u32) {
+        for item in each(watch, 1, 0..primitives.items.len() as u32) {
             let item = item?;
-            let Ranks { all, .. } = &mut ranks[picture.polygon(item)];
+            let Ranks { all, .. } = &mut ranks[primitives.polygon(item)];
             *all = extend(*all, rank(item));
         }
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let item = visible?.item;
-            let Ranks { shown, .. } = &mut ranks[picture.polygon(item)];
+            let Ranks { shown, .. } = &mut ranks[primitives.polygon(item)];
             *shown = extend(*shown, rank(item));
         }
         let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
@@ -566,7 +566,7 @@ impl Nodes {
         }
         for face in each(watch, 1, 0..faces.len() as u32) {
             let face = face?;
-            let number = match picture.sees(face) {
+            let number = match primitives.sees(face) {
                 true => numbers[faces.polygon(face)],
                 false => u32::MAX,
             };
@@ -581,7 +581,7 @@ impl Nodes {
     /// The cells of the polygons that are clipped.
     fn cells<'l>(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         leaves: &'l [Leaf],
         is_clipped: &[bool],
         watch: &Watch<'_>,
@@ -589,7 +589,7 @@ impl Nodes {
         let mut cells: Vec<Vec<&Cell>> = self.polygons.iter().map(|_| vec![]).collect();
         for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
             let Visible { item, cell } = visible?;
-            let place = self.places[picture.face(*item) as usize] as usize;
+            let place = self.places[primitives.face(*item) as usize] as usize;
             if is_clipped[place] {
                 cells[place].push(cell);
             }

@@ -7,7 +7,7 @@ use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
-use super::picture::Picture;
+use super::primitives::Primitives;
 use super::tile::{CUT, VISITED};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -36,7 +36,7 @@ impl VisibilityMap<'_> {
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
         let mut regions = self
             .reporter
-            .watch(2, |watch| self.stacks(watch)?.regions(&self.picture.lines, watch))?;
+            .watch(2, |watch| self.stacks(watch)?.regions(&self.primitives.lines, watch))?;
         regions.retain(|region| region.area() >= self.least_area);
         Ok(regions)
     }
@@ -47,9 +47,9 @@ impl VisibilityMap<'_> {
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
         let (mut done, count) = (0, self.leaves.len());
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
-            let divided = |leaf| Divided::new(leaf, &self.picture, watch);
+            let divided = |leaf| Divided::new(leaf, &self.primitives, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided)? {
-                stacks.add(&divided, |item| self.picture.polygon(item), watch)?;
+                stacks.add(&divided, |item| self.primitives.polygon(item), watch)?;
                 finish_item(watch, done, count);
                 done += 1;
             }
@@ -205,12 +205,12 @@ impl Divided {
     /// What is visible in a tile is laid over what was there, front to back.
     pub(super) fn new(
         leaf: &Leaf,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
         let mut divided = Self { cells: vec![], layers: vec![none] };
-        if is_opaque(leaf, picture) {
+        if is_opaque(leaf, primitives) {
             for visible in each(watch, CUT, &leaf.cells) {
                 let Visible { item, cell } = visible?;
                 let layer = divided.behind(0, *item);
@@ -218,7 +218,7 @@ impl Divided {
             }
             return Ok(divided);
         }
-        let lines = &picture.lines;
+        let lines = &primitives.lines;
         let tile = Cell::rectangle(lines, leaf.tile.low, leaf.tile.high);
         let mut open = vec![LayeredCell::new(tile, 0)];
         let (mut left, mut outside) = (Vec::new(), Vec::new());
@@ -244,7 +244,8 @@ impl Divided {
                 left.reserve(outside.len() + 1);
                 left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
                 let behind = LayeredCell::new(common, divided.behind(layer, *item));
-                if picture.is_opaque(*item) { &mut divided.cells } else { &mut left }.push(behind);
+                if primitives.is_opaque(*item) { &mut divided.cells } else { &mut left }
+                    .push(behind);
             }
             open.reserve(left.len());
             open.append(&mut left);
@@ -283,13 +284,13 @@ impl VisibilityMap<'_> {
     ) -> Result<(), Error> {
         let count = self.leaves.len();
         for (i, leaf) in self.leaves.iter().enumerate() {
-            if is_opaque(leaf, &self.picture) {
+            if is_opaque(leaf, &self.primitives) {
                 for visible in each(watch, CUT, &leaf.cells) {
                     let Visible { item, cell } = visible?;
                     see(*item, cell)?;
                 }
             } else {
-                let divided = Divided::new(leaf, &self.picture, watch)?;
+                let divided = Divided::new(leaf, &self.primitives, watch)?;
                 for part in &divided.cells {
                     for item in each(watch, CUT, divided.items(part)) {
                         see(item?, &part.cell)?;
@@ -309,6 +310,6 @@ impl LayeredCell {
 }
 
 /// Whether nothing shows through anything in a tile.
-fn is_opaque(leaf: &Leaf, picture: &Picture<'_>) -> bool {
-    leaf.cells.iter().all(|visible| picture.is_opaque(visible.item))
+fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
+    leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
 }

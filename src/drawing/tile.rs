@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::cell::{Rect, are_apart, is_within, reaches_across};
 use super::lines::{HalfPlane, LineTable, STEPS};
 use super::map::{each, finish_item};
-use super::picture::{Item, Picture};
+use super::primitives::{Item, Primitives};
 use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -201,12 +201,12 @@ pub(super) struct List {
 impl List {
     /// What of all items may show in a tile.
     pub(super) fn of_all(
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(picture, tile, u32::MAX, picture.items.len());
-        for item in each(watch, NARROWED, 0..picture.items.len() as u32) {
+        let mut narrow = Narrow::new(primitives, tile, u32::MAX, primitives.items.len());
+        for item in each(watch, NARROWED, 0..primitives.items.len() as u32) {
             if !narrow.add(item?) {
                 break;
             }
@@ -217,11 +217,11 @@ impl List {
     /// What of the list may show in a part of the tile.
     pub(super) fn narrowed(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(picture, tile, self.limit, self.items.len());
+        let mut narrow = Narrow::new(primitives, tile, self.limit, self.items.len());
         for item in each(watch, NARROWED, &self.items) {
             if !narrow.add(*item?) {
                 break;
@@ -233,33 +233,33 @@ impl List {
 
 /// Makes the list of a tile.
 struct Narrow<'a, 't> {
-    picture: &'a Picture<'t>,
+    primitives: &'a Primitives<'t>,
     sides: Rect,
     list: List,
 }
 
 impl<'a, 't> Narrow<'a, 't> {
     /// The list will be of so many items at most, none behind `limit`.
-    fn new(picture: &'a Picture<'t>, tile: Tile, limit: u32, most: usize) -> Narrow<'a, 't> {
+    fn new(primitives: &'a Primitives<'t>, tile: Tile, limit: u32, most: usize) -> Narrow<'a, 't> {
         let items = Vec::with_capacity(most);
-        Self { picture, sides: tile.sides(), list: List { items, limit } }
+        Self { primitives, sides: tile.sides(), list: List { items, limit } }
     }
 
     /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
     /// show.
     fn add(&mut self, item: u32) -> bool {
-        let Self { picture, sides, list } = self;
+        let Self { primitives, sides, list } = self;
         if item > list.limit {
             return false;
         }
-        let Item { ref around, .. } = picture.items[item as usize];
+        let Item { ref around, .. } = primitives.items[item as usize];
         if are_apart(sides, around) {
             return true;
         }
         // Lines are looked at only where they may tell more than boxes.
         if reaches_across(around, sides) {
-            match picture.across(picture.halves(item), sides) {
-                Across::Inside if picture.is_opaque(item) => list.limit = item,
+            match primitives.across(primitives.halves(item), sides) {
+                Across::Inside if primitives.is_opaque(item) => list.limit = item,
                 Across::Outside => return true,
                 Across::Inside | Across::Maybe => {}
             }
@@ -270,26 +270,26 @@ impl<'a, 't> Narrow<'a, 't> {
 
     /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
     fn finish(self, watch: &Watch<'_>) -> Result<List, Error> {
-        let Self { picture, sides, mut list } = self;
+        let Self { primitives, sides, mut list } = self;
         let mut end = list.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
         for (place, &item) in list.items.iter().enumerate() {
             if item >= end || tried.len() == FACES {
                 break;
             }
-            let face = picture.face(item);
+            let face = primitives.face(item);
             // If pieces of it are missing from the list, the others alone may not cover the tile.
             if tried.contains(&face)
-                || !picture.is_opaque(item)
-                || picture.views[face as usize].last > list.limit
-                || !picture.covers(face, &sides)
+                || !primitives.is_opaque(item)
+                || primitives.views[face as usize].last > list.limit
+                || !primitives.covers(face, &sides)
             {
                 continue;
             }
             tried.push(face);
             watch.work(list.items.len() - place)?;
             let mut siblings =
-                list.items[place..].iter().filter(|&&other| picture.face(other) == face);
+                list.items[place..].iter().filter(|&&other| primitives.face(other) == face);
             end = siblings.next_back().map_or(end, |&last| end.min(last));
         }
         list.limit = end;

@@ -11,7 +11,7 @@ use super::map::{
 use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sorted};
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
-use super::picture::Picture;
+use super::primitives::Primitives;
 use super::tile::{CUT, Growth, Reaches, TINIEST, Tile, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
@@ -72,15 +72,15 @@ impl Drawing {
             overlay.expect_no_polygons(tree)?;
         }
         reporter.watch(if overlay.is_some() { 4 } else { 3 }, |watch| {
-            let picture = Picture::new(tree, rays, opacities, watch)?;
-            let overlaps = overlaps(&picture, watch)?;
-            let between = overlay.map(|overlay| Between::of(&picture, overlay, watch));
+            let primitives = Primitives::new(tree, rays, opacities, watch)?;
+            let overlaps = overlaps(&primitives, watch)?;
+            let between = overlay.map(|overlay| Between::of(&primitives, overlay, watch));
             let between = between.transpose()?;
             let (mut touching, mut known) = (Vec::new(), Found::default());
             let mut rounds = 0;
             let (parts, ordered, placed) = loop {
-                let parts = Parts::new(&picture, &overlaps, &touching, watch)?;
-                let ordered = parts.order(&picture, &overlaps, None, watch)?;
+                let parts = Parts::new(&primitives, &overlaps, &touching, watch)?;
+                let ordered = parts.order(&primitives, &overlaps, None, watch)?;
                 let Some(between) = &between else { break (parts, ordered, vec![]) };
                 let places = parts.places(&ordered, watch)?;
                 let (placed, missed) = between.placed(&places, ordered.order.len(), watch)?;
@@ -98,7 +98,7 @@ impl Drawing {
                     touching.push(pair);
                 }
             };
-            let (mut drawing, paths) = parts.drawing(&picture, &ordered, None, watch)?;
+            let (mut drawing, paths) = parts.drawing(&primitives, &ordered, None, watch)?;
             for placed in each(watch, 1, placed) {
                 let (parts, what): (u32, Overlaid) = placed?;
                 drawing.overlaid.push((paths[parts as usize], what));
@@ -112,39 +112,39 @@ impl Drawing {
 /// The drawing of a map where something shows through: opaque polygons are in one path each, translucent ones
 /// as in [`Drawing::translucent`], and what shows nowhere is left out. Two phases.
 pub(super) fn mixed(
-    picture: &Picture<'_>,
+    primitives: &Primitives<'_>,
     leaves: &[Leaf],
     watch: &Watch<'_>,
 ) -> Result<Drawing, Error> {
     // Polygons that show are known by their first items.
-    let polygon = |item: u32| picture.polygon(item);
-    let count = (0..picture.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+    let polygon = |item: u32| primitives.polygon(item);
+    let count = (0..primitives.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
     let (mut shows, mut first): (Vec<bool>, Vec<u32>) = (vec![false; count], vec![u32::MAX; count]);
     for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
         shows[polygon(visible?.item)] = true;
     }
-    for item in each(watch, 1, (0..picture.items.len() as u32).rev()) {
+    for item in each(watch, 1, (0..primitives.items.len() as u32).rev()) {
         let item = item?;
         if shows[polygon(item)] {
             first[polygon(item)] = item;
         }
     }
-    let faces = picture.lines.frame.faces;
+    let faces = primitives.lines.frame.faces;
     let place = |face: u32| {
         let polygon = faces.polygon(face);
         first.get(polygon).copied().unwrap_or(u32::MAX)
     };
-    let pairs = pairs(picture, leaves, &place, Wanted::ALL, watch)?;
+    let pairs = pairs(primitives, leaves, &place, Wanted::ALL, watch)?;
     let mut blended: Vec<Pair> = Vec::new();
     for pair in each(watch, 1, &pairs) {
         let pair = *pair?;
-        if !picture.is_opaque(pair.above) {
+        if !primitives.is_opaque(pair.above) {
             blended.push(pair);
         }
     }
-    let parts = Parts::new(picture, &blended, &[], watch)?;
-    let ordered = parts.order(picture, &pairs, Some(leaves), watch)?;
-    let (drawing, _) = parts.drawing(picture, &ordered, Some(leaves), watch)?;
+    let parts = Parts::new(primitives, &blended, &[], watch)?;
+    let ordered = parts.order(primitives, &pairs, Some(leaves), watch)?;
+    let (drawing, _) = parts.drawing(primitives, &ordered, Some(leaves), watch)?;
     Ok(drawing)
 }
 
@@ -161,17 +161,17 @@ const FEW: usize = 8;
 
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
 /// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps(picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
-    let tile = Tile::picture(picture.lines.frame.rays.size());
+pub(super) fn overlaps(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+    let tile = Tile::picture(primitives.lines.frame.rays.size());
     let mut reaches = Reaches::default();
-    for item in each(watch, 2, 0..picture.items.len() as u32) {
+    for item in each(watch, 2, 0..primitives.items.len() as u32) {
         let item = item?;
-        reaches.push(item, picture.halves(item))?;
+        reaches.push(item, primitives.halves(item))?;
     }
     let all = TileStack { tile, reaches, growth: Growth::NONE };
-    let halves = |part: &TileStack, _: &mut Found| part.halves(picture, watch);
-    let leaf = |part: &TileStack, found: &mut Found| part.leaf(picture, found, watch);
-    let all = all.narrowed(picture, tile, watch)?;
+    let halves = |part: &TileStack, _: &mut Found| part.halves(primitives, watch);
+    let leaf = |part: &TileStack, found: &mut Found| part.leaf(primitives, found, watch);
+    let all = all.narrowed(primitives, tile, watch)?;
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
@@ -183,12 +183,16 @@ impl TileStack {
     }
 
     /// Both halves of the tile; `None` of a leaf.
-    fn halves(&self, picture: &Picture<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(
+        &self,
+        primitives: &Primitives<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<Option<[Self; 2]>, Error> {
         if self.is_leaf() {
             return Ok(None);
         }
         let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(picture, tile, watch);
+        let narrowed = |tile| self.narrowed(primitives, tile, watch);
         let mut parts = [narrowed(first)?, narrowed(second)?];
         let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
         let counts = [open(&parts[0]), open(&parts[1])];
@@ -199,24 +203,24 @@ impl TileStack {
 
     fn narrowed(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         tile: Tile,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let around = |item: u32| picture.items[item as usize].around;
-        let reaches = self.reaches.narrowed(&picture.lines, &tile.sides(), around, watch)?;
+        let around = |item: u32| primitives.items[item as usize].around;
+        let reaches = self.reaches.narrowed(&primitives.lines, &tile.sides(), around, watch)?;
         Ok(Self { tile, reaches, growth: Growth::NONE })
     }
 
     /// Adds the pairs of the tile.
     fn leaf(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let mut add = |below: u32, above: u32| add(found, Pair { below, above });
-        let lines = &picture.lines;
+        let lines = &primitives.lines;
         // The last item that covers the tile, and those behind it so far, with what they cover.
         let mut cover: Option<u32> = None;
         let mut behind: Vec<(u32, Cell)> = Vec::new();
@@ -239,7 +243,7 @@ impl TileStack {
             if let Some(cover) = cover {
                 add(item, cover);
             }
-            let face = |item: u32| picture.face(item);
+            let face = |item: u32| primitives.face(item);
             for part in each(watch, CUT, &behind) {
                 let (above, other) = part?;
                 if face(*above) != face(item) && other.meets(lines, halves, watch)? {
@@ -268,12 +272,12 @@ impl Parts {
     /// Parts of which an order is left that keeps the pairs of items that overlap, and as many as can be of
     /// others that only touch: those the order of the tree may not keep.
     pub(super) fn new(
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         overlaps: &[Pair],
         touching: &[Pair],
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let units = units(picture, overlaps, watch)?;
+        let units = units(primitives, overlaps, watch)?;
         let count = units.iter().max().map_or(0, |&most| most as usize + 1);
         let all = overlaps.iter().chain(touching);
         let cycles = cycles(count, &contracted(all, &units, watch)?, watch)?;
@@ -329,7 +333,7 @@ impl Parts {
             items[part as usize].push(item);
         }
         for items in &mut items {
-            sort_by(items, watch, |&a, &b| picture.face(a).cmp(&picture.face(b)))?;
+            sort_by(items, watch, |&a, &b| primitives.face(a).cmp(&primitives.face(b)))?;
         }
         Ok(Self { of_item, items, touching: kept })
     }
@@ -338,17 +342,17 @@ impl Parts {
     /// hidden, `leaves` have what shows, and opaque polygons in cycles are clipped.
     pub(super) fn order(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         pairs: &[Pair],
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
     ) -> Result<Ordered, Error> {
-        let count = picture.items.len() as u32;
+        let count = primitives.items.len() as u32;
         let rank = |items: &Vec<u32>| items.iter().map(|item| count - item).min().unwrap_or(0);
         let ranks: Vec<_> = self.items.iter().map(rank).collect();
         let is_opaque = |part: u32| {
             let first = self.items[part as usize].first();
-            leaves.is_some() && first.is_some_and(|&item| picture.is_opaque(item))
+            leaves.is_some() && first.is_some_and(|&item| primitives.is_opaque(item))
         };
         let pairs = contracted(pairs.iter().chain(&self.touching), &self.of_item, watch)?;
         order(self.items.len(), &pairs, &ranks, &is_opaque, watch)
@@ -369,16 +373,16 @@ impl Parts {
     /// of parts.
     pub(super) fn drawing(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         ordered: &Ordered,
         leaves: Option<&[Leaf]>,
         watch: &Watch<'_>,
     ) -> Result<(Drawing, Vec<u32>), Error> {
         let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
-        let mut drawing = Drawing::empty(picture.lines.frame.rays.size());
+        let mut drawing = Drawing::empty(primitives.lines.frame.rays.size());
         let count = ordered.order.len();
         drawing.paths.reserve(count);
-        let counts = Counts::of(picture);
+        let counts = Counts::of(primitives);
         let mut paths = Vec::with_capacity(count + 1);
         paths.push(0);
         let mut area = Area::default();
@@ -395,15 +399,15 @@ impl Parts {
                         area.push(&cell?.sides)?;
                     }
                 }
-                _ => counts.add_pieces(picture, items, &mut area, watch)?,
+                _ => counts.add_pieces(primitives, items, &mut area, watch)?,
             }
             if !area.is_empty() {
-                let polygon = picture.polygon(items[0]);
+                let polygon = primitives.polygon(items[0]);
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
                 // Items of one face follow one another.
-                let faces = items.chunk_by(|&a, &b| picture.face(a) == picture.face(b));
-                let faces = faces.map(|same| picture.face(same[0]));
-                drawing.push(polygon, is_part, &area, faces, picture, watch)?;
+                let faces = items.chunk_by(|&a, &b| primitives.face(a) == primitives.face(b));
+                let faces = faces.map(|same| primitives.face(same[0]));
+                drawing.push(polygon, is_part, &area, faces, primitives, watch)?;
             }
             paths.push(drawing.paths.len() as u32);
             finish_item(watch, i, count);
@@ -433,32 +437,34 @@ struct Counts {
 }
 
 impl Counts {
-    fn of(picture: &Picture<'_>) -> Counts {
-        let mut of_face: Vec<u32> = vec![0; picture.views.len()];
-        picture.items.iter().for_each(|item| of_face[item.face as usize] += 1);
-        let count = (0..picture.items.len() as u32).map(|item| picture.polygon(item) + 1).max();
+    fn of(primitives: &Primitives<'_>) -> Counts {
+        let mut of_face: Vec<u32> = vec![0; primitives.views.len()];
+        primitives.items.iter().for_each(|item| of_face[item.face as usize] += 1);
+        let count =
+            (0..primitives.items.len() as u32).map(|item| primitives.polygon(item) + 1).max();
         let mut of_polygon: Vec<u32> = vec![0; count.unwrap_or(0)];
-        (0..picture.items.len() as u32).for_each(|item| of_polygon[picture.polygon(item)] += 1);
+        (0..primitives.items.len() as u32)
+            .for_each(|item| of_polygon[primitives.polygon(item)] += 1);
         Self { of_face, of_polygon }
     }
 
     /// Adds items to an area, those of one face after another.
     fn add_pieces(
         &self,
-        picture: &Picture<'_>,
+        primitives: &Primitives<'_>,
         items: &[u32],
         area: &mut Area,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        for same in items.chunk_by(|&a, &b| picture.face(a) == picture.face(b)) {
-            let face = picture.face(same[0]);
+        for same in items.chunk_by(|&a, &b| primitives.face(a) == primitives.face(b)) {
+            let face = primitives.face(same[0]);
             // The outline of a face is its own where none of its pieces is missing.
             if same.len() as u32 == self.of_face[face as usize] {
-                add_piece(&picture.lines, picture.outline(face), area, watch)?;
+                add_piece(&primitives.lines, primitives.outline(face), area, watch)?;
                 continue;
             }
             for item in each(watch, CUT, same) {
-                add_piece(&picture.lines, picture.halves(*item?), area, watch)?;
+                add_piece(&primitives.lines, primitives.halves(*item?), area, watch)?;
             }
         }
         Ok(())
@@ -466,9 +472,13 @@ impl Counts {
 }
 
 /// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
-fn units(picture: &Picture<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
-    let polygon = |item: u32| picture.polygon(item);
-    let count = (0..picture.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
+fn units(
+    primitives: &Primitives<'_>,
+    overlaps: &[Pair],
+    watch: &Watch<'_>,
+) -> Result<Vec<u32>, Error> {
+    let polygon = |item: u32| primitives.polygon(item);
+    let count = (0..primitives.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
     let mut is_folded: Vec<bool> = vec![false; count];
     for pair in each(watch, VISITED, overlaps) {
         let Pair { below, above } = *pair?;
@@ -477,15 +487,15 @@ fn units(picture: &Picture<'_>, overlaps: &[Pair], watch: &Watch<'_>) -> Result<
     }
     let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) = (
         ((0..count).map(|_| None)).collect::<Vec<_>>(),
-        picture.views.iter().map(|_| None).collect::<Vec<_>>(),
+        primitives.views.iter().map(|_| None).collect::<Vec<_>>(),
     );
     let (mut units, mut next) = (Vec::new(), 0);
-    units.reserve(picture.items.len());
-    for item in each(watch, 1, 0..picture.items.len() as u32) {
+    units.reserve(primitives.items.len());
+    for item in each(watch, 1, 0..primitives.items.len() as u32) {
         let item = item?;
         let polygon = polygon(item);
         let unit = match is_folded[polygon] {
-            true => &mut of_face[picture.face(item) as usize],
+            true => &mut of_face[primitives.face(item) as usize],
             false => &mut of_polygon[polygon],
         };
         let number = *unit.get_or_insert(next);

@@ -27,8 +27,8 @@ fn squares() -> BspTree {
 
 /// How many lines a picture has; no two are one, and none is a border.
 fn lines(tree: &BspTree, camera: &Camera) -> usize {
-    let picture = all_lines(tree, camera).unwrap();
-    let lines = &picture.lines;
+    let primitives = all_lines(tree, camera).unwrap();
+    let lines = &primitives.lines;
     let exact: Vec<_> = lines.keys.iter().map(|key| lines.exact_of(*key)).collect();
     for (i, line) in exact.iter().enumerate() {
         // Of what the picture shows.

@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::{HalfPlane, Key, LineTable, Rounded};
-use crate::drawing::picture::Picture;
+use crate::drawing::primitives::Primitives;
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::raster::Rays;
@@ -11,9 +11,12 @@ use crate::view::Camera;
 const SIZE: [u32; 2] = [320, 200];
 
 /// All lines of all pieces that a camera sees.
-pub(in crate::drawing) fn all_lines<'t>(tree: &'t BspTree, camera: &Camera) -> Option<Picture<'t>> {
+pub(in crate::drawing) fn all_lines<'t>(
+    tree: &'t BspTree,
+    camera: &Camera,
+) -> Option<Primitives<'t>> {
     let rays = Rays::new(camera, tree.faces()).ok()?;
-    Some(Picture::new(tree, rays, vec![], &Watch::default()).unwrap())
+    Some(Primitives::new(tree, rays, vec![], &Watch::default()).unwrap())
 }
 
 /// Whether a line in floats is no further from another one, in the picture, than both say.
@@ -71,10 +74,10 @@ fn lines_in_floats_are_as_near_as_they_say() {
             Camera::perspective(eye, off + towards, DVec3::Z, 1.0 / distance.max(1.0), SIZE);
         let parallel = Camera::parallel(towards, DVec3::Z, off, 3.0 * size, SIZE);
         for camera in [perspective, parallel] {
-            let Some(picture) = all_lines(&tree, &camera.unwrap()) else { continue };
-            let LineTable { keys, rounded, reach, .. } = &picture.lines;
+            let Some(primitives) = all_lines(&tree, &camera.unwrap()) else { continue };
+            let LineTable { keys, rounded, reach, .. } = &primitives.lines;
             for (key, rounded) in keys.iter().zip(rounded) {
-                let exact = Rounded::new(&picture.lines.exact_of(*key), *reach);
+                let exact = Rounded::new(&primitives.lines.exact_of(*key), *reach);
                 assert!(agree(rounded, &exact, *reach), "{key:?}: {rounded:?}, not {exact:?}");
                 lines += 1;
                 kinds[match key {
@@ -101,10 +104,10 @@ fn edges_on_one_line_are_one() {
     let tree = BspTree::build(&walls).unwrap();
     let eye = DVec3::new(1.3, -9.7, 0.6);
     let camera = Camera::perspective(eye, DVec3::new(3.0, 0.0, 1.0), DVec3::Z, 1.2, SIZE).unwrap();
-    let picture = all_lines(&tree, &camera).unwrap();
+    let primitives = all_lines(&tree, &camera).unwrap();
     // The ground, the common line, the upper edge of the beam; and nine ends of walls and beam.
-    assert_eq!(picture.lines.keys.len(), 3 + 8 + 2);
-    let halves = |face: u32| picture.outline(face);
+    assert_eq!(primitives.lines.keys.len(), 3 + 8 + 2);
+    let halves = |face: u32| primitives.outline(face);
     for face in 0..7 {
         // Walls are above the ground and below the beam; those beside share an edge from two sides.
         assert_eq!([halves(face)[0], halves(face)[2]], [halves(0)[0], halves(0)[2]]);

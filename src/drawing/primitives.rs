@@ -46,7 +46,7 @@ pub(super) struct View {
 
 /// All pieces that may be visible, front to back, and the lines that bound them.
 #[derive(Debug)]
-pub(super) struct Picture<'t> {
+pub(super) struct Primitives<'t> {
     tree: &'t BspTree,
     pub(super) lines: LineTable<'t>,
     /// The half-planes that bound faces and items, one list after another.
@@ -68,7 +68,7 @@ const FEW_CORNERS_AS_GIVEN: usize = 8;
 /// To look at a piece takes as long as a build takes to examine so many.
 const LOOKED: usize = 16;
 
-impl<'t> Picture<'t> {
+impl<'t> Primitives<'t> {
     /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
     /// are opaque. A phase.
     pub(super) fn new(
@@ -87,19 +87,19 @@ impl<'t> Picture<'t> {
             order.push(fragment?.index());
         }
         let lines = LineTable::new(frame);
-        let mut picture =
+        let mut primitives =
             Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
         let all: Vec<u32> = (0..faces.len() as u32).collect();
-        let view = |face: u32| Some(picture.view(face));
-        picture.views = shared(&all, view, watch)?;
-        let item = |index: u32| picture.item(&tree.fragment(index));
-        picture.items = shared(&order, item, watch)?;
-        for numbered in each(watch, 1, (0..).zip(&picture.items)) {
+        let view = |face: u32| Some(primitives.view(face));
+        primitives.views = shared(&all, view, watch)?;
+        let item = |index: u32| primitives.item(&tree.fragment(index));
+        primitives.items = shared(&order, item, watch)?;
+        for numbered in each(watch, 1, (0..).zip(&primitives.items)) {
             let (number, item) = numbered?;
-            picture.views[item.face as usize].last = number;
+            primitives.views[item.face as usize].last = number;
         }
-        picture.add_halves(watch)?;
-        Ok(picture)
+        primitives.add_halves(watch)?;
+        Ok(primitives)
     }
 
     /// Makes the lines of all faces and items that the picture may show: a phase.

@@ -1,4 +1,4 @@
-use crate::drawing::picture::*;
+use crate::drawing::primitives::*;
 use crate::random::SplitMix64;
 use crate::scene::Builtin;
 use crate::tree::BspTree;
