@@ -13,4 +13,5 @@ pub(crate) mod piece;
 mod subtree;
 
 pub use frames::FrameBuilder;
+pub use choose::{PieceSet, SplitPlane};
 pub use options::{BuildOptions, Heuristic, ParseHeuristicError};

@@ -27,19 +27,19 @@ impl Options {
 
     /// With other options for trees.
     #[must_use]
-    pub const fn with_build(self, build: BuildOptions) -> Self {
+    pub fn with_build(self, build: BuildOptions) -> Self {
         Self { build, ..self }
     }
 
     /// With another budget or epsilon for Newell's algorithm.
     #[must_use]
-    pub const fn with_newell(self, newell: Newell) -> Self {
+    pub fn with_newell(self, newell: Newell) -> Self {
         Self { newell, ..self }
     }
 
     /// With given near and far planes, in world units, for depth buffers.
     #[must_use]
-    pub const fn with_range(self, near: f64, far: f64) -> Self {
+    pub fn with_range(self, near: f64, far: f64) -> Self {
         Self { near: Some(near), far: Some(far), ..self }
     }
 }
