@@ -99,8 +99,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn the_root_has_the_plane_of_least_cost() {
     for scene in [binspace::scene::city(300, 1), binspace::scene::random_triangles(60, 2)] {
         let tree = build(&scene).unwrap();
-        let polygons: Vec<&[DVec3]> =
-            scene.polygons().map(|polygon| polygon.points()).collect();
+        let polygons: Vec<&[DVec3]> = scene.polygons().map(|polygon| polygon.points()).collect();
         let corners = || polygons.iter().copied().flatten().copied();
         let low = corners().reduce(DVec3::min).unwrap();
         let high = corners().reduce(DVec3::max).unwrap();

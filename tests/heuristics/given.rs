@@ -123,21 +123,22 @@ fn adversary(seed: u64, answers: &Answers, set: &PieceSet<'_>) -> Option<SplitPl
 fn trees_are_exact_whatever_the_function_returns() {
     let answers = Arc::new(Answers::default());
     let strategy = (hard::scene(), hard::heuristic(), proptest::prelude::any::<u64>());
-    let [trees, fragments, over] = tally(file!(), 192, strategy, |seen, (scene, by, seed)| {
-        let counted = answers.clone();
-        let options = scene.options(by).with_max_fragments(3000);
-        let options = options.with_chooser(move |set| adversary(seed, &counted, set));
-        match options.build(&scene.polygons) {
-            Ok(tree) => {
-                judge(&tree, &scene.polygons).map_err(fail)?;
-                seen[0] += 1;
-                seen[1] += tree.len();
+    let [trees, fragments, over] =
+        tally(file!(), 192, strategy, |seen: &mut [usize; 3], (scene, by, seed)| {
+            let counted = answers.clone();
+            let options = scene.options(by).with_max_fragments(3000);
+            let options = options.with_chooser(move |set| adversary(seed, &counted, set));
+            match options.build(&scene.polygons) {
+                Ok(tree) => {
+                    judge(&tree, &scene.polygons).map_err(fail)?;
+                    seen[0] += 1;
+                    seen[1] += tree.len();
+                }
+                Err(error) if error.kind() == ErrorKind::OverBudget => seen[2] += 1,
+                Err(error) => return Err(fail(error)),
             }
-            Err(error) if error.kind() == ErrorKind::OverBudget => seen[2] += 1,
-            Err(error) => return Err(fail(error)),
-        }
-        Ok::<_, _>(())
-    });
+            Ok::<_, _>(())
+        });
     enough!(trees > 150, fragments > 1500, over < 20; "{trees} {fragments} {over}");
     let counts = answers.each_ref().map(|count| count.load(Relaxed));
     enough!(counts.iter().all(|&count| count > 20); "{counts:?}");
@@ -205,7 +206,8 @@ fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
 /// Which side of the plane through three points a fourth is on.
 fn side_of([p, q, r]: [DVec3; 3], at: DVec3) -> i128 {
     let [a, b, c] = [q - p, r - p, at - p].map(|arm| arm.to_array().map(|c| c as i128));
-    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
@@ -225,8 +227,10 @@ fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     let mut found = [0; 4];
     for seed in 0..24 {
         let scene = scene(&mut Dice(seed), 6 + seed as usize);
-        let scene: Vec<Corners> =
-            scene.into_iter().filter(|p| build(std::slice::from_ref(p), Heuristic::First).len() == 1).collect();
+        let scene: Vec<Corners> = scene
+            .into_iter()
+            .filter(|p| build(std::slice::from_ref(p), Heuristic::First).len() == 1)
+            .collect();
         let seen = Arc::new(Mutex::new([0; 4]));
         let (given, counted) = (scene.clone(), seen.clone());
         let options = BuildOptions::DEFAULT.with_tolerance(0.0).with_chooser(move |set| {

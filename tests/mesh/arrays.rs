@@ -44,7 +44,8 @@ fn assert_copied(tree: &BspTree) {
     assert_eq!(single.vertices, rounded);
     let rounded: Vec<f32> = double.weights.iter().map(|&weight| weight as f32).collect();
     assert_eq!(single.weights, rounded);
-    let whole = |a: &FragmentArrays<f64>| [a.offsets.clone(), a.polygons.clone(), a.weight_offsets.clone()];
+    let whole =
+        |a: &FragmentArrays<f64>| [a.offsets.clone(), a.polygons.clone(), a.weight_offsets.clone()];
     assert_eq!(
         whole(&double),
         [single.offsets.clone(), single.polygons.clone(), single.weight_offsets.clone()]
@@ -62,8 +63,8 @@ fn sums(tree: &BspTree, polygons: &[Corners]) -> Result<[usize; 3], TestCaseErro
     for (i, &polygon) in arrays.polygons.iter().enumerate() {
         let corners = &polygons[polygon as usize];
         let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
-        let allowed = 8.0
-            * (moved + lattice.length_to_world(1.0) + size * f64::EPSILON + f64::from_bits(1));
+        let allowed =
+            8.0 * (moved + lattice.length_to_world(1.0) + size * f64::EPSILON + f64::from_bits(1));
         for vertex in arrays.offsets[i] as usize..arrays.offsets[i + 1] as usize {
             let weights = weights(&arrays, vertex);
             counts[weights.len() - 1] += 1;
@@ -130,7 +131,13 @@ fn a_square_cut_in_two() {
     });
     let front = front.expect("the part beyond the upright square");
     let mut found: Vec<_> = (arrays.offsets[front] as usize..arrays.offsets[front + 1] as usize)
-        .map(|v| (arrays.vertices[v].map(|c| c.to_string()).join(" "), arrays.edges[v], weights(&arrays, v)))
+        .map(|v| {
+            (
+                arrays.vertices[v].map(|c| c.to_string()).join(" "),
+                arrays.edges[v],
+                weights(&arrays, v),
+            )
+        })
         .collect();
     found.sort_by(|a, b| a.0.cmp(&b.0));
     let expected = [

@@ -99,7 +99,10 @@ impl<'a> PieceSet<'a> {
     /// This is exact, with the tolerance: as the pieces will be divided. (Only a piece in whose plane a larger
     /// polygon lies may be divided otherwise: see [`Heuristic`](crate::Heuristic).) O(1) for most pieces, and a
     /// search among all corners for an axis plane.
-    pub fn sides(&self, plane: SplitPlane) -> Option<impl ExactSizeIterator<Item = Side> + use<'a>> {
+    pub fn sides(
+        &self,
+        plane: SplitPlane,
+    ) -> Option<impl ExactSizeIterator<Item = Side> + use<'a>> {
         let set = self.set;
         let prepared = set.prepare(self.plane(plane)?);
         Some((0..set.len()).map(move |piece| set.classify(&prepared, piece)))
@@ -108,7 +111,9 @@ impl<'a> PieceSet<'a> {
     /// The name of a plane, if there is such a plane.
     fn plane(&self, plane: SplitPlane) -> Option<PlaneId> {
         match plane {
-            SplitPlane::OfPiece(piece) => (piece < self.set.len()).then(|| self.set.own_plane(piece)),
+            SplitPlane::OfPiece(piece) => {
+                (piece < self.set.len()).then(|| self.set.own_plane(piece))
+            }
             SplitPlane::Axis { axis, coordinate } => {
                 if axis > 2 || !coordinate.is_finite() {
                     return None;

@@ -7,7 +7,7 @@ use super::{
 use binspace::BuildOptions;
 
 /// Options of the methods that [`all`] makes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
     /// How trees are built. The tolerance is that of the faces, whatever is said here.
@@ -52,13 +52,13 @@ impl Default for Options {
 
 /// The standard field of competitors, the exact tree first and the judge last.
 pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
-    let build = options.build;
-    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build))];
+    let build = options.build.clone();
+    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build.clone()))];
     for epsilon in [1e-12, 1e-9, 1e-6, 1e-3] {
-        methods.push(Box::new(Bsp::double(build, epsilon)));
+        methods.push(Box::new(Bsp::double(build.clone(), epsilon)));
     }
     for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
-        methods.push(Box::new(Bsp::single(build, epsilon)));
+        methods.push(Box::new(Bsp::single(build.clone(), epsilon)));
     }
     methods.push(Box::new(InputOrder));
     methods.push(Box::new(FrontFaces(InputOrder)));
