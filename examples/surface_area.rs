@@ -1,7 +1,7 @@
 //! A heuristic of your own: the surface area heuristic, which the library does not have.
 //!
 //! ```sh
-//! cargo run --release --example surface_area -- city:5000
+//! cargo run --release --example surface_area -- random:500
 //! ```
 //!
 //! Of the lines that meet a box, the share that meets a convex part of it is the ratio of their surface areas. So
@@ -12,7 +12,9 @@
 //! default heuristic chooses.
 //!
 //! The table compares the trees with those of the built-in heuristics. `visited` is what the paper's heuristic
-//! is for: the mean number of nodes whose boxes a line meets that meets the scene's box.
+//! is for: the mean number of nodes whose boxes a line meets that meets the scene's box. Of 500 triangles that
+//! cross at random it is 47, and 60 to 157 by the built-in heuristics. The price is 6 093 fragments, where the
+//! default makes 3 358.
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -82,7 +84,7 @@ fn build(scene: &Scene) -> Result<BspTree, binspace::Error> {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let name = std::env::args().nth(1).unwrap_or_else(|| "city:5000".to_owned());
+    let name = std::env::args().nth(1).unwrap_or_else(|| "random:500".to_owned());
     let scene = name.parse::<BuiltinSpec>()?.build(1);
     println!("{name}: {} polygons", scene.len());
     println!("{:<20} {:>9} {:>6} {:>8}", "heuristic", "fragments", "depth", "visited");
@@ -125,12 +127,11 @@ fn the_root_has_the_plane_of_least_cost() {
     }
 }
 
-/// A line meets fewer nodes than in the trees of most built-in heuristics, which are made for other ends.
 #[test]
-fn lines_visit_few_nodes() {
-    let scene = binspace::scene::city(1000, 1);
+fn lines_visit_fewer_nodes_than_in_all_built_in_trees() {
+    let scene = binspace::scene::random_triangles(500, 1);
     let own = visited(&build(&scene).unwrap());
-    for heuristic in [Heuristic::First, Heuristic::Random { seed: 0 }, Heuristic::FewestSplits] {
+    for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let other = visited(&options.build(scene.polygons()).unwrap());
         assert!(own < other, "{own}; {other} by {heuristic}");

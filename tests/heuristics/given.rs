@@ -203,9 +203,9 @@ fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
     }
 }
 
-/// Which side of the plane through three points a fourth is on.
+/// Which side of the plane through three points a fourth is on. All are multiples of a quarter.
 fn side_of([p, q, r]: [DVec3; 3], at: DVec3) -> i128 {
-    let [a, b, c] = [q - p, r - p, at - p].map(|arm| arm.to_array().map(|c| c as i128));
+    let [a, b, c] = [q - p, r - p, at - p].map(|arm| (arm * 4.0).to_array().map(|c| c as i128));
     a[0] * (b[1] * c[2] - b[2] * c[1])
         + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
@@ -221,7 +221,7 @@ fn side(values: impl Iterator<Item = i128>) -> Side {
     }
 }
 
-/// At the root of integer scenes, where integers say what a set must look like.
+/// At the root of scenes on a grid of quarters, where integers say what a set must look like.
 #[test]
 fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     let mut found = [0; 4];
@@ -264,7 +264,7 @@ fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
                         .expect("a corner");
                     let plane = SplitPlane::Axis { axis, coordinate };
                     for (other, found) in given.iter().zip(set.sides(plane).expect("a plane")) {
-                        let along = other.iter().map(|p| (p[axis] - nearest) as i128);
+                        let along = other.iter().map(|p| (4.0 * (p[axis] - nearest)) as i128);
                         assert_eq!(found, side(along), "{plane:?}");
                     }
                 }

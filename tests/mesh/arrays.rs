@@ -72,12 +72,12 @@ fn sums(tree: &BspTree, polygons: &[Corners]) -> Result<[usize; 3], TestCaseErro
             let total = rational::total(weights.iter().map(|&(_, w)| rational::exact(w)));
             let off = (total - rational::exact(1.0)).abs();
             proptest::prop_assert!(off <= rational::exact(1e-12), "{weights:?}");
-            for axis in 0..3 {
+            for (axis, &found) in arrays.vertices[vertex].iter().enumerate() {
                 let terms = weights.iter().map(|&(k, weight)| {
                     rational::exact(weight) * rational::exact(corners[k as usize][axis])
                 });
                 let sum = rational::total(terms);
-                let off = (sum - rational::exact(arrays.vertices[vertex][axis])).abs();
+                let off = (sum - rational::exact(found)).abs();
                 proptest::prop_assert!(
                     off <= rational::exact(allowed * largest),
                     "{weights:?} are not {:?}",
