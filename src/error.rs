@@ -242,7 +242,7 @@ impl fmt::Display for Error {
                 write!(f, "the polygons together have {limit} corners or more: divide the scene")
             }
             Kind::Indices => {
-                f.write_str("the mesh would have more than 2^32 indices: divide the scene")
+                f.write_str("the mesh, or an array of fragments, would have more than 2^32 indices: divide the scene")
             }
             Kind::PolygonsOfBudget(limit) => write!(
                 f,

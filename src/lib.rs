@@ -19,6 +19,8 @@
 //! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
 //! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
 //! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
+//! | copy all fragments to another language, a file or a device | [`BspTree::arrays`], [`BspTree::arrays_f32`] | |
+//! | choose the partition planes yourself | [`BuildOptions::with_chooser`], [`choose::PieceSet`] | `surface_area` |
 //! | write a tree to a file, or read a model | `BspTree::write`, `scene::Scene::read_obj` | |
 //! | divide a scene that is too large for one tree | [`partition`] | |
 //! | check a picture against a depth buffer | `verify::verify` | |
@@ -101,9 +103,15 @@ pub use save::LoadError;
 pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Part, Sides, Stats};
 pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
-/// Vertex and index buffers of a tree: [`BspTree::mesh`].
+/// What a heuristic of your own sees and returns: [`BuildOptions::with_chooser`].
+pub mod choose {
+    pub use crate::build::{PieceSet, SplitPlane};
+    pub use crate::exact::Side;
+}
+
+/// Vertex and index buffers of a tree, [`BspTree::mesh`]; all fragments as arrays, [`BspTree::arrays`].
 pub mod mesh {
-    pub use crate::tree::{Mesh, MeshVertex, Triangles};
+    pub use crate::tree::{FragmentArrays, Mesh, MeshVertex, Triangles};
 }
 
 /// The iterators that methods of [`BspTree`], [`Node`] and [`Order`] return.

@@ -158,7 +158,7 @@ pub(crate) struct VerifyArgs {
 pub(crate) struct StatsArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// How to choose splitters: a heuristic, or all [default: auto]
+    /// How to choose splitters: a heuristic, as listed below, or all [default: auto]
     #[arg(long, value_name = "H", value_parser = values::heuristics)]
     pub(crate) heuristic: Option<Heuristics>,
     #[command(flatten)]
@@ -255,5 +255,24 @@ mod tests {
         let default = binspace::BuildOptions::DEFAULT;
         assert!(help("max_fragments").contains(&format!("[default: {}]", default.max_fragments)));
         assert!(help("heuristic").contains(&format!("[default: {}]", default.heuristic)));
+    }
+
+    #[test]
+    fn the_help_of_stats_names_all_heuristics_with_their_papers() {
+        let help = super::examples::STATS;
+        let (_, list) = help.split_once("Heuristics").unwrap();
+        let names: Vec<String> = binspace::Heuristic::ALL.iter().map(|h| h.to_string()).collect();
+        let starts: Vec<usize> = names
+            .iter()
+            .map(|name| {
+                let name = name.split('(').next().unwrap();
+                list.find(&format!("\n  {name}")).unwrap_or_else(|| panic!("{name} is missing"))
+            })
+            .collect();
+        let ends = starts.iter().skip(1).copied().chain([list.len()]);
+        for ((name, &start), end) in names.iter().zip(&starts).zip(ends) {
+            let year = |words: &str| ["19", "20"].iter().any(|c| words.contains(&format!(" {c}")));
+            assert!(year(&list[start..end]), "{name} has no paper");
+        }
     }
 }

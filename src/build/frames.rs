@@ -150,7 +150,7 @@ impl FrameBuilder {
 impl Clone for FrameBuilder {
     /// A builder with the same options and tree, and no spare memory.
     fn clone(&self) -> Self {
-        Self { tree: self.tree.clone(), ..Self::new(self.options) }
+        Self { tree: self.tree.clone(), ..Self::new(self.options.clone()) }
     }
 }
 

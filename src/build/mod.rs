@@ -12,5 +12,6 @@ mod options;
 pub(crate) mod piece;
 mod subtree;
 
+pub use choose::{PieceSet, SplitPlane};
 pub use frames::FrameBuilder;
 pub use options::{BuildOptions, Heuristic, ParseHeuristicError};

@@ -2,9 +2,11 @@
 
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::choose::{GivenChooser, PieceSet, SplitPlane};
 use crate::faces::Tolerance;
 
 /// The options of a build; [`BspTree::build`](crate::BspTree::build) takes the defaults.
@@ -20,7 +22,7 @@ use crate::faces::Tolerance;
 /// assert_eq!(options.build([square])?.len(), 1);
 /// # Ok::<(), binspace::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BuildOptions {
     /// How partition planes are chosen. Default: [`Heuristic::Auto`].
@@ -40,6 +42,7 @@ pub struct BuildOptions {
     /// polygons: one that holds all that an [`Overlay`](crate::overlay::Overlay) will have. It counts as part
     /// of the scene where the scene's extent matters, as for the default tolerance. Default: none.
     pub bounds: Option<[DVec3; 2]>,
+    pub(super) chooser: Option<GivenChooser>,
 }
 
 impl BuildOptions {
@@ -50,42 +53,89 @@ impl BuildOptions {
         max_fragments: 1 << 25,
         max_depth: usize::MAX,
         bounds: None,
+        chooser: None,
     };
 
     /// Sets how partition planes are chosen.
     #[must_use]
-    pub const fn with_heuristic(self, heuristic: Heuristic) -> Self {
-        Self { heuristic, ..self }
+    pub const fn with_heuristic(mut self, heuristic: Heuristic) -> Self {
+        self.heuristic = heuristic;
+        self
     }
 
     /// Sets the coplanar tolerance, a length of 0 or more in the polygons' unit.
     #[must_use]
-    pub const fn with_tolerance(self, length: f64) -> Self {
-        Self { tolerance: Tolerance::Length(length), ..self }
+    pub const fn with_tolerance(mut self, length: f64) -> Self {
+        self.tolerance = Tolerance::Length(length);
+        self
     }
 
     /// Sets the coplanar tolerance, a share of the scene's extent of 0 or more.
     #[must_use]
-    pub const fn with_relative_tolerance(self, share: f64) -> Self {
-        Self { tolerance: Tolerance::Relative(share), ..self }
+    pub const fn with_relative_tolerance(mut self, share: f64) -> Self {
+        self.tolerance = Tolerance::Relative(share);
+        self
     }
 
     /// Sets the most fragments.
     #[must_use]
-    pub const fn with_max_fragments(self, max_fragments: usize) -> Self {
-        Self { max_fragments, ..self }
+    pub const fn with_max_fragments(mut self, max_fragments: usize) -> Self {
+        self.max_fragments = max_fragments;
+        self
     }
 
     /// Sets the most nodes on a path from the root.
     #[must_use]
-    pub const fn with_max_depth(self, max_depth: usize) -> Self {
-        Self { max_depth, ..self }
+    pub const fn with_max_depth(mut self, max_depth: usize) -> Self {
+        self.max_depth = max_depth;
+        self
     }
 
     /// Sets two opposite corners of a box that holds all that will move.
     #[must_use]
-    pub const fn with_bounds(self, corner: DVec3, opposite: DVec3) -> Self {
-        Self { bounds: Some([corner, opposite]), ..self }
+    pub const fn with_bounds(mut self, corner: DVec3, opposite: DVec3) -> Self {
+        self.bounds = Some([corner, opposite]);
+        self
+    }
+
+    /// Sets a heuristic of your own: a function that chooses the plane that divides a set of pieces.
+    ///
+    /// It is called once for each set of two or more pieces. Where it returns `None`, or a plane that does not
+    /// divide the set, [`heuristic`](Self::heuristic) chooses instead. Such a plane leaves all pieces on one
+    /// side, or names a piece, axis or coordinate that does not exist. So whatever the function returns, the
+    /// tree is exact, its build ends, and budgets and cancellation work.
+    ///
+    /// Several threads call it at the same time, in any order. If its result depends on the set alone, the tree
+    /// is the same with any number of threads. If it panics, so does the build.
+    ///
+    /// It also chooses for a [`FrameBuilder`](crate::FrameBuilder) with these options, for the cells of a
+    /// [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files of trees store the
+    /// planes and not the function.
+    ///
+    /// ```
+    /// use binspace::choose::SplitPlane;
+    /// use binspace::{BuildOptions, Heuristic, scene};
+    ///
+    /// // A k-d tree: the median of the pieces' middles, along each axis in turn.
+    /// let options = BuildOptions::DEFAULT.with_chooser(|set| {
+    ///     let axis = set.depth() % 3;
+    ///     let middle = |piece| 0.5 * (set.bounds(piece)[0][axis] + set.bounds(piece)[1][axis]);
+    ///     let mut middles: Vec<f64> = (0..set.piece_count()).map(middle).collect();
+    ///     middles.sort_by(f64::total_cmp);
+    ///     Some(SplitPlane::Axis { axis, coordinate: middles[middles.len() / 2] })
+    /// });
+    /// let scene = scene::city(200, 1);
+    /// let [own, auto] = [options, BuildOptions::DEFAULT].map(|o| o.build(scene.polygons()));
+    /// assert!(own?.len() > auto?.len());
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_chooser(
+        mut self,
+        chooser: impl Fn(&PieceSet<'_>) -> Option<SplitPlane> + Send + Sync + 'static,
+    ) -> Self {
+        self.chooser = Some(GivenChooser(Arc::new(chooser)));
+        self
     }
 }
 
@@ -105,26 +155,32 @@ impl Default for BuildOptions {
 /// the polygon's own plane: the plane of the larger one divides the set instead. Free planes may cut
 /// both.
 ///
+/// A heuristic of your own goes before them: [`BuildOptions::with_chooser`].
+///
 /// Every heuristic is deterministic. Those that would try the planes of all polygons of a set try at
 /// most 96 of them, spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {
-    /// The plane of the first polygon in input order. The cheapest choice, with up to 14 times as
-    /// many fragments as a scored one.
+    /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
+    /// 1980). The cheapest choice, with up to 14 times as many fragments as a scored one.
     First,
     /// The plane of a random polygon; the same seed gives the same tree. The expected number of
-    /// fragments is O(n log n) for segments in the plane (Paterson and Yao, 1990) and O(n²) in space.
+    /// fragments is O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient
+    /// binary space partitions for hidden-surface removal and solid modeling”, 1990).
     Random {
         /// Seed of the pseudo-random sequence.
         seed: u64,
     },
-    /// The polygon's plane that cuts the fewest polygons.
+    /// The polygon's plane that cuts the fewest polygons (Fuchs, Abram and Grant, “Near real-time shaded
+    /// display of rigid objects”, 1983).
     FewestSplits,
     /// The polygon's plane with the smallest difference between the numbers of polygons in front and
-    /// behind.
+    /// behind. Naylor (“Constructing good partitioning trees”, 1993) says why balance alone makes no good tree.
     Balanced,
-    /// The polygon's plane with the lowest weighted sum of the two, and of a bonus.
+    /// The polygon's plane with the lowest weighted sum of the two, and of a bonus: the trade between cuts and
+    /// balance of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning trees”,
+    /// 1987).
     Weighted {
         /// Cost of each polygon that the plane cuts. Default 8.
         splits: f64,
@@ -134,16 +190,20 @@ pub enum Heuristic {
         axial: f64,
     },
     /// [`Weighted`](Self::Weighted) with its default weights, over a sample of the polygons' planes,
-    /// as the level builders of id Software's games do.
+    /// as the level builders of id Software's games do. (That a few candidates do was found by Fuchs, Abram and
+    /// Grant, 1983.)
     Sampled {
         /// How many planes are tried at each node. Default 16.
         candidates: u32,
     },
-    /// Free planes by the cost of [`Auto`](Self::Auto). A set of which all polygons lie in one plane, or for
+    /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
+    /// searching”, 1975), by the cost of [`Auto`](Self::Auto). They are found by a binned sweep (Wald, “On fast
+    /// construction of SAH-based bounding volume hierarchies”, 2007). A set of which all polygons lie in one plane, or for
     /// which no free plane is found that separates anything, is split by the plane of a polygon.
     FreePlanes,
     /// The best of both kinds of planes by one cost. The default: the fewest fragments on most
-    /// scenes.
+    /// scenes. The cost is the library's own; polygons' planes are compared by successive halving (Karnin, Koren
+    /// and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a
     /// plane estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n

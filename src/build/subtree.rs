@@ -44,7 +44,7 @@ impl<'a> Shared<'a> {
         watch: &'a Watch<'a>,
     ) -> Result<Self, Error> {
         let budget = Budget::new(options, faces.len())?;
-        let rules = ChooseContext { heuristic: options.heuristic, tuning, watch };
+        let rules = ChooseContext::new(options, tuning, watch);
         Ok(Self { faces, options, rules, budget, planes: &[], keeps_positions: false })
     }
 
@@ -148,6 +148,7 @@ impl Builder {
         shared.budget.check_depth(pending.depth + 1)?;
         let mut set = Set::new(shared.faces, &pieces[start..], arena);
         set.planes = shared.planes;
+        set.depth = pending.depth;
         let own = PlaneId::face(first.face);
         let choice = if is_leaf(set.pieces) {
             // Only the root can be a leaf here: other leaves were stored with their parents.

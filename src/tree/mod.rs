@@ -1,5 +1,6 @@
 //! The finished tree.
 
+mod arrays;
 pub(crate) mod bounds;
 pub(crate) mod bsp_tree;
 pub(crate) mod culling;
@@ -15,6 +16,7 @@ mod tests;
 #[cfg(feature = "validate")]
 mod validate;
 
+pub use arrays::FragmentArrays;
 pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::{Culling, Sides};

@@ -8,7 +8,7 @@ use testkit::prelude::*;
 use testkit::shapes::sheet;
 
 fn checked(polygons: Vec<Corners>, options: BuildOptions, cells: usize) -> usize {
-    let scene = Divided::new(polygons, options, cells).unwrap();
+    let scene = Divided::new(polygons, options.clone(), cells).unwrap();
     check(&scene, options).unwrap_or_else(|what| panic!("{cells} cells: {what}"))
 }
 
@@ -31,7 +31,7 @@ fn every_hard_polygon_is_in_all_cells_together_once() {
     let cases = (hard::scene(), 1..10_usize);
     let cut = tally(file!(), 150, cases, |cut: &mut usize, (scene, cells)| {
         let options = scene.options(Heuristic::default());
-        let divided = Divided::new(scene.polygons, options, cells).expect("a tree of each");
+        let divided = Divided::new(scene.polygons, options.clone(), cells).expect("a tree of each");
         *cut += check(&divided, options).map_err(fail)?;
         Ok(())
     });

@@ -24,7 +24,7 @@ fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
         let mut dice = Dice(cells as u64 * 31);
         for polygons in [triangles(&mut dice, 60, 30), tiles(&mut dice, 60)] {
             let options = BuildOptions::DEFAULT;
-            let scene = Divided::new(polygons, options, cells).unwrap();
+            let scene = Divided::new(polygons, options.clone(), cells).unwrap();
             for (number, cell) in scene.cells.iter().enumerate() {
                 let of_all = options.build_cell(&scene.partition, number, &scene.polygons).unwrap();
                 let own = fragments(&cell.tree, |polygon| cell.given[polygon]);
@@ -41,7 +41,7 @@ fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
 fn one_cell_is_the_tree_of_all() {
     let polygons = triangles(&mut Dice(2), 80, 50);
     let options = BuildOptions::DEFAULT;
-    let scene = Divided::new(polygons, options, 1).unwrap();
+    let scene = Divided::new(polygons, options.clone(), 1).unwrap();
     let all = options.build(&scene.polygons).unwrap();
     assert_eq!(fragments(&scene.cells[0].tree, |p| p), fragments(&all, |p| p));
     let stats = scene.cells[0].tree.stats();
@@ -185,7 +185,7 @@ fn what_cannot_be_divided_is_an_error() {
     let mut all = Extent::default();
     all.include(&polygon);
     let none: [DVec3; 0] = [];
-    assert!(options.with_tolerance(-1.0).partition(&all, none, 2).is_err());
+    assert!(options.clone().with_tolerance(-1.0).partition(&all, none, 2).is_err());
     let mut wrong = all;
     wrong.include(&[[0.0, f64::NAN, 0.0]]);
     assert!(wrong.low.y.is_nan() && wrong.high.y.is_nan());
@@ -213,7 +213,7 @@ fn what_cannot_be_divided_is_an_error() {
 fn what_is_added_is_cut_to_the_cell() {
     let options = BuildOptions::DEFAULT;
     let polygons = triangles(&mut Dice(12), 60, 30);
-    let scene = Divided::new(polygons.clone(), options, 5).unwrap();
+    let scene = Divided::new(polygons.clone(), options.clone(), 5).unwrap();
     let own = |tree: &BspTree| {
         let mut own = fragments(tree, |polygon| polygon);
         own.iter_mut()
@@ -244,7 +244,7 @@ fn what_is_added_again_is_known_by_its_corners_as_given() {
     };
     let polygons: Vec<Corners> = (0..20).map(bent).collect();
     let options = BuildOptions::DEFAULT.with_tolerance(1e-6);
-    let scene = Divided::new(polygons.clone(), options, 4).unwrap();
+    let scene = Divided::new(polygons.clone(), options.clone(), 4).unwrap();
     for cell in 0..4 {
         let mut tree = options.build_cell(&scene.partition, cell, &polygons).unwrap();
         let own = tree.preparation().polygons - tree.preparation().dropped;
@@ -330,7 +330,7 @@ fn a_cell_behind_the_last_is_refused() {
 fn bounds_of_the_options_are_held_too() {
     let square = |z: f64| -> Corners { sheet(2, z, 1.0).map(DVec3::from).to_vec() };
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::splat(100.0));
-    let scene = Divided::new(vec![square(0.0), square(1.0)], options, 2).unwrap();
+    let scene = Divided::new(vec![square(0.0), square(1.0)], options.clone(), 2).unwrap();
     let whole = options.build(&scene.polygons).unwrap();
     assert_eq!(scene.cells[0].tree.grid(), whole.grid());
     assert!(options.build_cell(&scene.partition, 1, [square(99.0)]).is_ok());
@@ -380,8 +380,8 @@ fn budgets_and_cancels_count_in_cells() {
 
     let options = BuildOptions::DEFAULT;
     let polygons = triangles(&mut Dice(21), 200, 30);
-    let scene = Divided::new(polygons, options, 3).unwrap();
-    let few = options.with_max_fragments(50);
+    let scene = Divided::new(polygons, options.clone(), 3).unwrap();
+    let few = options.clone().with_max_fragments(50);
     let error = few.build_cell(&scene.partition, 1, &scene.polygons).unwrap_err();
     assert!(error.kind() == ErrorKind::OverBudget, "{error}");
     let endless = std::iter::repeat(&scene.polygons[0]);

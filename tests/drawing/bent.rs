@@ -240,9 +240,12 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
 fn crossings_along_bends_are_those_that_rays_meet() {
     let (mut dice, mut score) = (Dice(14), Score::default());
     let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
-    for (count, rounds, options) in
-        [(1, 24, exact), (8, 4, exact), (8, 4, BuildOptions::DEFAULT), (30, 1, exact)]
-    {
+    for (count, rounds, options) in [
+        (1, 24, exact.clone()),
+        (8, 4, exact.clone()),
+        (8, 4, BuildOptions::DEFAULT),
+        (30, 1, exact),
+    ] {
         for round in 0..rounds {
             let tree = options.build(pairs(&mut dice, count)).unwrap();
             let place = dice.point(-1.0, 1.0).normalize() * if round % 4 == 0 { 0.8 } else { 4.0 };

@@ -2,6 +2,7 @@
 //! rationals: on integer scenes, where it is certain what a plane cuts.
 
 mod divided;
+mod given;
 
 use binspace::internals::PlaneKind;
 use divided::{Counts, Divided, nodes, work};

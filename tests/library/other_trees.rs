@@ -24,7 +24,7 @@ fn frame(is_turned: bool) -> impl Iterator<Item = [[f64; 3]; 4]> {
 fn frames() -> Vec<[BspTree; 3]> {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let build = |is_turned| options.build(frame(is_turned)).expect("within budget");
-    let mut builder = FrameBuilder::new(options);
+    let mut builder = FrameBuilder::new(options.clone());
     let mut rebuild = |is_turned| builder.build(frame(is_turned)).expect("within budget").clone();
     let frames = vec![[false, true, false].map(build), [false, true, false].map(&mut rebuild)];
     for [one, other, _] in &frames {

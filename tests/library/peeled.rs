@@ -42,7 +42,7 @@ fn convex_bodies_are_taken_apart_in_input_order_within_their_depth() {
             assert_eq!(tree.validate(), Ok(()), "{count} of {side}");
             assert_eq!(tree.len(), count, "{side}");
             let depth = tree.stats().depth_max;
-            assert!(options.with_max_depth(depth).build(polygons).is_ok());
+            assert!(options.clone().with_max_depth(depth).build(polygons).is_ok());
             let less = options.with_max_depth(depth - 1).build(polygons);
             assert!(
                 less.is_err_and(|error| error.kind() == ErrorKind::OverBudget),

@@ -194,17 +194,18 @@ fn the_tolerance_is_the_precision_within_bounds_or_what_is_asked() {
         (f64::NAN, 1e-9),
         (-1.0, 1e-9),
     ] {
-        near(tolerance_of(precision, default), expected);
+        near(tolerance_of(precision, default.clone()), expected);
     }
-    near(tolerance_of(1e-7, default.with_tolerance(1e-4)), 1e-4);
-    near(tolerance_of(1e-7, default.with_relative_tolerance(1e-3)), 1e-3);
-    assert_eq!(tolerance_of(1e-7, default.with_tolerance(0.0)), 0.0);
-    assert_eq!(tolerance_of(1e-7, default.with_relative_tolerance(0.0)), 0.0);
-    let largest = tolerance_of(0.0, default.with_tolerance(f64::INFINITY));
-    near(tolerance_of(0.0, default.with_relative_tolerance(f64::INFINITY)), largest);
+    near(tolerance_of(1e-7, default.clone().with_tolerance(1e-4)), 1e-4);
+    near(tolerance_of(1e-7, default.clone().with_relative_tolerance(1e-3)), 1e-3);
+    assert_eq!(tolerance_of(1e-7, default.clone().with_tolerance(0.0)), 0.0);
+    assert_eq!(tolerance_of(1e-7, default.clone().with_relative_tolerance(0.0)), 0.0);
+    let largest = tolerance_of(0.0, default.clone().with_tolerance(f64::INFINITY));
+    near(tolerance_of(0.0, default.clone().with_relative_tolerance(f64::INFINITY)), largest);
     assert!((1.0 / 256.0..=1.0 / 128.0).contains(&largest), "{largest}");
     for wrong in [-1e-9, f64::NAN] {
-        let error = default.with_relative_tolerance(wrong).build([[[0.0; 3]; 3]]).unwrap_err();
+        let error =
+            default.clone().with_relative_tolerance(wrong).build([[[0.0; 3]; 3]]).unwrap_err();
         assert!(error.to_string().contains("tolerance"), "{error}");
     }
     assert_eq!(Tolerance::from(None), Tolerance::Default);

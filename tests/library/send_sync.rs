@@ -1,12 +1,13 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
+use binspace::choose::{PieceSet, SplitPlane};
 use binspace::internals::{
     EdgeLine, Eye, Lattice, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexId,
     VertexKind,
 };
 use binspace::iter::{FragmentsIn, Hits, Nodes, Ordered};
 use binspace::layers::{Layer, LayerPiece, LayerVertex, Layers};
-use binspace::mesh::{Mesh, Triangles};
+use binspace::mesh::{FragmentArrays, Mesh, Triangles};
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::{Marker, Overlaid, Overlay, OverlayOrder, Segment, Shape};
 use binspace::raster::{Comparison, DepthImage, Image};
@@ -32,9 +33,20 @@ macro_rules! assert_shared {
 // Trees, and what they hand out; building, and what can go wrong.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Child<'_>, CoverageMask<'_>, Culling, Frustum, Order<'_>, Nodes<'_>, Part<'_>);
-assert_shared!(BspTree, Fragment<'_>, Ordered<'_>, Mesh, Node<'_>, Stats, Triangles, Viewpoint);
+assert_shared!(
+    FragmentArrays<f32>,
+    BspTree,
+    Fragment<'_>,
+    Ordered<'_>,
+    Mesh,
+    Node<'_>,
+    Stats,
+    Triangles,
+    Viewpoint
+);
 assert_shared!(Overlay, Overlaid<'_>, OverlayOrder<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
+assert_shared!(PieceSet<'_>, SplitPlane);
 assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError);
 // Geometry.
 assert_shared!(Faces, Preparation, Lattice, PreparedPlane, StoredVertex, Vertex, Eye, EdgeLine);

@@ -69,7 +69,7 @@ fn iterators_that_are_wrong_about_their_size_are_read_all_the_same() {
                 Hinted { items: items.into_iter(), hint: of_polygons }
             };
             let name = format!("{of_polygons:?} polygons of {of_corners:?} corners");
-            let mut frames = FrameBuilder::new(options);
+            let mut frames = FrameBuilder::new(options.clone());
             let goes_on = |_| ControlFlow::Continue(());
             for tree in [
                 &BspTree::build(hinted(&outlines)).unwrap(),
@@ -92,7 +92,7 @@ fn iterators_that_are_wrong_about_their_size_are_read_all_the_same() {
             let (faces, _) = Faces::new(hinted(&outlines), None).unwrap();
             assert_eq!(faces.len(), BspTree::build(&outlines).unwrap().faces().len(), "{name}");
             // The limit is on what comes, not on what a hint says.
-            let most = options.with_max_fragments(outlines.len() - 1);
+            let most = options.clone().with_max_fragments(outlines.len() - 1);
             assert!(
                 most.build(hinted(&outlines)).unwrap_err().kind() == ErrorKind::OverBudget,
                 "{name}"

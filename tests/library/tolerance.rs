@@ -33,7 +33,7 @@ fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
 
 fn built(polygons: &[[DVec3; 4]], tolerance: Option<f64>) -> BspTree {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
-    let options = tolerance.map_or(options, |length| options.with_tolerance(length));
+    let options = tolerance.map_or(options.clone(), |length| options.with_tolerance(length));
     options.build(polygons).unwrap()
 }
 

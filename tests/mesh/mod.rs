@@ -1,5 +1,6 @@
 //! Meshes of trees: what is shared, what is welded, and in which order indices are written.
 
+mod arrays;
 mod closed;
 mod exact;
 mod junctions;

@@ -83,7 +83,7 @@ fn rays_through_large_scenes_hit_what_integers_say() {
             (Some(1e-3), Heuristic::Sampled { candidates: 16 }, rays / 6),
         ] {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-            let options = tolerance.map_or(options, |t: f64| options.with_tolerance(t));
+            let options = tolerance.map_or(options.clone(), |t: f64| options.with_tolerance(t));
             let tree = options.build(polygons).unwrap();
             let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));
             let mut dice = Dice(23);

@@ -20,7 +20,7 @@ fn points_are_where_rationals_say() {
         for heuristic in [Heuristic::Auto, Heuristic::First, Heuristic::FreePlanes] {
             // Half with the default tolerance, by which a polygon may reach out of its leaf.
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-            let exact = options.with_tolerance(0.0);
+            let exact = options.clone().with_tolerance(0.0);
             let options = if heuristic == Heuristic::Auto { options } else { exact };
             let tree = options.build(scene.polygons()).unwrap();
             let (oracle, shots) = (Oracle::new(&tree), Shots::new(tree.faces()));

@@ -137,7 +137,7 @@ fn a_square_that_touches_a_plane_with_an_edge_is_not_cut() {
         let wall = square(0, [0.0, 0.0, side]);
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
         for tolerance in [0.0, 1e-9, 1e-3] {
-            let tree = options.with_tolerance(tolerance).build([&floor, &wall]).unwrap();
+            let tree = options.clone().with_tolerance(tolerance).build([&floor, &wall]).unwrap();
             assert_eq!(tree.len(), 2);
             assert!(tree.fragments().all(|fragment| fragment.is_whole()));
             let order = polygons(&tree, Viewpoint::eye([5.0, 0.0, 7.0]));

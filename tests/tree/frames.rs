@@ -31,7 +31,7 @@ fn a_frame_has_the_tree_that_is_built_alone() {
             let mut dice = Dice(seed);
             // Options belong to the builder, so its scenes have one tolerance.
             let options = scenes[0].options(by);
-            let mut builder = FrameBuilder::new(options);
+            let mut builder = FrameBuilder::new(options.clone());
             for scene in &scenes {
                 let alone = alone(&options, &scene.polygons).map_err(fail)?;
                 let tree = builder.build(&scene.polygons).map_err(fail)?;
@@ -103,12 +103,14 @@ fn crossing_cards_of_every_small_number_keep_their_budgets()
         let cards = &cards[..count];
         let options = BuildOptions::DEFAULT;
         let build = |options| FrameBuilder::new(options).build(cards).cloned();
-        let tree = build(options)?;
+        let tree = build(options.clone())?;
         tree.validate()?;
         let (pieces, depth) = (tree.len(), tree.stats().depth_max);
-        let enough = options.with_max_fragments(pieces).with_max_depth(depth);
+        let enough = options.clone().with_max_fragments(pieces).with_max_depth(depth);
         assert_eq!(build(enough)?.len(), pieces);
-        for less in [options.with_max_fragments(pieces - 1), options.with_max_depth(depth - 1)] {
+        for less in
+            [options.clone().with_max_fragments(pieces - 1), options.with_max_depth(depth - 1)]
+        {
             assert!(build(less).is_err_and(|error| error.kind() == ErrorKind::OverBudget));
         }
         if count > 25 {

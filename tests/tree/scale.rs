@@ -71,7 +71,7 @@ fn a_sphere_of_100_000_faces_needs_a_small_stack_and_a_shallow_tree() {
 fn a_list_of_10_000_nodes_is_built_ordered_validated_and_dropped_on_a_small_stack() {
     let chain = scene::chain(10_000);
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
-    let stats = go_through(&chain, options);
+    let stats = go_through(&chain, options.clone());
     enough!(stats.depth_max >= 9_999; "{stats:?}");
     validate(&scene::chain(3_000), options);
 }
@@ -129,11 +129,11 @@ fn assert_input_order(scene: &Scene, options: BuildOptions) {
 fn coplanar_polygons_share_one_node() {
     for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-        assert_input_order(&nested(10_000), options);
+        assert_input_order(&nested(10_000), options.clone());
         for (count, are_squares) in
             [(3, false), (30, false), (300, false), (450, true), (500, true), (5000, true)]
         {
-            assert_input_order(&tilted(count, are_squares), options.with_tolerance(0.0));
+            assert_input_order(&tilted(count, are_squares), options.clone().with_tolerance(0.0));
         }
     }
     let mosaic = mosaic(200);
@@ -180,14 +180,14 @@ fn budgets_end_in_errors_that_say_the_limit() {
     for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         for limit in [0, 1, 2999, 3500] {
-            let error = error(&crowd, options.with_max_fragments(limit));
+            let error = error(&crowd, options.clone().with_max_fragments(limit));
             assert!(
                 error.kind() == ErrorKind::OverBudget
                     && error.to_string().contains(&limit.to_string())
             );
         }
         for limit in [0, 1, 5] {
-            let error = error(&crowd, options.with_max_depth(limit));
+            let error = error(&crowd, options.clone().with_max_depth(limit));
             assert!(
                 error.kind() == ErrorKind::OverBudget
                     && error.to_string().contains(&limit.to_string())
@@ -207,7 +207,7 @@ fn a_budget_that_just_suffices_is_no_error() {
         let exact = options.with_max_fragments(stats.fragments).with_max_depth(stats.depth_max);
         assert_eq!(exact.build(crowd.polygons()).unwrap().stats(), stats, "{heuristic}");
         for less in [
-            exact.with_max_fragments(stats.fragments - 1),
+            exact.clone().with_max_fragments(stats.fragments - 1),
             exact.with_max_depth(stats.depth_max - 1),
         ] {
             assert!(less.build(crowd.polygons()).is_err(), "{heuristic}");

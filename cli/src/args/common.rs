@@ -56,8 +56,13 @@ pub(crate) struct LimitArgs {
 impl LimitArgs {
     /// The options to build with.
     pub(crate) fn options(self, heuristic: Heuristic) -> BuildOptions {
-        let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-        let options = self.max_fragments.map_or(options, |most| options.with_max_fragments(most));
-        self.tolerance.map_or(options, |length| options.with_tolerance(length))
+        let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+        if let Some(most) = self.max_fragments {
+            options = options.with_max_fragments(most);
+        }
+        match self.tolerance {
+            Some(length) => options.with_tolerance(length),
+            None => options,
+        }
     }
 }

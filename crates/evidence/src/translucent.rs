@@ -128,7 +128,8 @@ mod tests {
         ] {
             let options = BuildOptions::DEFAULT.with_tolerance(0.0);
             for heuristic in [Heuristic::Auto, Heuristic::First] {
-                let tree = options.with_heuristic(heuristic).build(scene.polygons()).unwrap();
+                let tree =
+                    options.clone().with_heuristic(heuristic).build(scene.polygons()).unwrap();
                 let (low, high) = scene.bounds().unwrap();
                 for camera in view::views([low, high], scene.up(), 4, [64, 48], 7).unwrap() {
                     let rays = Rays::new(&camera, tree.faces()).unwrap();

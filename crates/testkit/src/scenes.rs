@@ -23,9 +23,9 @@ pub fn scene_of(
 
 /// A tree by each heuristic, and one of a frame, all with their names.
 pub fn trees<P: Polygon>(polygons: &[P], options: BuildOptions) -> Vec<(String, BspTree)> {
-    let frame = FrameBuilder::new(options).build(polygons).expect("a frame").clone();
+    let frame = FrameBuilder::new(options.clone()).build(polygons).expect("a frame").clone();
     let tree = |&heuristic: &Heuristic| {
-        let tree = options.with_heuristic(heuristic).build(polygons).expect("a tree");
+        let tree = options.clone().with_heuristic(heuristic).build(polygons).expect("a tree");
         (heuristic.to_string(), tree)
     };
     Heuristic::ALL.iter().map(tree).chain([("frame".to_owned(), frame)]).collect()

@@ -1,5 +1,6 @@
 //! Choosing the plane that divides a set of pieces.
 //!
+//! All of them go through `Chooser::choose`: `given` is a function of the caller, which is asked first.
 //! `auto` is the default heuristic; `own` has those that only try the pieces' own planes, and the contest of
 //! these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` in frames an own plane of a
 //! small set that is good enough, `peel` pieces that planes at the border of a set take off without a cut.
@@ -9,20 +10,24 @@ mod auto;
 mod axis_planes;
 mod cost;
 mod frame_planes;
+mod given;
 mod own;
 mod peel;
 mod set;
 mod tuning;
 
-use super::options::{DEFAULT_WEIGHTS, Heuristic};
+use super::options::{BuildOptions, DEFAULT_WEIGHTS, Heuristic};
 use super::piece::Division;
 use crate::Error;
 use crate::exact::PlaneId;
 use crate::progress::Watch;
 use crate::random::mix;
 use auto::Auto;
+use given::SortedCorners;
 use own::Scored;
 
+pub(super) use given::GivenChooser;
+pub use given::{PieceSet, SplitPlane};
 pub(super) use peel::Peeled;
 pub(super) use set::Set;
 pub use tuning::{FrameTuning, Tuning};
@@ -46,6 +51,12 @@ impl Chooser {
         division: &mut Division,
     ) -> Result<Choice, Error> {
         division.plane = None;
+        if let Some(given) = rules.given {
+            if let Some(plane) = given.plane(set, &rules.corners, rules.watch, division)? {
+                return Ok(Choice::Split(plane));
+            }
+            division.plane = None;
+        }
         let most = rules.tuning.own_planes;
         let lowest = || (0..set.len()).min_by_key(|&piece| set.pieces[piece].face).unwrap_or(0);
         Ok(Choice::Split(match rules.heuristic {
@@ -112,12 +123,26 @@ pub(in crate::build) enum Choice {
 }
 
 /// The settings of the chooser.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(in crate::build) struct ChooseContext<'a> {
+    /// What chooses first, if there is one.
+    pub(in crate::build) given: Option<&'a GivenChooser>,
+    pub(in crate::build) corners: SortedCorners,
     pub(in crate::build) heuristic: Heuristic,
     pub(in crate::build) tuning: &'a Tuning,
     /// Once a build is cancelled, any plane is chosen, quickly.
     pub(in crate::build) watch: &'a Watch<'a>,
+}
+
+impl<'a> ChooseContext<'a> {
+    pub(in crate::build) fn new(
+        options: &'a BuildOptions,
+        tuning: &'a Tuning,
+        watch: &'a Watch<'a>,
+    ) -> Self {
+        let (given, corners) = (options.chooser.as_ref(), SortedCorners::default());
+        Self { given, corners, heuristic: options.heuristic, tuning, watch }
+    }
 }
 
 #[cfg(test)]

@@ -259,6 +259,8 @@ pub(crate) struct Set<'a> {
     pub(super) arena: &'a [Vertex],
     /// The planes of all faces, where they were prepared in advance.
     pub(in crate::build) planes: &'a [PreparedPlane],
+    /// How many planes divided the pieces from others.
+    pub(in crate::build) depth: usize,
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
@@ -282,7 +284,7 @@ impl<'a> Set<'a> {
                 raise(&mut last_begin[axis], piece.min[axis]);
             }
         }
-        Self { faces, pieces, arena, planes: &[], min, max, first_end, last_begin }
+        Self { faces, pieces, arena, planes: &[], depth: 0, min, max, first_end, last_begin }
     }
 
     pub(super) fn len(&self) -> usize {

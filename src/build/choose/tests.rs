@@ -110,7 +110,7 @@ fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let watch = Watch::default();
     for sides in 8..14 {
         let fixture = Fixture::new(&prism(sides), 1e-9);
-        let rules = ChooseContext { heuristic: Heuristic::Auto, tuning: &tuning, watch: &watch };
+        let rules = ChooseContext::new(&BuildOptions::DEFAULT, &tuning, &watch);
         let mut chooser = Chooser::default();
         let choice =
             chooser.choose(&rules, &fixture.set(), false, &mut Division::default()).unwrap();
@@ -129,7 +129,8 @@ fn a_sample_is_spread_over_the_set() {
 
 fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> PlaneId {
     let (fixture, watch) = (Fixture::new(polygons, 0.0), Watch::default());
-    let rules = ChooseContext { heuristic, tuning: &Tuning::DEFAULT, watch: &watch };
+    let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
+    let rules = ChooseContext::new(&options, &Tuning::DEFAULT, &watch);
     match Chooser::default()
         .choose(&rules, &fixture.set(), false, &mut Division::default())
         .unwrap()

@@ -119,7 +119,8 @@ fn exact_rays_confirm_what_planes_excuse() {
     let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     for round in 0..36 {
         let tolerance = [1e-2, 1e-3, 1e-5][round % 3];
-        let tree = first.with_tolerance(tolerance).build(walls(&mut random, tolerance)).unwrap();
+        let tree =
+            first.clone().with_tolerance(tolerance).build(walls(&mut random, tolerance)).unwrap();
         let eye = DVec3::new(-1.0, 0.0, tolerance * random.range(-2.0, 2.0));
         let target = DVec3::new(1.0, 0.0, tolerance * random.range(-2.0, 2.0));
         let size = [6, 40];

@@ -7,7 +7,7 @@ use super::{
 use binspace::BuildOptions;
 
 /// Options of the methods that [`all`] makes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
     /// How trees are built. The tolerance is that of the faces, whatever is said here.
@@ -27,19 +27,19 @@ impl Options {
 
     /// With other options for trees.
     #[must_use]
-    pub const fn with_build(self, build: BuildOptions) -> Self {
+    pub fn with_build(self, build: BuildOptions) -> Self {
         Self { build, ..self }
     }
 
     /// With another budget or epsilon for Newell's algorithm.
     #[must_use]
-    pub const fn with_newell(self, newell: Newell) -> Self {
+    pub fn with_newell(self, newell: Newell) -> Self {
         Self { newell, ..self }
     }
 
     /// With given near and far planes, in world units, for depth buffers.
     #[must_use]
-    pub const fn with_range(self, near: f64, far: f64) -> Self {
+    pub fn with_range(self, near: f64, far: f64) -> Self {
         Self { near: Some(near), far: Some(far), ..self }
     }
 }
@@ -52,13 +52,13 @@ impl Default for Options {
 
 /// The standard field of competitors, the exact tree first and the judge last.
 pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
-    let build = options.build;
-    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build))];
+    let build = options.build.clone();
+    let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build.clone()))];
     for epsilon in [1e-12, 1e-9, 1e-6, 1e-3] {
-        methods.push(Box::new(Bsp::double(build, epsilon)));
+        methods.push(Box::new(Bsp::double(build.clone(), epsilon)));
     }
     for epsilon in [1e-6, 1e-5, 1e-4, 1e-3] {
-        methods.push(Box::new(Bsp::single(build, epsilon)));
+        methods.push(Box::new(Bsp::single(build.clone(), epsilon)));
     }
     methods.push(Box::new(InputOrder));
     methods.push(Box::new(FrontFaces(InputOrder)));

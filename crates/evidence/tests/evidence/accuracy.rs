@@ -196,8 +196,8 @@ impl Tally {
         options: BuildOptions,
         polygons: &[Vec<DVec3>],
     ) -> Result<(), String> {
-        self.compare_rounded::<f64>(options, 1e-12, polygons)?;
-        self.compare_rounded::<f64>(options, 5e-2, polygons)?;
+        self.compare_rounded::<f64>(options.clone(), 1e-12, polygons)?;
+        self.compare_rounded::<f64>(options.clone(), 5e-2, polygons)?;
         self.compare_rounded::<f32>(options, 0.0, polygons)
     }
 }
@@ -278,7 +278,7 @@ fn the_errors_of_rounded_trees_of_hard_scenes_are_those_that_rationals_count() {
     for _ in 0..times(200) {
         let scene = hard::scene().new_tree(&mut runner).expect("a scene").current();
         let options = scene.options(Heuristic::default());
-        assert_exact(options, &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
+        assert_exact(options.clone(), &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
         tally.compare_all(options, &scene.polygons).unwrap_or_else(|e| panic!("{scene:?}: {e}"));
     }
     assert!(tally.trees > 500 && tally.unclear * 10 < tally.trees, "{tally:?}");

@@ -41,7 +41,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
     let (seed, cells) = (bytes.arbitrary::<u16>()?.into(), bytes.int_in_range(1..=CELLS)?);
     let (polygons, samples) = scene(bytes)?;
     let is_finite = polygons.iter().flatten().all(|corner| corner.is_finite());
-    let scene = match Divided::with_samples(polygons.clone(), options, samples, cells) {
+    let scene = match Divided::with_samples(polygons.clone(), options.clone(), samples, cells) {
         Ok(scene) => scene,
         Err(error) => {
             assert!(!is_finite, "{error}");
@@ -49,7 +49,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
         }
     };
     assert!(is_finite, "a coordinate that is no number passed");
-    let judged = cell_cover::check(&scene, options)
+    let judged = cell_cover::check(&scene, options.clone())
         .and_then(|_| cell_orders::judge(&scene, seed, 4, &mut Score::default()));
     if let Err(what) = judged {
         panic!("{what}: {options:?} {cells} cells {polygons:?}");

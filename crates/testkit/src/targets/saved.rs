@@ -60,7 +60,7 @@ fn file<P: binspace::Polygon>(
     for_one_view: bool,
 ) -> Option<Vec<u8>> {
     let file = if for_one_view {
-        bytes(FrameBuilder::new(*options).build(polygons).ok()?)
+        bytes(FrameBuilder::new(options.clone()).build(polygons).ok()?)
     } else {
         bytes(&options.build(polygons).ok()?)
     };

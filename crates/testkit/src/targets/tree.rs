@@ -30,7 +30,7 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
         }
     };
     assert_eq!(infinite, None, "a coordinate that is no number passed");
-    let mut frames = FrameBuilder::new(options);
+    let mut frames = FrameBuilder::new(options.clone());
     let frame = frames.build(&polygons).expect("what the tree was built of");
     for tree in [&tree, frame] {
         if let Err(what) = check(tree, &polygons, &mut Dice(seed)) {

@@ -37,7 +37,7 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
         let outline = outline::some(bytes)?;
         given.push(Given::new(outline, &place, &mut dice));
     }
-    if let Err(what) = check(&given, options, &mut dice) {
+    if let Err(what) = check(&given, options.clone(), &mut dice) {
         panic!("{what}: {options:?} {given:?}");
     }
     Ok(())

@@ -88,7 +88,7 @@ impl Base<'_> {
             (depth, BuildOptions::with_max_depth),
         ] {
             for limit in [needed, needed.saturating_sub(1), dice.below(needed + 1)] {
-                self.budget(with(self.options, limit), limit, needed, dice)?;
+                self.budget(with(self.options.clone(), limit), limit, needed, dice)?;
             }
         }
         Ok(())

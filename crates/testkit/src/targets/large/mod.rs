@@ -78,7 +78,7 @@ fn try_run(bytes: &mut Unstructured<'_>) -> Result<()> {
         }
     };
     assert!(infinite.is_none_or(|polygon| polygon >= polygons.len()), "no number, yet it passed");
-    let base = Base { options, polygons: &polygons, tree: &tree, heard: &heard };
+    let base = Base { options: options.clone(), polygons: &polygons, tree: &tree, heard: &heard };
     if let Err(what) = base.check(question, &mut dice) {
         let shown = &polygons[..polygons.len().min(24)];
         panic!("{what}: {question:?} of {} polygons, {options:?} {shown:?}", polygons.len());

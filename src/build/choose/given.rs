@@ -1,0 +1,191 @@
+//! Planes that a function of the caller chooses.
+
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec3;
+
+use super::set::Set;
+use crate::Error;
+use crate::build::piece::Division;
+use crate::exact::{Faces, PlaneId, Side};
+use crate::progress::Watch;
+
+/// A set of two or more pieces of polygons that a build divides by a plane: what a function sees that chooses
+/// planes (see [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser)).
+///
+/// A piece is named by its number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon
+/// on one side of every plane above. A polygon that is not convex or not planar comes in triangles. Positions
+/// are in the polygons' unit, rounded as those of [`Fragment::vertices`](crate::Fragment::vertices) are.
+///
+/// # Panics
+///
+/// All methods that take the number of a piece panic if there is no such piece.
+#[derive(Clone, Copy, Debug)]
+pub struct PieceSet<'a> {
+    set: &'a Set<'a>,
+    corners: &'a SortedCorners,
+}
+
+/// A plane to divide a [`PieceSet`] by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SplitPlane {
+    /// The plane of a piece, given by its number. The piece itself lies on it, so it always divides a set.
+    OfPiece(usize),
+    /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
+    ///
+    /// Every plane of a tree goes through a corner of a polygon: this one through the corner nearest the
+    /// coordinate, among those of all polygons of the build, as the grid and the tolerance left them.
+    Axis {
+        /// 0, 1 or 2 for x, y or z.
+        axis: usize,
+        /// Where it crosses the axis, in the polygons' unit.
+        coordinate: f64,
+    },
+}
+
+impl<'a> PieceSet<'a> {
+    /// How many pieces there are, two or more.
+    pub fn piece_count(&self) -> usize {
+        self.set.len()
+    }
+
+    /// How many planes divided the pieces from others before: 0 at the root.
+    pub fn depth(&self) -> usize {
+        self.set.depth
+    }
+
+    /// The index, in the input, of the polygon that a piece is a part of. O(1).
+    pub fn polygon(&self, piece: usize) -> usize {
+        self.set.faces.polygon(self.set.pieces[piece].face)
+    }
+
+    /// How many planes have cut it out of its polygon; stays at 255. O(1).
+    pub fn cuts(&self, piece: usize) -> usize {
+        self.set.pieces[piece].cuts.into()
+    }
+
+    /// Its bounding box: the corner of smallest coordinates, and that of largest. O(1).
+    pub fn bounds(&self, piece: usize) -> [DVec3; 2] {
+        let lattice = self.set.faces.lattice();
+        let piece = &self.set.pieces[piece];
+        [piece.min, piece.max].map(|corner| lattice.to_world(corner))
+    }
+
+    /// Its vertices, three or more, counter-clockwise seen from its front.
+    pub fn vertices(
+        &self,
+        piece: usize,
+    ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'a> {
+        let Set { faces, arena, pieces, .. } = *self.set;
+        let (lattice, piece) = (faces.lattice(), &pieces[piece]);
+        let (cut, corners) = (piece.cut_vertices(arena), faces.corners(piece.face));
+        (0..cut.map_or(corners.len(), <[_]>::len))
+            .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
+    }
+
+    /// The unit normal of its plane, which points to the front: that of its fragments
+    /// ([`Fragment::normal`](crate::Fragment::normal)). O(1).
+    pub fn normal(&self, piece: usize) -> DVec3 {
+        let plane = PlaneId::face(self.set.pieces[piece].face);
+        self.set.faces.plane(plane).normal_f64().normalize()
+    }
+
+    /// On which side of a plane each piece lies, in the order of their numbers; `None` if the plane has no
+    /// such piece, no such axis, or a coordinate that is NaN or infinite.
+    ///
+    /// This is exact, with the tolerance: as the pieces will be divided. (Only a piece in whose plane a larger
+    /// polygon lies may be divided otherwise: see [`Heuristic`](crate::Heuristic).) O(1) for most pieces, and a
+    /// search among all corners for an axis plane.
+    pub fn sides(
+        &self,
+        plane: SplitPlane,
+    ) -> Option<impl ExactSizeIterator<Item = Side> + use<'a>> {
+        let set = self.set;
+        let prepared = set.prepare(self.plane(plane)?);
+        Some((0..set.len()).map(move |piece| set.classify(&prepared, piece)))
+    }
+
+    /// The name of a plane, if there is such a plane.
+    fn plane(&self, plane: SplitPlane) -> Option<PlaneId> {
+        match plane {
+            SplitPlane::OfPiece(piece) => {
+                (piece < self.set.len()).then(|| self.set.own_plane(piece))
+            }
+            SplitPlane::Axis { axis, coordinate } => {
+                if axis > 2 || !coordinate.is_finite() {
+                    return None;
+                }
+                let corner = self.corners.nearest(self.set.faces, axis, coordinate)?;
+                Some(PlaneId::axis(axis, corner))
+            }
+        }
+    }
+}
+
+type Function = dyn Fn(&PieceSet<'_>) -> Option<SplitPlane> + Send + Sync;
+
+/// The function of a caller that chooses planes. Two are equal if one is a clone of the other.
+#[derive(Clone)]
+pub(in crate::build) struct GivenChooser(pub(in crate::build) Arc<Function>);
+
+impl PartialEq for GivenChooser {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl fmt::Debug for GivenChooser {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a function")
+    }
+}
+
+impl GivenChooser {
+    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves all
+    /// pieces on one side. Writes where the pieces lie against the plane, if that is known.
+    pub(super) fn plane(
+        &self,
+        set: &Set<'_>,
+        corners: &SortedCorners,
+        watch: &Watch<'_>,
+        division: &mut Division,
+    ) -> Result<Option<PlaneId>, Error> {
+        let pieces = PieceSet { set, corners };
+        // A panic stops the other threads, which would call the function again and again.
+        let chosen = catch_unwind(AssertUnwindSafe(|| (self.0)(&pieces))).unwrap_or_else(|panic| {
+            watch.stop();
+            resume_unwind(panic)
+        });
+        let Some(plane) = chosen.and_then(|chosen| pieces.plane(chosen)) else { return Ok(None) };
+        watch.work(set.len())?;
+        set.divide(plane, usize::MAX, division);
+        Ok(division.makes_progress().then_some(plane))
+    }
+}
+
+/// The corners of all faces of a build along each axis, sorted when they are first needed.
+#[derive(Debug, Default)]
+pub(in crate::build) struct SortedCorners([OnceLock<Vec<u32>>; 3]);
+
+impl SortedCorners {
+    /// The corner nearest a world coordinate; of several, the one of smallest coordinate and number. O(log n)
+    /// time for n corners, and O(n log n) at the first call for an axis.
+    fn nearest(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
+        let at = faces.lattice().to_lattice(DVec3::splat(coordinate))[axis];
+        let along = |corner: u32| faces.corner(corner)[axis];
+        let sorted = self.0[axis].get_or_init(|| {
+            let all = faces.corners_of_cell()..faces.corner_count();
+            let mut sorted: Vec<u32> = all.map(|corner| corner as u32).collect();
+            sorted.sort_unstable_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
+            sorted.dedup_by(|a, b| along(*a) == along(*b));
+            sorted
+        });
+        let next = sorted.partition_point(|&corner| along(corner) < at);
+        let distance = |corner: u32| (along(corner) - at).abs();
+        let beside = next.saturating_sub(1)..sorted.len().min(next + 1);
+        sorted[beside].iter().copied().min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+    }
+}
