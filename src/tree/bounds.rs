@@ -89,7 +89,7 @@ impl Fragment<'_> {
 
     pub(crate) fn flat_bounds(&self) -> Flat {
         let faces = self.faces;
-        let moved = faces.dominant_axis(self.face);
+        let moved = faces.moved_axis(self.face);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {
