@@ -6,8 +6,7 @@ use std::mem::take;
 
 use super::choose::Tuning;
 use super::driver::divide_all;
-use super::jobs;
-use super::jobs::Job;
+use super::jobs::{self, Job};
 use super::options::BuildOptions;
 use super::piece::Piece;
 use super::subtree::{Builder, Shared};

@@ -1,4 +1,4 @@
-//! Builds a subtree: a stack of sets of pieces, each split by a plane until one piece is left.
+//! Builds a subtree: a stack of sets of pieces, each divided by a plane until one piece is left.
 
 use std::mem::take;
 use std::ops::Range;
@@ -65,14 +65,14 @@ impl<'a> Shared<'a> {
     }
 }
 
-/// A set of pieces that is still to be split: a range of the stack of pieces.
+/// A set of pieces that is still to be divided: a range of the stack of pieces.
 struct Pending {
     range: Range<usize>,
     /// The length of the arena that it needs.
     arena: usize,
     /// How many nodes lie above it.
     depth: usize,
-    /// Whether peeling has just been tried on this set. Then a small set is split by a plane first.
+    /// Whether peeling has just been tried on this set. Then a small set is divided by a plane first.
     is_peeled: bool,
     /// The job that builds it, if that is not this one.
     job: Option<usize>,
@@ -82,7 +82,7 @@ struct Pending {
 #[derive(Default)]
 pub(in crate::build) struct Builder {
     chooser: Chooser,
-    /// A stack of the sets still to be split, the next one on top.
+    /// A stack of the sets still to be divided, the next one on top.
     pub(in crate::build) pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts. Those of sets that are built are
     /// truncated from the end.
@@ -129,7 +129,7 @@ impl Builder {
         Ok(take(&mut self.output))
     }
 
-    /// Notes that the pieces on top of the stack are still to be split, or that another job splits them.
+    /// Notes that the pieces on top of the stack are still to be divided, or that another job divides them.
     fn push_pending(&mut self, start: usize, depth: usize, is_peeled: bool, job: Option<usize>) {
         let (range, arena) = (start..self.pieces.len(), self.arena.len());
         self.pending.push(Pending { range, arena, depth, is_peeled, job });
@@ -173,7 +173,7 @@ impl Builder {
     }
 
     /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
-    /// size that the sets still to be split need, however often one piece is cut.
+    /// size that the sets still to be divided need, however often one piece is cut.
     fn compact(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
         let mut arena = Vec::new();
         // The pieces of sets that other jobs build are gone.

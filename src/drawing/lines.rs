@@ -164,7 +164,7 @@ impl<'t> LineTable<'t> {
         let range = faces.corner_range(face);
         let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
         let [a, b] = [k, next].map(|k| range.start as u32 + k);
-        let flattened = faces.dominant_axis(face).filter(|_| !is_as_given);
+        let flattened = faces.moved_axis(face).filter(|_| !is_as_given);
         let certain = faces.reference_triangle(face);
         if let Some(axis) = flattened
             && !(certain.contains(&a) && certain.contains(&b))
@@ -182,7 +182,7 @@ impl<'t> LineTable<'t> {
             }
             return Ok(self.half(Key::Upright(face, k), points)?.flipped(flip));
         }
-        let is_moved = faces.dominant_axis(face).is_some();
+        let is_moved = faces.moved_axis(face).is_some();
         let points = [a, b].map(|corner| match is_moved {
             true => self.point(corner, faces.given_corner(corner)),
             false => self.point(corner, faces.corner(corner)),
@@ -226,7 +226,7 @@ impl<'t> LineTable<'t> {
     fn on_cut(&mut self, face: u32, plane: PlaneId) -> [u32; 2] {
         let faces = self.frame.faces;
         let own = faces.corners(face);
-        let is_exact = |face: u32| faces.dominant_axis(face).is_none();
+        let is_exact = |face: u32| faces.moved_axis(face).is_none();
         let mut found = [NOWHERE; 2];
         if own.len() > FEW || !is_exact(face) {
             return found;
@@ -418,7 +418,7 @@ fn ends(corners: &[(u32, [f64; 3])], points: [u32; 2]) -> [[f64; 3]; 2] {
 fn upright(frame: &Frame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
     let corners = frame.faces.corners(face);
     let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
-    let axis = frame.faces.dominant_axis(face).unwrap_or_default();
+    let axis = frame.faces.moved_axis(face).unwrap_or_default();
     ([corners[k as usize], corners[next]], axis)
 }
 

@@ -203,7 +203,7 @@ impl<'t> Primitives<'t> {
         }
         let item = |around| Item { face, fragment: fragment.index(), around, halves: [0; 2] };
         // Where corners were moved, what the edges in the picture bound may reach beyond the fragment.
-        if fragment.is_whole() || self.lines.frame.faces.dominant_axis(face).is_some() {
+        if fragment.is_whole() || self.lines.frame.faces.moved_axis(face).is_some() {
             return Some(item(around));
         }
         self.around(&self.lines.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
@@ -231,7 +231,7 @@ impl<'t> Primitives<'t> {
         if opacity == 0.0 {
             return unseen;
         }
-        let moved = match faces.dominant_axis(face) {
+        let moved = match faces.moved_axis(face) {
             Some(_) => faces.given_corners(face),
             None => SmallVec::new(),
         };
@@ -377,7 +377,7 @@ fn near_vertex(faces: &Faces, face: u32, vertex: VertexId) -> Option<[f64; 3]> {
     match vertex.kind() {
         VertexKind::Corner(k) => Some(faces.corners(face)[k as usize]),
         // Edges of faces of which corners were moved are not straight through these.
-        VertexKind::OnEdge(..) if faces.dominant_axis(face).is_some() => None,
+        VertexKind::OnEdge(..) if faces.moved_axis(face).is_some() => None,
         VertexKind::OnEdge(k, plane) => on_edge(faces, faces.ends(face, k), plane),
         VertexKind::Inside(g, h) => meeting(faces, faces.triangle(face), [g, h]),
     }

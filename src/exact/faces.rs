@@ -91,8 +91,8 @@ impl Frame {
     /// The frame of a point, which has no plane.
     pub(crate) const POINT: Self = Self::new(0, 0, None);
 
-    pub(crate) const fn new(second: usize, third: usize, drop: Option<usize>) -> Self {
-        let axis = match drop {
+    pub(crate) const fn new(second: usize, third: usize, moved: Option<usize>) -> Self {
+        let axis = match moved {
             Some(axis) => axis as u32,
             None => 3,
         };
@@ -103,7 +103,7 @@ impl Frame {
         [0, self.0 >> 15 & 0x7fff, self.0 & 0x7fff]
     }
 
-    pub(crate) const fn dominant_axis(self) -> Option<usize> {
+    pub(crate) const fn moved_axis(self) -> Option<usize> {
         if self.0 >> 30 == 3 { None } else { Some((self.0 >> 30) as usize) }
     }
 }
@@ -265,8 +265,8 @@ impl Faces {
     /// them lie exactly on it. An edge of a face with moved corners lies in the plane through its
     /// two lattice points and along that axis.
     #[inline]
-    pub(crate) fn dominant_axis(&self, face: u32) -> Option<usize> {
-        self.faces[face as usize].frame.dominant_axis()
+    pub(crate) fn moved_axis(&self, face: u32) -> Option<usize> {
+        self.faces[face as usize].frame.moved_axis()
     }
 
     /// The number within its polygon of a face's corner `k`.

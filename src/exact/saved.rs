@@ -181,7 +181,7 @@ impl Faces {
                 face += 1;
             }
             let stays = |axis: usize| given[axis] == self.corner(corner)[axis];
-            let axis = self.dominant_axis(face);
+            let axis = self.moved_axis(face);
             if axis.is_none() || !(0..3).all(|k| Some(k) == axis || stays(k)) {
                 return fault("was not moved along its face's axis");
             }
@@ -219,7 +219,7 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
         return Err("is not convex");
     }
     // The nearest lattice points are off the plane by half a step along the axis at most.
-    let most = match frame.dominant_axis() {
+    let most = match frame.moved_axis() {
         Some(moved) if moved != axis => {
             return Err("is moved along another axis than its plane's");
         }

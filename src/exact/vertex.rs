@@ -116,7 +116,7 @@ impl Faces {
     /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
-        if self.dominant_axis(face).is_some() {
+        if self.moved_axis(face).is_some() {
             return None;
         }
         let corners = self.corners(face);
@@ -285,7 +285,7 @@ impl Faces {
         let corners = self.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k + 1 };
         let ends = [k, next].map(|k| corners[k as usize]);
-        let moved = self.dominant_axis(face).and_then(|axis| {
+        let moved = self.moved_axis(face).and_then(|axis| {
             let is_on = [k, next].map(|k| self.is_on_triangle(face, k));
             if is_on == [true; 2] {
                 return None;
@@ -303,7 +303,7 @@ impl Faces {
 
     /// The axis along which a corner is moved onto its face's plane, if it is off it.
     fn axis_of_move(&self, face: u32, k: u32) -> Option<usize> {
-        let axis = self.dominant_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
+        let axis = self.moved_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
         let own = Plane::through(self.triangle(face));
         (own.last_bits_at(&self.corners(face)[k as usize]) != 0).then_some(axis)
     }

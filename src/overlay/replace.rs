@@ -8,8 +8,7 @@ use super::Overlay;
 use crate::error::Error;
 use crate::exact::VertexKind;
 use crate::input::{Point, Polygon};
-use crate::progress::Progress;
-use crate::progress::{Watch, one_at_a_time};
+use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::{BspTree, Fragment};
 
 impl Overlay {

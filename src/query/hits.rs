@@ -175,9 +175,9 @@ impl<'t> Hit<'t> {
         self.fragment().polygon()
     }
 
-    /// The side of the fragment that is hit, exactly: `Greater` if it is the front, `Less` if it is the
-    /// back, `Equal` if the ray lies in the fragment's plane. It depends on the ray's direction alone,
-    /// so it is the same for a ray that begins on the fragment.
+    /// The side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the fragment's
+    /// plane. It depends on the ray's direction alone, so it is the same for a ray that begins on the
+    /// fragment.
     pub fn facing(&self) -> Facing {
         self.facing.into()
     }
@@ -328,7 +328,7 @@ impl BspTree {
     /// That a polygon touches the segment with an edge or a corner is enough, and so is that it has some
     /// of the segment in its plane, such as a floor along which one looks. This is exact. Where an eye
     /// along a floor should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
-    /// `Equal`.
+    /// [`Facing::EdgeOn`].
     ///
     /// It stops at the first polygon that it finds, which need not be the nearest. Until then its time is
     /// proportional to the number of boxes that the segment crosses; the first call makes the boxes, in

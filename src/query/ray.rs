@@ -200,7 +200,7 @@ pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
 
 /// The axis in which a face is least steep: the one along which its corners were moved, if they were.
 fn dominant_axis(faces: &Faces, face: u32) -> usize {
-    faces.dominant_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
+    faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
 /// How far along a ray a spot is: between two parameters, and exactly, by what defines the spot.
@@ -290,7 +290,7 @@ impl Interval {
         }
         let mut is_sure = is_after && is_before;
         let error = MEETING_ERROR * own.size * query.reach * query.speed;
-        let axis = faces.dominant_axis(face).unwrap_or_else(|| rounded.dominant_axis());
+        let axis = faces.moved_axis(face).unwrap_or_else(|| rounded.dominant_axis());
         let inwards = -rounded.normal[axis].signum();
         let corners = faces.corners(face);
         for line in fragment.lines() {

@@ -64,7 +64,7 @@ impl<'t> FragmentsIn<'t> {
 /// tell: one of them is inside of all, or all of them are outside of one.
 fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> Option<bool> {
     let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
-    let moved = faces.dominant_axis(fragment.face());
+    let moved = faces.moved_axis(fragment.face());
     for (vertex, vertex_id) in fragment.lattice_vertices().zip(fragment.vertex_ids()) {
         let is_cut = !matches!(vertex_id.kind(), VertexKind::Corner(_));
         let off = rounding(vertex, is_cut, moved);

@@ -223,7 +223,7 @@ impl<'a> Seen<'a> {
     fn edge_source(&self, k: usize) -> Source {
         let corners = self.faces.corners(self.face);
         let ends = [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]];
-        match self.faces.dominant_axis(self.face) {
+        match self.faces.moved_axis(self.face) {
             None => Source::Edge(ends),
             Some(axis) => Source::Upright(ends, axis),
         }

@@ -43,7 +43,8 @@ impl BspTree {
     /// tree: about 90 bytes a fragment. So does the first call of [`Node::bounds`],
     /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
     /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
-    /// [culled](crate::Order::culled) order, also of an overlay. To make them ahead, call it after building. Other threads that need the boxes meanwhile wait for them.
+    /// [culled](crate::Order::culled) order, also of an overlay. To make them ahead, call it after building.
+    /// Other threads that need the boxes meanwhile wait for them.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -89,7 +90,7 @@ impl Fragment<'_> {
 
     pub(crate) fn flat_bounds(&self) -> Flat {
         let faces = self.faces;
-        let moved = faces.dominant_axis(self.face);
+        let moved = faces.moved_axis(self.face);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut stored = self.stored().iter();
         for vertex in self.lattice_vertices() {

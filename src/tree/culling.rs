@@ -11,7 +11,7 @@ use super::order::eye::View;
 use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
-use crate::exact::{Eye, Plane, PlaneId};
+use crate::exact::{Plane, PlaneId};
 use crate::viewpoint::{Frustum, Viewpoint};
 
 /// What an order leaves out: [`Order::culled`](crate::Order::culled).
@@ -104,7 +104,6 @@ pub(crate) struct Cull<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
     view: View,
-    eye: Eye,
     arms: Arms,
     planes: SmallVec<[HalfSpace; 6]>,
     marks: Marks,
@@ -115,16 +114,15 @@ pub(crate) struct Cull<'t> {
 impl<'t> Cull<'t> {
     pub(crate) fn new(tree: &'t BspTree, viewpoint: Viewpoint, culling: &Culling) -> Self {
         let (bounds, lattice) = (tree.boxes(), tree.faces.lattice());
-        let eye = Eye::new(viewpoint, lattice);
+        let view = View::new(tree, viewpoint);
         let planes = culling.frustum.planes().iter().take(PLANES);
         let planes: SmallVec<[HalfSpace; 6]> =
             planes.map(|&plane| HalfSpace::new(plane, lattice)).collect();
         Self {
             tree,
             bounds,
-            view: View::new(tree, viewpoint),
-            eye,
-            arms: Arms::new(&eye),
+            arms: Arms::new(view.eye()),
+            view,
             marks: Marks::new(bounds, &planes),
             planes,
             side: culling.sides.drawn(),
@@ -140,7 +138,7 @@ impl<'t> Cull<'t> {
     /// Whether an overlay's piece is not left out, by its box, and its plane if it has sides.
     pub(crate) fn shows_piece(&self, bounds: &Flat, plane: Option<&Plane>) -> bool {
         let is_drawn =
-            self.side.zip(plane).is_none_or(|(side, plane)| plane.facing(&self.eye) == side);
+            self.side.zip(plane).is_none_or(|(side, plane)| plane.facing(self.view.eye()) == side);
         is_drawn && !self.planes.iter().any(|plane| plane.is_behind(bounds))
     }
 
@@ -246,7 +244,7 @@ impl<'t> Cull<'t> {
         let mut shown = fragments & if side.is_gt() { fronts } else { backs };
         for bit in bits((fragments & !(fronts | backs)).into()) {
             let face = self.tree.records[run.start as usize + bit].face;
-            let facing = self.tree.faces.plane(PlaneId::face(face)).facing(&self.eye);
+            let facing = self.tree.faces.plane(PlaneId::face(face)).facing(self.view.eye());
             shown |= u32::from(facing == side) << bit;
         }
         shown

@@ -189,9 +189,9 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Which side of the fragment faces a viewpoint: `Greater` if its front does, from which its
-    /// vertices run counter-clockwise; `Less` if its back does; `Equal` if it is seen edge-on,
-    /// because the eye lies on its plane, or the direction of view runs along it.
+    /// The side of the fragment that a viewpoint sees: its front, from which its vertices run
+    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view
+    /// runs along it.
     ///
     /// This is exact, for the viewpoint as orders round it (see [`Viewpoint`]), so it says the same
     /// of all fragments of a face. The triangles of a polygon that is not planar are faces with

@@ -404,7 +404,7 @@ fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
 fn place_of_cut(survey: &Survey<'_>, face: u32, vertex_id: VertexId) -> [f64; 3] {
     let faces = &survey.tree.faces;
     match vertex_id.kind() {
-        VertexKind::OnEdge(k, plane) if faces.dominant_axis(face).is_some() => {
+        VertexKind::OnEdge(k, plane) if faces.moved_axis(face).is_some() => {
             let cut = faces.cut_of_segment(ends(faces, face, k), plane);
             cut.map_or_else(|| faces.position(face, vertex_id), |cut| cut.position())
         }

@@ -249,7 +249,7 @@ impl BspTree {
 
 const BACK_IS_NODE: u32 = 1 << 31;
 
-/// The most fragments of a tree. While a [`OrderLayout`](crate::tree::order::layout::OrderLayout) is laid out, its
+/// The most fragments of a tree. While an [`OrderLayout`](crate::tree::order::layout::OrderLayout) is laid out, its
 /// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
 pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
 

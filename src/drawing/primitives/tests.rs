@@ -42,7 +42,7 @@ fn vertices_are_as_near_as_they_say() {
         let tree = BspTree::build(&polygons).unwrap();
         let faces = tree.faces();
         for fragment in tree.fragments() {
-            let is_upright = faces.dominant_axis(fragment.face()).is_some();
+            let is_upright = faces.moved_axis(fragment.face()).is_some();
             for (vertex_id, exact) in fragment.vertex_ids().zip(fragment.lattice_vertices()) {
                 upright +=
                     u32::from(is_upright && matches!(vertex_id.kind(), VertexKind::OnEdge(..)));

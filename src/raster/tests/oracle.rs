@@ -93,7 +93,7 @@ fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig
 fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<bool> {
     let (n, _) = plane(faces, face);
     let steepest = (0..3).max_by_key(|&i| n[i].abs()).unwrap();
-    let axis = faces.dominant_axis(face).unwrap_or(steepest);
+    let axis = faces.moved_axis(face).unwrap_or(steepest);
     let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
     let corners: Vec<Vector> = faces.corners(face).iter().map(|&c| integer(c)).collect();
     let mut on_edge = false;

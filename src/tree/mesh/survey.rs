@@ -376,7 +376,7 @@ fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
 }
 
 fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
-    survey.tree.faces.dominant_axis(face).is_some()
+    survey.tree.faces.moved_axis(face).is_some()
 }
 
 /// The coordinate of a node on a line, along the line's axis.

@@ -52,6 +52,11 @@ impl View {
         Self { eye, point, bound: ERROR * size }
     }
 
+    /// The viewpoint on the tree's lattice.
+    pub(in crate::tree) fn eye(&self) -> &Eye {
+        &self.eye
+    }
+
     /// The rounded distances of the eye from four planes.
     #[inline]
     fn distances(&self, [x, y, z, offset]: &[Vec4; 4]) -> Vec4 {

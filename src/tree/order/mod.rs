@@ -178,7 +178,7 @@ impl<'t> IntoIterator for Order<'t> {
 
     /// A culled order is written into a list first.
     fn into_iter(self) -> Ordered<'t> {
-        let Self { tree, viewpoint, is_front_to_back: front_to_back, culling } = self;
+        let Self { tree, viewpoint, is_front_to_back, culling } = self;
         let (mut left, mut parts) = (tree.records.len(), VecDeque::from([tree.whole()]));
         if culling.is_some() {
             let mut numbers = Vec::new();
@@ -187,7 +187,7 @@ impl<'t> IntoIterator for Order<'t> {
             parts = numbers.into_iter().map(|number| Child::Leaf(number..number + 1)).collect();
         }
         let view = View::new(tree, viewpoint);
-        Ordered { tree, view, front_to_back, far: 0..0, parts, near: 0..0, left }
+        Ordered { tree, view, is_front_to_back, far: 0..0, parts, near: 0..0, left }
     }
 }
 
@@ -221,7 +221,7 @@ pub struct Ordered<'t> {
     tree: &'t BspTree,
     view: View,
     /// Whether `next` takes the nearest fragment rather than the furthest.
-    front_to_back: bool,
+    is_front_to_back: bool,
     /// The furthest fragments, behind all of `parts`.
     far: Range<u32>,
     /// What neither end has come to, back to front. Each end opens subtrees only as far as it must.
@@ -284,7 +284,7 @@ impl<'t> Iterator for Ordered<'t> {
     type Item = Fragment<'t>;
 
     fn next(&mut self) -> Option<Fragment<'t>> {
-        if self.front_to_back { self.take_nearest() } else { self.take_furthest() }
+        if self.is_front_to_back { self.take_nearest() } else { self.take_furthest() }
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -294,7 +294,7 @@ impl<'t> Iterator for Ordered<'t> {
 
 impl DoubleEndedIterator for Ordered<'_> {
     fn next_back(&mut self) -> Option<Self::Item> {
-        if self.front_to_back { self.take_furthest() } else { self.take_nearest() }
+        if self.is_front_to_back { self.take_furthest() } else { self.take_nearest() }
     }
 }
 

@@ -7,8 +7,7 @@
 use std::mem::{replace, take};
 use std::ops::Range;
 
-use crate::exact::Clipper;
-use crate::exact::{Faces, PreparedPlane, Side, Vertex, split};
+use crate::exact::{Clipper, Faces, PreparedPlane, Side, Vertex, split};
 use crate::parallel_map;
 use crate::save::{LoadError, invalid};
 use crate::tree::node::{NodeRecord, Ranges};
