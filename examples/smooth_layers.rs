@@ -116,33 +116,45 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Compares all pixels on cuts with the colours of their layers, away from the borders of what is visible; returns how
-/// many. The cuts are those of the layer itself, where pieces of it meet.
+/// Compares all pixels where pieces of one layer meet with the colour of that layer, away from what is stroked and from
+/// the borders of what is visible; returns how many.
 #[cfg(test)]
 fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
+    use std::collections::BTreeSet;
+
     let (page, pixmap) = paint(layers).unwrap();
-    // Cuts, as segments of their layers, and all corners: a thin one is missed by the points that are looked at.
     let mut cuts: Vec<(usize, [DVec2; 2])> = Vec::new();
-    let mut all_corners: Vec<DVec2> = Vec::new();
+    let mut strokes: Vec<[DVec2; 2]> = Vec::new();
     for piece in page.back_to_front() {
         let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
         for (k, edge) in piece.edges().enumerate() {
+            let ends = [corners[k], corners[(k + 1) % corners.len()]];
             match edge {
-                None => cuts.push((piece.layer(), [corners[k], corners[(k + 1) % corners.len()]])),
-                Some(_) => all_corners.push(corners[k]),
+                None => cuts.push((piece.layer(), ends)),
+                Some(_) => strokes.push(ends),
             }
         }
     }
-    let is_on = |[a, b]: [DVec2; 2], at: DVec2| {
+    let is_near = |[a, b]: [DVec2; 2], at: DVec2, most: f64| {
         let share = ((at - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-        at.distance(a.lerp(b, share)) < 0.7
+        at.distance(a.lerp(b, share)) < most
     };
     let mut compared = 0;
-    for (x, y) in (2..SCREEN[0] - 2).flat_map(|x| (2..SCREEN[1] - 2).map(move |y| (x, y))) {
+    let steps = |[a, b]: [DVec2; 2]| {
+        let count = (2.0 * a.distance(b)).ceil() as u32;
+        (0..=count).map(move |k| a.lerp(b, f64::from(k) / f64::from(count.max(1))))
+    };
+    let pixels: BTreeSet<[u32; 2]> = cuts
+        .iter()
+        .flat_map(|&(_, cut)| steps(cut))
+        .map(|at| at.to_array().map(|c| c as u32))
+        .filter(|at| (0..2).all(|axis| at[axis] > 1 && at[axis] < SCREEN[axis] - 2))
+        .collect();
+    for [x, y] in pixels {
         let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
-        let near: Vec<usize> =
-            cuts.iter().filter(|(_, cut)| is_on(*cut, middle)).map(|&(layer, _)| layer).collect();
-        if near.is_empty() || all_corners.iter().any(|corner| corner.distance(middle) < 5.0) {
+        let cut_here = cuts.iter().filter(|(_, cut)| is_near(*cut, middle, 0.7));
+        let near: Vec<usize> = cut_here.map(|&(layer, _)| layer).collect();
+        if near.is_empty() || strokes.iter().any(|&stroke| is_near(stroke, middle, 1.8)) {
             continue;
         }
         let at = |dx: f64, dy: f64| page.hit([middle.x + dx, middle.y + dy]).map(|hit| hit.0);
@@ -160,20 +172,18 @@ fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
 #[test]
 fn no_seam_shows_where_pieces_of_a_layer_meet() {
     let ring = compared(&page());
-    assert!(ring > 150, "{ring}");
-    // Small cards that cut a large one, and each other, in all directions: many pieces meet in one point.
-    let crossing = (0..16).map(|k| {
+    assert!(ring > 100, "{ring}");
+    // Cards of different sizes that cut each other in all directions.
+    let crossing = (0..14).map(|k| {
         let angle = 2.4 * f64::from(k);
-        let shift = dvec3(480.0 + 160.0 * angle.cos(), 270.0 + 90.0 * angle.sin(), -30.0);
-        let turn = DMat4::from_rotation_z(angle) * DMat4::from_rotation_y(0.5 + 0.1 * angle);
-        let size = if k == 0 { [700.0, 420.0] } else { [160.0, 90.0] };
-        let place = match k {
-            0 => DMat4::from_translation(dvec3(130.0, 60.0, -30.0)),
-            _ => DMat4::from_translation(shift) * turn,
-        };
-        let colour = [40 + 13 * k as u8, 230 - 11 * k as u8, 120];
+        let shift = dvec3(480.0 + 60.0 * angle.cos(), 270.0 + 60.0 * angle.sin(), -200.0);
+        let turn = DMat4::from_rotation_z(angle) * DMat4::from_rotation_y(1.9 * angle);
+        let size = [600.0 - 35.0 * f64::from(k), 240.0];
+        let middle = DMat4::from_translation(dvec3(-size[0] / 2.0, -size[1] / 2.0, 0.0));
+        let place = DMat4::from_translation(shift) * turn * middle;
+        let colour = [40 + 15 * k as u8, 230 - 13 * k as u8, 120];
         (Layer::rect(size, perspective(900.0, [480.0, 270.0]) * place), colour)
     });
     let crossing = compared(&crossing.collect::<Vec<_>>());
-    assert!(crossing > 2000, "{crossing}");
+    assert!(crossing > 500, "{crossing}");
 }

@@ -249,8 +249,8 @@ impl Layers {
         self.hits(point).next()
     }
 
-    /// All layers at a point of the screen, front to back, each once: its index, and the point (u, v) of it
-    /// that appears there. So events can go on to what is behind, and opacities be composed.
+    /// Lists all layers at a point of the screen, front to back, each once: its index, and the point (u, v) of
+    /// it that appears there.
     ///
     /// O(pieces). The order is that of the pieces, and exact. Whether a piece covers the point is decided in
     /// `f64`, by its [vertices](LayerPiece::vertices): points outside count as inside within 10⁻⁹ of the

@@ -192,7 +192,7 @@ impl Layer {
     }
 
     /// Cuts the layer by the rectangle of an ancestor that hides what overflows it (CSS `overflow: hidden`), and by
-    /// all that cuts the ancestor. Call it again for further ancestors. The ancestor need not be in the page, and is
+    /// the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor need not be in the page, and is
     /// not painted unless it is.
     ///
     /// CSS flattens the content of such an ancestor: both layers lie in one plane, and what remains is the intersection
@@ -295,7 +295,9 @@ impl Layer {
     pub(super) fn is_finite(&self) -> bool {
         let numbers = self.low.is_finite() && self.high.is_finite();
         let clips = self.clips.iter().all(|clip| clip.is_finite());
-        numbers && clips && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
+        numbers
+            && clips
+            && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
     }
 
     /// Whether the rectangle has no area.

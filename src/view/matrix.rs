@@ -5,7 +5,8 @@ use glam::{DMat4, DVec3, DVec4};
 use super::{Camera, CameraError, NON_FINITE, Projection, checked, refused, unit};
 
 /// A field of view with a smaller tangent counts as that of a parallel camera. Too small: a parallel matrix whose last
-/// row was rounded has an eye, very far away. Too large: eyes of narrow views are lost. (Rays refuse views as narrow.)
+/// row was rounded has an eye, very far away. Too large: eyes of narrow views are lost. ([`Rays`](crate::raster::Rays)
+/// refuse views as narrow as this.)
 const PARALLEL: f64 = 1.0 / (1u64 << 45) as f64;
 /// Rows of a matrix, each as a unit vector, that span less than this volume count as dependent. Too small: rounding
 /// decides where the eye is. Too large: skewed pictures are refused as singular.
@@ -18,7 +19,7 @@ const LEAST_ANGLE: f64 = 1e-3;
 const FLAT: f64 = 1e-9;
 
 impl Camera {
-    /// The camera of a view-projection matrix, from the world to clip coordinates with x to the right and y upwards.
+    /// Makes the camera of a view-projection matrix, from the world to clip coordinates with x to the right and y upwards.
     /// A point with the clip coordinates (x, y, z, w) appears at ((½ + ½ x/w) · width, (½ − ½ y/w) · height).
     ///
     /// Every matrix of a perspective or parallel projection has a camera: off-axis frusta, pixels that are not square,
@@ -34,9 +35,9 @@ impl Camera {
     /// OpenGL, Vulkan, Direct3D, Metal and WebGPU; or it is the same along the rays. If depths are reversed
     /// ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
-    /// A picture may not be mirrored: there right, up and towards the viewer are a left-handed frame, as in plots with
-    /// one inverted axis. Negate the first row, and mirror what is drawn: x becomes width − x. If y points down, as in
-    /// Vulkan, negate the second row; the picture is then right.
+    /// Mirrored pictures are refused: in them right, up and towards the viewer form a left-handed frame, as in plots
+    /// with one inverted axis. Negate the first row, and mirror what is drawn: x becomes width − x. If y points down, as
+    /// in Vulkan, negate the second row instead, and mirror nothing.
     ///
     /// ```
     /// use binspace::glam::{DVec3, dcamera::rh};
@@ -175,7 +176,8 @@ const MIRRORED_OR_REVERSED: &str = "the matrix mirrors the picture, or its depth
                                     row; or negate its first row and mirror what is drawn";
 const SKEWED: &str = "the sides of a pixel, or the picture and the line of sight to its middle, form an angle of less \
                       than 0.001 radians";
-const TOO_FAR: &str = "the eye, the middle or the size of the matrix's picture is beyond the range of f64";
+const TOO_FAR: &str =
+    "the eye, the middle or the size of the matrix's picture is beyond the range of f64";
 
 /// Rows times a power of two that makes their largest number about 1. Clip coordinates mean the same at any scale.
 fn scaled(rows: [DVec4; 3]) -> [DVec4; 3] {
@@ -256,8 +258,8 @@ mod tests {
         let mut accepted = [0; 2];
         for _ in 0..1000 {
             for (kind, camera) in cameras(&mut random).into_iter().enumerate() {
-                let matrix =
-                    skew(&mut random, [0.05, 0.0][kind]) * camera.matrix(0.5, random.range(1.0, 9.0));
+                let matrix = skew(&mut random, [0.05, 0.0][kind])
+                    * camera.matrix(0.5, random.range(1.0, 9.0));
                 let skewed = Camera::from_matrix(matrix, SIZE).unwrap();
                 let eye = skewed.eye().unwrap_or(DVec3::ZERO);
                 assert!(eye.distance(camera.eye().unwrap_or(DVec3::ZERO)) < 1e-9, "{skewed:?}");

@@ -88,7 +88,8 @@ fn pictures_of_any_matrix_are_right() {
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let (painted, depth) =
             (paint_tree(&tree, camera.viewpoint(), &rays), zbuffer(&rays, tree.faces()));
-        let seen: Vec<Shown> = triangles.iter().map(|corners| Shown::new(&matrix, corners)).collect();
+        let seen: Vec<Shown> =
+            triangles.iter().map(|corners| Shown::new(&matrix, corners)).collect();
         let polygon = |face: u32| match face {
             u32::MAX => face,
             face => tree.faces().polygon(face) as u32,
@@ -106,7 +107,8 @@ fn pictures_of_any_matrix_are_right() {
         }
         let verdict = verify(&tree, &camera).unwrap();
         assert!(verdict.is_right(), "{camera:?}");
-        check(&tree, &camera, rays, &mut score).unwrap_or_else(|fault| panic!("{camera:?}: {fault}"));
+        check(&tree, &camera, rays, &mut score)
+            .unwrap_or_else(|fault| panic!("{camera:?}: {fault}"));
     }
     enough!(compared > 200_000, covered > 80_000, score.pixels > 300_000; "{compared} {covered} {score:?}");
 }
