@@ -13,7 +13,7 @@
 //! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
 //! | order doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
-//! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers` |
+//! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
 //! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
 //! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |

@@ -69,7 +69,7 @@ pub(crate) fn asked(args: &ViewArgs, scene: &Scene) -> Result<Camera, Failure> {
         (Some(eye), ..) => upright(scene, up, |up| Camera::perspective(eye, target, up, fov, size)),
         (None, Some(direction), target) => upright(scene, up, |up| {
             let whole = framing::parallel(direction, up, scene, size)?;
-            let height = whole.pixel_size() * f64::from(size[1]);
+            let height = whole.pixel_size()[1] * f64::from(size[1]);
             target.map_or(Ok(whole), |target| Camera::parallel(direction, up, target, height, size))
         }),
         (None, None, Some(target)) => upright(scene, up, |up| {

@@ -19,7 +19,7 @@ struct Point {
     edge: Option<u8>,
 }
 
-/// Six half planes clip four corners to ten at most.
+/// Six half planes clip four corners to ten at most; each side of an ancestor adds one.
 pub(super) const MOST_CORNERS: usize = 10;
 
 type Points = SmallVec<[Point; MOST_CORNERS]>;
@@ -89,7 +89,7 @@ fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(sums)
 }
 
-/// The part of the rectangle inside the box; `None` if there is none.
+/// The part of the rectangle inside its ancestors' and the box; `None` if there is none.
 fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
     let corners = layer.corners();
     let [low, high] = limits;
@@ -104,14 +104,18 @@ fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Optio
     ];
     let start = (0..4).map(|k| Point { local: corners[k as usize], edge: Some(k) });
     let mut points: Points = start.collect();
+    for (k, &side) in layer.clips().iter().enumerate() {
+        points = keep_inside(points, side, u8::try_from(4 + k).ok());
+    }
     for side in sides {
-        points = keep_inside(points, side);
+        points = keep_inside(points, side, None);
     }
     (points.len() >= 3).then_some(points)
 }
 
-/// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974).
-fn keep_inside(points: Points, side: DVec3) -> Points {
+/// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974), and
+/// what the side is as an edge.
+fn keep_inside(points: Points, side: DVec3, made: Option<u8>) -> Points {
     let at: SmallVec<[f64; MOST_CORNERS]> =
         points.iter().map(|p| side.dot(p.local.extend(1.0))).collect();
     if at.iter().all(|&at| at >= 0.0) {
@@ -126,9 +130,15 @@ fn keep_inside(points: Points, side: DVec3) -> Points {
         }
         if (a >= 0.0) != (b >= 0.0) {
             // Weighted by the distances, not stepped from one end: either end gives the same point.
-            let local = here.local * (b / (b - a)) + next.local * (a / (a - b));
-            // Where the outline leaves the box, an edge begins that clipping makes.
-            let edge = if a >= 0.0 { None } else { here.edge };
+            let mut local = here.local * (b / (b - a)) + next.local * (a / (a - b));
+            // Sides along u or v are met exactly.
+            if side.y == 0.0 {
+                local.x = -side.z / side.x;
+            } else if side.x == 0.0 {
+                local.y = -side.z / side.y;
+            }
+            // Where the outline leaves the inside, an edge begins that clipping makes.
+            let edge = if a >= 0.0 { made } else { here.edge };
             kept.push(Point {
                 local: local.clamp(here.local.min(next.local), here.local.max(next.local)),
                 edge,

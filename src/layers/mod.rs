@@ -43,9 +43,40 @@
 //! to 1, multiply it by the size of the viewport: depths are compared with the same tolerance as
 //! x and y.
 //!
+//! # Matrices
+//!
+//! The matrix of an element is its parent's, times what CSS says about the element itself, from left to right:
+//!
+//! | CSS | matrix |
+//! |---|---|
+//! | the parent's `perspective` and `perspective-origin` | [`perspective(distance, origin)`](perspective) |
+//! | place in the parent's box | `DMat4::from_translation(DVec3::new(left, top, 0.0))` |
+//! | `transform` and `transform-origin` | [`about(origin, transform)`](about) |
+//! | `rotateX(20deg)`, `translateZ(9px)`, … | `DMat4::from_rotation_x(20f64.to_radians())`, … |
+//! | `matrix3d(a1, …, d4)` | `DMat4::from_cols_array(&[a1, …, d4])` |
+//! | `transform-style: flat` | `DMat4::from_scale(DVec3::new(1.0, 1.0, 0.0))` before the children's matrices |
+//!
+//! ```
+//! use binspace::glam::{DMat4, DVec3};
+//! use binspace::layers::{Layer, about, perspective};
+//!
+//! // <div style="perspective: 600px; width: 400px; height: 300px">
+//! //   <div style="position: absolute; left: 100px; top: 80px; width: 200px; height: 120px;
+//! //               transform: rotateY(60deg)">
+//! let parent = perspective(600.0, [200.0, 150.0]);
+//! let place = DMat4::from_translation(DVec3::new(100.0, 80.0, 0.0));
+//! let turned = about([100.0, 60.0], DMat4::from_rotation_y(60f64.to_radians()));
+//! let card = Layer::rect([200.0, 120.0], parent * place * turned);
+//! // Its middle stays, and its left edge comes nearer: at half the width, and √3/2 of 100 to the front.
+//! assert!(card.local([200.0, 140.0]).is_some_and(|[u, v]| (u - 100.0).hypot(v - 60.0) < 1e-9));
+//! let left = 200.0 - 50.0 / (1.0 - 75f64.sqrt() * 10.0 / 600.0);
+//! assert!(card.local([left, 150.0]).is_some_and(|[u, _]| u.abs() < 1e-9));
+//! ```
+//!
 //! # What becomes of a layer
 //!
-//! It is clipped, in homogeneous coordinates, to a box on the screen, and then divided by w:
+//! It is clipped, in homogeneous coordinates, to its [ancestors](Layer::clipped_by) and to a box on the screen, and then
+//! divided by w:
 //!
 //! | | the box |
 //! |---|---|
@@ -63,11 +94,12 @@
 //! | outside of the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ of its longer side, as 10¹⁸ pixels are | no piece |
 //! | any, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
+//! | outside of an ancestor that [clips](Layer::clipped_by) it, or clipped by one that its matrix makes a line or a point of | no piece |
 //! | a matrix that makes a line or a point of it | no piece |
 //! | seen along its edge, up to the rounding of the matrix; a rectangle so far from its own origin that this rounding is as large as its area on the screen counts as such | no piece |
 //! | numbers so small that `f64` holds them with fewer digits: where w is below 2·10⁻³⁰⁸, as of a matrix times 10⁻³¹⁰, or where the sides of the rectangle times each other are, as of 10⁻¹⁷⁰ by 10⁻¹⁷⁰ | no piece |
 //! | on the screen smaller than the rounding of positions, 2⁻⁵² of how far the page reaches | no piece |
-//! | any other | a convex polygon of at most ten corners, in as many pieces as other layers cut it |
+//! | any other | a convex polygon of at most ten corners, and four more for each ancestor that clips it, in as many pieces as other layers cut it |
 //!
 //! There is no other way to have no piece, and a layer of which a part is in the box has its part. So
 //! only numbers that are none are an error: a card that turns past its edge, or leaves the screen, is
@@ -84,6 +116,18 @@
 //! pages is still wrong (at 42 %). Clipped as above, or with the tolerance of this module and not
 //! clipped to the viewport, none is. (Bench `peers`, section `clipping`.) Clipping to the viewport
 //! also leaves fewer layers to cut, as many of a long page are not on the screen.
+//!
+//! # Antialiasing
+//!
+//! Painters that antialias a path blend its border pixels with what is below. Where two pieces of a layer meet, both do
+//! so, and a seam of the background shows. To paint opaque layers without seams, for each piece:
+//!
+//! 1. Fill its outline without antialiasing.
+//! 2. Stroke the edges that [`LayerPiece::edges`] has as `Some`, one pixel wide, with round joins,
+//!    antialiased, in the layer's colour.
+//!
+//! The example `smooth_layers` does so with tiny-skia. Along cuts, where layers cross, nothing is antialiased. A stroke
+//! of a translucent layer shows on its border, as it covers half a pixel of the fill: leave it out there.
 //!
 //! # Tolerance
 //!
@@ -115,4 +159,4 @@ mod page;
 mod piece;
 
 pub use page::Layers;
-pub use piece::{Layer, LayerPiece, LayerVertex};
+pub use piece::{Layer, LayerPiece, LayerVertex, about, perspective};

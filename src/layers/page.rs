@@ -1,6 +1,7 @@
 //! A page: the layers of a frame and their order.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::clip::{MOST_CORNERS, clip};
 use super::piece::{ClippedCorner, Layer, LayerPiece};
@@ -160,7 +161,7 @@ impl Layers {
             if !from.is_finite() {
                 return Err(Kind::Layer.of_polygon(layer).of(Shape::Layer));
             }
-            self.corners.reserve(MOST_CORNERS);
+            self.corners.reserve(MOST_CORNERS + from.clips().len());
             let corners = self.corners.len();
             if let Some(precision) = clip(from, limits, viewport, &mut self.corners) {
                 coarsest = coarsest.max(precision);
@@ -243,15 +244,32 @@ impl Layers {
     }
 
     /// The nearest layer at a point of the screen, by its index, and the point (u, v) of it that
-    /// appears there. O(pieces), in `f64`: within 10⁻⁹ of the viewport's longer side of a piece's edge,
-    /// as its [vertices](LayerPiece::vertices) have it, either side may answer.
-    pub fn hit(&self, [x, y]: [f64; 2]) -> Option<(usize, [f64; 2])> {
+    /// appears there: the first of its [`hits`](Self::hits).
+    pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
+        self.hits(point).next()
+    }
+
+    /// Lists all layers at a point of the screen, front to back, each once: its index, and the point (u, v) of
+    /// it that appears there.
+    ///
+    /// O(pieces). The order is that of the pieces, and exact. Whether a piece covers the point is decided in
+    /// `f64`, by its [vertices](LayerPiece::vertices): points outside count as inside within 10⁻⁹ of the
+    /// viewport's longer side of its edge. Where pieces of one layer meet, the nearer one counts.
+    pub fn hits(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);
-        self.back_to_front().rev().find_map(|piece| {
+        // Where two pieces of a layer meet, both are near enough.
+        let mut listed: SmallVec<[usize; 8]> = SmallVec::new();
+        self.back_to_front().rev().filter_map(move |piece| {
             // Most pieces are ruled out by their layer, without computing a vertex.
             if !(piece.is_near(at, slack) && piece.covers(at, slack)) {
                 return None;
+            }
+            if !piece.is_whole() {
+                if listed.contains(&piece.number) {
+                    return None;
+                }
+                listed.push(piece.number);
             }
             let local = piece.layer.local(at.to_array())?;
             Some((piece.number, piece.layer.clamp(local.into()).to_array()))

@@ -41,11 +41,14 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// For each edge, from a vertex to the next: which edge of the layer's rectangle it lies on, or
-    /// `None` if a cut or clipping made it. Edges of the layer are those to smooth: where pieces of
-    /// one layer meet, smoothing would let the background through.
+    /// For each edge, from a vertex to the next: which edge of the layer it lies on, or `None` if a cut or
+    /// the viewport made it. Edges of the layer are those to [antialias](super#antialiasing): where pieces
+    /// of one layer meet, antialiasing would let the background through.
     ///
-    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back.
+    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
+    /// are those of the [ancestor](Layer::clipped_by) that cuts the layer, in the same order; edges 8 and up,
+    /// those of the ancestors that cut this one and of further ones, in the order of the calls. Those of the
+    /// 64th and of later ancestors are `None`.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
@@ -133,10 +136,10 @@ pub(super) fn interpolated(
     LayerVertex { position, w: unit / sum.z, local }
 }
 
-/// A rectangle in coordinates of its own, and a matrix that maps it to the screen.
+/// A rectangle in coordinates of its own, and a matrix that maps it to the screen. Rectangles of ancestors may cut it.
 ///
 /// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     low: DVec2,
     high: DVec2,
@@ -144,6 +147,23 @@ pub struct Layer {
     rows: [DVec3; 4],
     /// The distance from 1 to the next number that the matrix could hold.
     step: f64,
+    /// Half planes that cut the rectangle: where their products with (u, v, 1) are not negative.
+    clips: Vec<DVec3>,
+}
+
+/// Returns the matrix of CSS `perspective` for the children of an element: the eye is `distance` in front of the
+/// point `origin` of the element (CSS `perspective-origin`, by default its middle). The distance must be positive.
+pub fn perspective(distance: f64, origin: [f64; 2]) -> DMat4 {
+    let mut matrix = DMat4::IDENTITY;
+    matrix.z_axis.w = -1.0 / distance;
+    about(origin, matrix)
+}
+
+/// Returns a matrix that does about the point `origin` what another does about (0, 0): that of CSS `transform` with
+/// its `transform-origin`, which is by default the middle of the element's box.
+pub fn about([x, y]: [f64; 2], matrix: DMat4) -> DMat4 {
+    let origin = DVec3::new(x, y, 0.0);
+    DMat4::from_translation(origin) * matrix * DMat4::from_translation(-origin)
 }
 
 impl Layer {
@@ -151,6 +171,12 @@ impl Layer {
     /// (u, v, 0, 1) to homogeneous screen coordinates (x, y, z, w). Its z column is not used.
     pub fn new([low, high]: [[f64; 2]; 2], matrix: DMat4) -> Self {
         Self::with_step([low, high], matrix, f64::EPSILON)
+    }
+
+    /// The rectangle from (0, 0) to (width, height): the box of a CSS element, with u to the right and v downwards from
+    /// its upper left corner. [The module](super#matrices) says what makes up its matrix.
+    pub fn rect([width, height]: [f64; 2], matrix: DMat4) -> Self {
+        Self::new([[0.0, 0.0], [width, height]], matrix)
     }
 
     /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers that it puts into
@@ -161,7 +187,67 @@ impl Layer {
 
     fn with_step([low, high]: [[f64; 2]; 2], matrix: DMat4, step: f64) -> Self {
         let row = |k: usize| DVec3::new(matrix.x_axis[k], matrix.y_axis[k], matrix.w_axis[k]);
-        Self { low: low.into(), high: high.into(), rows: [0, 1, 2, 3].map(row), step }
+        let rows = [0, 1, 2, 3].map(row);
+        Self { low: low.into(), high: high.into(), rows, step, clips: Vec::new() }
+    }
+
+    /// Cuts the layer by the rectangle of an ancestor that hides what overflows it (CSS `overflow: hidden`), and by
+    /// the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor need not be in the page, and is
+    /// not painted unless it is.
+    ///
+    /// CSS flattens the content of such an ancestor: both layers lie in one plane, and what remains is the intersection
+    /// of both outlines, up to the rounding of `f64`. If both have the same matrix, it is exact. Layers in
+    /// different planes are cut along the ancestor's outline on the screen: nothing is seen outside of that. If the
+    /// ancestor is seen edge-on, nothing remains.
+    ///
+    /// ```
+    /// use binspace::glam::{DMat4, DVec3};
+    /// use binspace::layers::{Layer, Layers};
+    ///
+    /// let place = DMat4::from_translation(DVec3::new(20.0, 20.0, 0.0));
+    /// let window = Layer::rect([100.0, 50.0], place);
+    /// let scrolled = place * DMat4::from_translation(DVec3::new(0.0, -300.0, 0.0));
+    /// let text = Layer::rect([100.0, 1000.0], scrolled).clipped_by(&window);
+    ///
+    /// let mut page = Layers::new([[0.0, 0.0], [640.0, 480.0]]);
+    /// page.update(&[window, text])?;
+    /// assert_eq!(page.hit([30.0, 30.0]), Some((1, [10.0, 310.0])));
+    /// assert_eq!(page.hit([30.0, 80.0]), None);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    #[must_use]
+    pub fn clipped_by(mut self, ancestor: &Self) -> Self {
+        let Self { low, high, .. } = *ancestor;
+        let sides = [
+            DVec3::new(0.0, 1.0, -low.y),
+            DVec3::new(-1.0, 0.0, high.x),
+            DVec3::new(0.0, -1.0, high.y),
+            DVec3::new(1.0, 0.0, -low.x),
+        ];
+        let sides = sides.into_iter().chain(ancestor.clips.iter().copied());
+        if self.shares_plane(ancestor) {
+            self.clips.extend(sides);
+            return self;
+        }
+        let [([x, y, _, w], _), (own, _)] = [ancestor.scaled_rows(), self.scaled_rows()];
+        // The inverse of the ancestor's matrix, times its determinant.
+        let inverse = [y.cross(w), w.cross(x), x.cross(y)];
+        let determinant = x.dot(inverse[0]);
+        if determinant == 0.0 {
+            self.clips.push(DVec3::NEG_Z);
+            return self;
+        }
+        for side in sides {
+            // The side's line on the screen, as coefficients of x, y and w.
+            let line = inverse.map(|column| side.dot(column) * determinant.signum());
+            self.clips.push(own[0] * line[0] + own[1] * line[1] + own[3] * line[2]);
+        }
+        self
+    }
+
+    /// Half planes that cut the rectangle: where their products with (u, v, 1) are not negative.
+    pub(super) fn clips(&self) -> &[DVec3] {
+        &self.clips
     }
 
     /// The point (u, v) of the layer's plane that appears at a point of the screen: by this, a layer
@@ -208,7 +294,10 @@ impl Layer {
     /// Whether its numbers are finite, and what it is made of as well.
     pub(super) fn is_finite(&self) -> bool {
         let numbers = self.low.is_finite() && self.high.is_finite();
-        numbers && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
+        let clips = self.clips.iter().all(|clip| clip.is_finite());
+        numbers
+            && clips
+            && self.rows.iter().all(|row| row.is_finite() && self.size_of(*row).is_finite())
     }
 
     /// Whether the rectangle has no area.

@@ -154,8 +154,9 @@ pub fn colour_of(polygon: usize) -> [u8; 3] {
     })
 }
 
-/// The brightness of a surface, from 0 to 1, given its normal and the direction in which it is
-/// seen, both of length 1: lit by a lamp at the eye, and faintly from everywhere.
+/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is its normal and d the direction in which it is seen,
+/// both of length 1. So a surface is as bright as its colour, 1, where the viewer faces it, and 0.55 where it is seen
+/// edge-on. Both sides are equally bright.
 pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }

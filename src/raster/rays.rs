@@ -45,6 +45,8 @@ pub struct Rays {
     /// Maps a point relative to the eye, or to the middle of the picture, to multiples of right,
     /// down, and the direction through the middle.
     to_picture: [DVec3; 3],
+    /// The relative error of that.
+    rounding: f64,
     /// The world length that a multiple of 1 of the third stands for.
     pub(super) depth_unit: f64,
 }
@@ -76,9 +78,12 @@ const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
 /// Points that parallel rays go through, and directions, are below this in magnitude.
 const REGION: f64 = (1u64 << 60) as f64;
-/// Pixels have at least this length for each ray of the picture's width and height. Components of `right` and
+/// Pixels have at least this size for each ray of the picture's width and height. Components of `right` and
 /// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between it and the
-/// middle and beyond. Too small: more than a thousandth of a pixel.
+/// middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h is the
+/// distance of the picture's plane from the eye, and σ the smallest singular value of the matrix with the columns
+/// `right` and `down`. With the angle φ between the two, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (Of square pixels
+/// it is equal.) σ is the size meant. Too small: more than a thousandth of a pixel.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
@@ -90,7 +95,8 @@ impl Rays {
     /// one shows something as far from it as 2⁹ extents; or if the view is so narrow that rays could be off by a
     /// thousandth of a pixel. In a picture of n pixels, width and height together, no pixel is too small that has
     /// n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000 by 1 000 pixels, that is a
-    /// field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent.
+    /// field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. An oblong pixel is as large as its shorter
+    /// side; a skewed one, as its shorter side times √(1 − |cos φ|), where φ is the angle between its sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
         Self::sampled(camera, faces, 1)
     }
@@ -114,47 +120,48 @@ impl Rays {
         let size = [width, height];
         let lattice = *faces.lattice();
         let eye = Eye::new(camera.viewpoint(), &lattice);
-        let (forward, pixel) = (camera.forward(), camera.pixel_size() / f64::from(samples));
+        let pixel = camera.pixel_size().map(|side| side / f64::from(samples));
         match (camera.projection(), eye.shift()) {
             (Projection::Perspective { .. }, Some(shift)) if shift <= FURTHEST => {
-                let [x, y] = size.map(|c| 0.5 * f64::from(c) * pixel);
-                let reach = DVec3::new(x, y, 1.0).length();
+                let reach = reach(camera);
                 // A power of two, so that simple views of simple scenes have simple rays.
                 let scale = (DIRECTION / reach).log2().floor().exp2();
                 let pencil = RayOrigin::From { eye: eye.integer(), shift };
                 let depth_unit = lattice.length_to_world(scale);
-                let (middle, step) = (forward * scale, pixel * scale);
+                let (middle, steps) = (camera.middle() * scale, pixel.map(|side| side * scale));
                 let finest = finest(size, samples) * reach;
-                Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
+                Self::build(camera, lattice, size, pencil, middle, steps, finest, depth_unit)
             }
             (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
                 let centre = DVec3::from_array(lattice.to_lattice(*centre));
                 // In the plane through the middle of the scene.
-                let middle = centre - forward * centre.dot(forward);
-                let step = lattice.length_to_lattice(pixel);
+                let middle = centre - camera.forward() * centre.dot(camera.forward());
+                let steps = pixel.map(|side| lattice.length_to_lattice(side));
                 let depth_unit = lattice.length_to_world(float(direction).length());
                 let pencil = RayOrigin::Along { direction };
                 let finest = finest(size, samples);
-                Self::build(camera, lattice, size, pencil, middle, [step, finest], depth_unit)
+                Self::build(camera, lattice, size, pencil, middle, steps, finest, depth_unit)
             }
             _ => refused("the eye is too far from the scene: use a parallel camera"),
         }
     }
 
-    /// Rays with pixels of size `step`, which is refused if it is less than `finest`; `middle` is the parameter of the
-    /// middle one.
+    /// Rays with pixels of the width and height `steps`, which are refused if their size is less than `finest`;
+    /// `middle` is the parameter of the middle one.
+    #[allow(clippy::too_many_arguments, reason = "both kinds of camera differ in all of them")]
     fn build(
         camera: &Camera,
         lattice: Lattice,
         size: [u32; 2],
         pencil: RayOrigin,
         middle: DVec3,
-        [step, finest]: [f64; 2],
+        steps: [f64; 2],
+        finest: f64,
         depth_unit: f64,
     ) -> Result<Self, CameraError> {
         let [width, height] = size.map(f64::from);
-        let (right, down) = (camera.right() * step, camera.up() * -step);
+        let (right, down) = (camera.right() * steps[0], camera.up() * -steps[1]);
         let reach = middle.abs() + right.abs() * width + down.abs() * height;
         let fits = reach.max_element() < REGION;
         if !fits {
@@ -162,7 +169,8 @@ impl Rays {
                 "the parallel camera shows, or is centred on, a region too far from the scene";
             return refused(problem);
         }
-        if step < finest {
+        let cosine = camera.right().dot(camera.up());
+        if steps[0].min(steps[1]) * (1.0 - cosine.abs()).sqrt() < finest {
             let problem = "the camera's view is so narrow that rays would be off by a thousandth of a pixel: \
                            widen it";
             return refused(problem);
@@ -179,7 +187,8 @@ impl Rays {
             RayOrigin::From { .. } => middle,
             RayOrigin::Along { direction } => direction,
         };
-        let to_picture = inverse([right, down, third].map(float));
+        let columns = [right, down, third].map(float);
+        let (to_picture, rounding) = (inverse(columns), rounding(columns));
         Ok(Self {
             lattice,
             size,
@@ -194,6 +203,7 @@ impl Rays {
             down,
             middle,
             to_picture,
+            rounding,
             depth_unit,
         })
     }
@@ -399,9 +409,7 @@ impl Rays {
             RayOrigin::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
             RayOrigin::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
-        // The matrix is the inverse of one with nearly perpendicular columns. So the errors of its
-        // entries, and of their products with the arm, are far below the 2⁻⁴⁶ allowed here.
-        let slack = off + arm.abs().max_element() * 2f64.powi(-46);
+        let slack = off + arm.abs().max_element() * self.rounding;
         let [a, b, c] = self.to_picture;
         let norm = |row: DVec3| row.abs().element_sum() * slack;
         let mut at = DVec3::new(a.dot(arm), b.dot(arm), c.dot(arm));
@@ -414,7 +422,19 @@ impl Rays {
     }
 }
 
-/// The least length of `right` and `down`, with `samples` samples per pixel in each direction.
+/// The length of the longest line of sight in a perspective camera's picture, at distance 1; or, if that is more, as
+/// much as keeps rays in the [`REGION`]. (That is never more if the camera is not off-axis and its pixels are not skewed:
+/// see [`DIRECTION`].)
+fn reach(camera: &Camera) -> f64 {
+    let (middle, [x, y]) = (camera.middle(), camera.half_size());
+    let (across, rise) = (camera.right() * x, camera.up() * y);
+    let corners = [across + rise, across - rise];
+    let lengths = corners.map(|to| (middle + to).length().max((middle - to).length()));
+    let terms = middle.abs() + 2.0 * (across.abs() + rise.abs());
+    lengths[0].max(lengths[1]).max(terms.max_element() / 3.5)
+}
+
+/// The least size of pixels, with `samples` samples per pixel in each direction.
 fn finest(size: [u32; 2], samples: u32) -> f64 {
     let [width, height] = size.map(f64::from);
     FINEST * (width + height + 1.0) / f64::from(samples)
@@ -428,4 +448,19 @@ pub(super) fn float(v: [i64; 3]) -> DVec3 {
 fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     let rows = [b.cross(c), c.cross(a), a.cross(b)];
     rows.map(|row| row / a.dot(rows[0]))
+}
+
+/// A bound on the relative error of a product of [`inverse`]'s matrix and a rounded vector, in the norms of
+/// [`Rays::in_picture`].
+///
+/// With ε = 2⁻⁵³ and V the volume that the columns span as unit vectors: the columns are rounded by ε, their vector
+/// products by 4 ε of the product of two lengths, the determinant by 8 ε of that of three lengths, each component. The row
+/// itself is at least V times the product of two lengths. So it is off by less than 24 ε / V of itself, and its product
+/// with a vector, which is off by 2.4 ε itself, by less than (24 / V + 6) ε of the product of both lengths. That is √3
+/// times as much in terms of the sum of the row's and the largest of the vector's components. It is less than 2⁻⁴⁶ where
+/// V ≥ 1/2, and less than 2⁻⁴⁷ / V where V is less.
+fn rounding(columns: [DVec3; 3]) -> f64 {
+    let [a, b, c] = columns.map(DVec3::normalize);
+    let volume = a.dot(b.cross(c)).abs();
+    2f64.powi(-46) * (0.5 / volume).max(1.0)
 }

@@ -14,6 +14,7 @@ mod hidden;
 mod hidden_crossings;
 mod in_front;
 mod lines;
+mod matrices;
 mod meetings;
 mod overlay;
 mod pen;

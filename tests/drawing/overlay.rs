@@ -215,7 +215,7 @@ fn lines_across_the_eye_end_with_the_picture() {
     let [seen, hidden] = runs[..] else { panic!("{runs:?}") };
     assert!(seen.is_visible && !hidden.is_visible && seen.line == 0);
     // From the right end of the picture to the vanishing point, to a thousandth of a pixel.
-    let pixel = camera.pixel_size();
+    let [_, pixel] = camera.pixel_size();
     let expected = [200.0, 100.0 + 0.001 / 90.0 / pixel, 100.0 + 0.001 / 1e6 / pixel];
     for (at, x) in [seen.ends[0], seen.ends[1], hidden.ends[1]].into_iter().zip(expected) {
         assert!((at[0] - x).abs() < 1.1e-3 && (at[1] - 50.0).abs() < 1.1e-3, "{at:?} {x}");

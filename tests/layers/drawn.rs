@@ -2,7 +2,7 @@
 
 use super::{Rect, VIEWPORT, camera, order, page_on};
 use binspace::glam::DMat4;
-use binspace::layers::{Layer, Layers};
+use binspace::layers::{Layer, Layers, about, perspective};
 use std::f64::consts::FRAC_PI_2;
 use testkit::prelude::*;
 
@@ -10,7 +10,7 @@ use testkit::prelude::*;
 const CARD: Rect = [[-100.0, -60.0], [100.0, 60.0]];
 
 fn page(layers: &[Layer]) -> Layers {
-    page_on(VIEWPORT, true, layers.iter().copied())
+    page_on(VIEWPORT, true, layers.iter().cloned())
 }
 
 /// The eye is 1200 pixels in front of (960, 540). A card 600 in front of the screen appears twice as
@@ -67,6 +67,25 @@ fn a_card_turned_about_y_shows_its_left_half() {
         let inner = piece.edges().filter(Option::is_none).count();
         assert_eq!(inner, usize::from(!piece.is_whole()));
     }
+}
+
+/// CSS: a page of 1920 by 1080 with `perspective: 1200px`, and in it a box of 200 by 120 at (300, 100), which
+/// `rotateX(90deg)` lays down about its upper edge.
+#[test]
+fn matrices_are_those_of_css() {
+    let page = perspective(1200.0, [960.0, 540.0]);
+    let from_the_middle = page * DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
+    assert!(from_the_middle.abs_diff_eq(camera(), 1e-9));
+    let turned = about([100.0, 0.0], DMat4::from_rotation_x(FRAC_PI_2));
+    let place = page * DMat4::from_translation(dvec3(300.0, 100.0, 0.0)) * turned;
+    let shown = self::page(&[Layer::rect([200.0, 120.0], place)]);
+    let piece = shown.back_to_front().next().unwrap();
+    // The lower edge comes 120 to the front, where w is 0.9.
+    let near = |x: f64, y: f64| [960.0 + (x - 960.0) / 0.9, 540.0 + (y - 540.0) / 0.9];
+    let expected = [[300.0, 100.0], [500.0, 100.0], near(500.0, 100.0), near(300.0, 100.0)];
+    let found = piece.vertices().map(|v| v.position.truncate());
+    let off = found.zip(expected).map(|(found, expected)| found.distance(expected.into()));
+    assert!(off.fold(0.0, f64::max) < 1e-9, "{:?}", piece.vertices().collect::<Vec<_>>());
 }
 
 #[test]

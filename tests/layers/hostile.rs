@@ -42,14 +42,14 @@ fn numbers_that_are_none_are_an_error_that_names_the_layer() {
     bad.push(Layer::new(CARD, camera() * 1e308));
     bad.push(Layer::new([[-1e300; 2], [1e300; 2]], camera() * 1e10));
     let mut page = Layers::new(VIEWPORT);
-    for (k, &layer) in bad.iter().enumerate() {
+    for (k, layer) in bad.iter().enumerate() {
         page.update(&[flat(), flat()]).unwrap();
-        let error = page.update(&[flat(), layer, flat()]).unwrap_err();
+        let error = page.update(&[flat(), layer.clone(), flat()]).unwrap_err();
         assert_eq!(error.polygon(), Some(1), "{k}: {error}");
         assert!(error.to_string().contains("layer 1"), "{error}");
         // The page is empty, and not taken for one with these layers.
         assert!(page.is_empty() && page.visible() == 0 && page.back_to_front().next().is_none());
-        assert!(page.update(&[flat(), layer, flat()]).is_err());
+        assert!(page.update(&[flat(), layer.clone(), flat()]).is_err());
         assert!(page.update(&[]).unwrap());
     }
     assert!(bad.len() > 80);

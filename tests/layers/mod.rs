@@ -1,6 +1,7 @@
 //! Pages of layers against exact rationals that know the rectangles and matrices alone: what is
 //! seen of a layer, where in it a point of the screen is, and what is painted over what.
 
+mod clips;
 mod drawn;
 mod hit;
 mod hostile;

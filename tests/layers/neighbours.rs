@@ -18,7 +18,7 @@ fn two_layers_are_clipped_at_the_same_point_of_an_edge_that_they_share() {
             Layer::new([[left, low], [middle, high]], given.matrix),
             Layer::new([[middle, low], [right, high]], given.matrix),
         ];
-        let page = page_on(VIEWPORT, true, layers.iter().copied());
+        let page = page_on(VIEWPORT, true, layers.iter().cloned());
         let on_edge = |layer: usize| -> Vec<(f64, DVec3)> {
             let piece = page.back_to_front().find(|piece| piece.layer() == layer);
             let vertices = piece.into_iter().flat_map(|piece| piece.vertices());

@@ -68,7 +68,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
         let wall = DMat4::from_rotation_y(std::f64::consts::FRAC_PI_2 + tilt);
         let wall = Layer::new([[-3000.0, 100.0], [3000.0, 200.0]], camera() * wall);
         for unclipped in [false, true] {
-            let page = page_on(VIEWPORT, !unclipped, [wall, at(0.002), at(0.0), at(0.001)]);
+            let page = page_on(VIEWPORT, !unclipped, [wall.clone(), at(0.002), at(0.0), at(0.001)]);
             let reach = 1920.0 * f64::from(1 << 20);
             for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
                 assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
@@ -119,7 +119,7 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
         let mut layers = vec![Layer::new([[-3000.0; 2], [3000.0; 2]], floor)];
         layers.extend(cards.iter().map(|&card| Layer::new(card, plane)));
         // A small one: its least tolerance is small, and the grid is as coarse.
-        let page = page_on([[640.0, 360.0], [1280.0, 720.0]], false, layers.iter().copied());
+        let page = page_on([[640.0, 360.0], [1280.0, 720.0]], false, layers.iter().cloned());
         for _ in 0..40 {
             let [x, y] = [some(600.0), some(480.0)];
             let has = |card: &[[f64; 2]; 2]| {
@@ -148,7 +148,7 @@ fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
     for page in Page::ALL {
         let layers: Vec<Layer> = layers_of(page, 30, 8).iter().map(Given::layer).collect();
         let [clipped, unclipped] =
-            [true, false].map(|is_clipped| page_on(VIEWPORT, is_clipped, layers.iter().copied()));
+            [true, false].map(|is_clipped| page_on(VIEWPORT, is_clipped, layers.iter().cloned()));
         for _ in 0..400 {
             let at = [1920.0 * dice.share(), 1080.0 * dice.share()];
             let [a, b] = [&clipped, &unclipped].map(|page| page.hit(at).map(|(layer, _)| layer));

@@ -33,11 +33,11 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
             // Less what it is at the opposite corner: twice what it is at the middle.
             let opposite = rational(rays.ray(width - 1 - x, height - 1 - y)[0]);
             let arm = std::array::from_fn(|i| (&start[i] - &opposite[i]) / exact(2.0));
-            let pixel = exact(faces.lattice().length_to_lattice(camera.pixel_size()));
+            let pixel = exact(faces.lattice().length_to_lattice(camera.pixel_size()[1]));
             coefficients(&arm, axes).map(|c| c / &pixel)
         } else {
             let [ahead, right, down] = coefficients(&way, axes);
-            let pixel = ahead.clone() * exact(camera.pixel_size());
+            let pixel = ahead.clone() * exact(camera.pixel_size()[1]);
             [ahead, right / &pixel, down / &pixel]
         };
         let place =
@@ -75,7 +75,7 @@ fn rays_are_less_than_a_thousandth_of_a_pixel_off() {
                 let sides = size.map(f64::from);
                 let unit = if is_parallel(&camera) { 4e-12 } else { 4e-14 };
                 let least = unit * (sides[0] + sides[1]).max(8.0);
-                assert!(camera.pixel_size() < least, "{camera:?}");
+                assert!(camera.pixel_size()[1] < least, "{camera:?}");
                 refused += 1;
             }
         }

@@ -205,7 +205,7 @@ fn seen(scene: &Scene, camera: &Camera) -> String {
     let (near, far) =
         (0.9 * depths.clone().fold(f64::MAX, f64::min), 1.1 * depths.fold(0.0, f64::max));
     assert!(near > 0.0, "{}: the eye is outside", scene.name());
-    let [width, height] = SIZE.map(|side| 0.5 * f64::from(side) * camera.pixel_size() * near);
+    let [width, height] = SIZE.map(|side| 0.5 * f64::from(side) * camera.pixel_size()[1] * near);
     let mut text = format!("{} {}\n{} {width} {} {height}", SIZE[0], SIZE[1], -width, -height);
     let _ = writeln!(text, " {near} {far}");
     for [x, y, z] in corners {

@@ -85,7 +85,7 @@ pub fn seen_points(camera: &Camera, eye: DVec3, rays: &Rays, tree: &BspTree) -> 
     let pixels = depth.image().faces().iter().zip(depth.depths()).enumerate();
     let point = |(k, (&face, far)): (usize, (&u32, f64))| {
         let (x, y) = ((k as f64 % width).floor() + 0.5, (k as f64 / width).floor() + 0.5);
-        let [right, down] = [x - 0.5 * width, y - 0.5 * height].map(|c| c * camera.pixel_size());
+        let [right, down] = [x - 0.5 * width, y - 0.5 * height].map(|c| c * camera.pixel_size()[1]);
         let way = camera.forward() + right * camera.right() - down * camera.up();
         (face != NONE).then(|| (eye + far * way).round())
     };

@@ -193,18 +193,18 @@ pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<
     Ok(())
 }
 
-/// The ray through a point of the picture.
+/// The ray through a point of the picture of a camera with square pixels that looks at its middle.
 pub fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
-    let [width, height] = camera.size().map(f64::from);
-    let across = camera.right() * ((x - 0.5 * width) * camera.pixel_size());
-    let down = camera.up() * ((y - 0.5 * height) * -camera.pixel_size());
+    let ([width, height], [_, pixel]) = (camera.size().map(f64::from), camera.pixel_size());
+    let across = camera.right() * ((x - 0.5 * width) * pixel);
+    let down = camera.up() * ((y - 0.5 * height) * -pixel);
     match camera.viewpoint() {
         Viewpoint::Eye(eye) => binspace::Ray::new(eye, camera.forward() + across + down),
         Viewpoint::Direction(direction) => {
             let binspace::view::Projection::Parallel { centre, .. } = *camera.projection() else {
                 unreachable!("a direction of view is parallel")
             };
-            let reach = 1e4 * camera.pixel_size() * height.max(width);
+            let reach = 1e4 * pixel * height.max(width);
             let start = centre + across + down - camera.forward() * reach;
             binspace::Ray::new(start, direction)
         }

@@ -1,8 +1,11 @@
 //! Rays are those of their camera.
 
-use glam::DVec3;
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use glam::{DMat4, DVec3};
+use num_traits::FromPrimitive;
 
-use super::{Random, cameras, faces, ray};
+use super::{Random, cameras, faces, ray, skew};
 use crate::exact::Faces;
 use crate::raster::{Rays, depth_map, zbuffer};
 use crate::view::Camera;
@@ -33,6 +36,78 @@ fn the_ray_of_a_pixel_projects_to_its_centre() {
             }
         }
     }
+}
+
+/// How far the rays of a camera are from where it has them, in pixels, at the corners of the picture; those of a parallel
+/// camera, from where they are seen from the middle of the picture. `None` if there are no rays.
+fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
+    let rays = Rays::sampled(camera, faces, samples).ok()?;
+    let is_parallel = camera.eye().is_none();
+    let exact = |value: f64| RBig::from_f64(value).unwrap();
+    let [width, height] = camera.pixel_size().map(|side| match is_parallel {
+        true => faces.lattice().length_to_lattice(side),
+        false => side,
+    });
+    let axes = [(camera.middle(), 1.0), (camera.right(), width), (camera.up(), -height)];
+    let axes = axes.map(|(axis, scale)| axis.to_array().map(|c| exact(c) * exact(scale)));
+    let determinant = |[a, b, c]: [&[RBig; 3]; 3]| {
+        let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+        &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
+    };
+    let whole = determinant(axes.each_ref());
+    let size = rays.size();
+    let mut most = 0.0_f64;
+    for corner in 0..4 {
+        let [x, y] = [0, 1].map(|i: usize| (size[i] - 1) * (corner >> i & 1));
+        let [start, way] = ray(&rays, x, y);
+        let arm = if is_parallel {
+            let [opposite, _] = ray(&rays, size[0] - 1 - x, size[1] - 1 - y);
+            [0, 1, 2].map(|i: usize| RBig::from(&start[i] - &opposite[i]) / RBig::from(2))
+        } else {
+            way.map(|c: IBig| RBig::from(c))
+        };
+        let [middle, right, down] = axes.each_ref();
+        let along = determinant([&arm, right, down]) / &whole;
+        let shares = [[middle, &arm, down], [middle, right, &arm]];
+        let weight = if is_parallel { RBig::from(1) } else { along };
+        let places = shares.map(|columns| determinant(columns) / &whole / &weight);
+        let off = [(&places[0], x, size[0]), (&places[1], y, size[1])].map(|(place, at, side)| {
+            let expected = (f64::from(at) - 0.5 * f64::from(side - 1)) / f64::from(samples);
+            (place - exact(expected)).to_f64().value()
+        });
+        most = most.max(off[0].hypot(off[1]));
+    }
+    Some(most)
+}
+
+/// Down to the narrowest views that are accepted, with oblong and skewed pixels, and far off-axis.
+#[test]
+fn rays_of_skewed_cameras_are_less_than_a_thousandth_of_a_pixel_off() {
+    let mut random = Random::new(11);
+    let faces = box_of(1.0);
+    let (mut worst, mut refused, mut accepted) = (0.0_f64, 0, 0);
+    let sizes = [[1000, 1000], [64, 48], [1, 1], [30, 90], [640, 480]];
+    for round in 0..1500 {
+        let size = sizes[round % 5];
+        let matrix = cameras(&mut random, 1.0, size)[random.below(18) as usize].matrix(1.0, 2.0);
+        let narrow = 10.0_f64.powf(5.5 + 5.5 * random.unit());
+        let oblong = 10.0_f64.powf(random.unit());
+        let mut shear = DMat4::from_scale(DVec3::new(narrow * oblong, narrow, 1.0));
+        shear.y_axis.x = narrow * 10.0 * oblong * random.unit();
+        let Ok(camera) = Camera::from_matrix(shear * skew(&mut random) * matrix, size) else {
+            continue;
+        };
+        let samples = [1, 1, 3][random.below(3) as usize];
+        match off(&camera, &faces, samples) {
+            Some(off) => {
+                assert!(off < 1e-3, "{off} px: {camera:?}");
+                (worst, accepted) = (worst.max(off), accepted + 1);
+            }
+            None => refused += 1,
+        }
+    }
+    assert!(accepted > 400 && refused > 200, "{accepted} {refused}");
+    assert!(worst > 1e-4, "the nearest to the limit: {worst}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ mod signs;
 mod tiling;
 
 use dashu_int::IBig;
-use glam::DVec3;
+use glam::{DMat4, DVec3, DVec4};
 
 use super::rays::{RayOrigin, Rays};
 use crate::exact::Faces;
@@ -49,7 +49,8 @@ pub(super) fn faces(polygons: &[Vec<DVec3>], tolerance: Option<f64>) -> Faces {
 }
 
 /// Views of a scene of extent about `size` around the origin: general ones, ones along the axes
-/// with rays through lattice points, close, grazing, far, and parallel ones of all these kinds.
+/// with rays through lattice points, close, grazing, far, and parallel ones of all these kinds; and the same
+/// off-axis, with pixels that are oblong and skewed.
 pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<Camera> {
     let quarter = std::f64::consts::FRAC_PI_2;
     let mut cameras = Vec::new();
@@ -71,12 +72,26 @@ pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<C
         cameras.push(Camera::parallel(direction, up, random.point() * size, 2.0 * size, pixels));
         cameras.push(Camera::parallel(axis, up, DVec3::ZERO, 4.0 * size, pixels));
     }
-    cameras
+    let mut cameras: Vec<Camera> = cameras
         .into_iter()
         .map(|camera| {
             camera.or(Camera::looking_at_all([-DVec3::ONE, DVec3::ONE], DVec3::Z, pixels)).unwrap()
         })
-        .collect()
+        .collect();
+    for k in (0..cameras.len()).step_by(2) {
+        let matrix = skew(random) * cameras[k].matrix(size, 2.0 * size);
+        cameras.push(Camera::from_matrix(matrix, pixels).unwrap());
+    }
+    cameras
+}
+
+/// A matrix of clip coordinates that scales, shears and shifts the picture.
+fn skew(random: &mut Random) -> DMat4 {
+    let [width, height] = [0; 2].map(|_| 1.5 + random.unit());
+    let [across, rise] = [0; 2].map(|_| 0.4 * random.unit());
+    let columns = [DVec3::new(width, rise, 0.0), DVec3::new(across, height, 0.0), DVec3::Z];
+    let [x, y, z] = columns.map(|column| column.extend(0.0));
+    DMat4::from_cols(x, y, z, DVec4::new(random.unit(), random.unit(), 0.0, 1.0))
 }
 
 /// The ray of a pixel: where it starts, or any point of it, and its direction.

@@ -8,6 +8,8 @@ use binspace::view::{Camera, Projection};
 /// Takes lattice points to coordinates along the camera's axes: x to the right, y down, z the depth
 /// in its direction of view, from the eye, or from the centre of a parallel camera's picture.
 ///
+/// Cameras are those with square pixels that look at the middle of their picture.
+///
 /// The unit is 2⁵¹ lattice units, half the scene's extent or up to four times that, so that numbers
 /// are of a size that suits `f32`.
 #[derive(Clone, Copy, Debug)]
@@ -26,9 +28,9 @@ impl CameraSpace {
     pub(super) fn new(camera: &Camera, lattice: &Lattice) -> Self {
         let to_units = 1.0 / LATTICE_LIMIT;
         let (origin, pixel, perspective) = match *camera.projection() {
-            Projection::Perspective { eye, .. } => (eye, camera.pixel_size(), true),
+            Projection::Perspective { eye, .. } => (eye, camera.pixel_size()[1], true),
             Projection::Parallel { centre, .. } => {
-                (centre, lattice.length_to_lattice(camera.pixel_size()) * to_units, false)
+                (centre, lattice.length_to_lattice(camera.pixel_size()[1]) * to_units, false)
             }
         };
         let axes = [camera.right(), -camera.up(), camera.forward()].map(|axis| axis * to_units);

@@ -8,8 +8,8 @@ use testkit::prelude::*;
 /// A ray's start and direction.
 fn ray(camera: &Camera, x: u32, y: u32) -> (DVec3, DVec3) {
     let [width, height] = camera.size().map(f64::from);
-    let across = (f64::from(x) + 0.5 - 0.5 * width) * camera.pixel_size();
-    let down = (f64::from(y) + 0.5 - 0.5 * height) * camera.pixel_size();
+    let across = (f64::from(x) + 0.5 - 0.5 * width) * camera.pixel_size()[1];
+    let down = (f64::from(y) + 0.5 - 0.5 * height) * camera.pixel_size()[1];
     let offset = camera.right() * across - camera.up() * down;
     match *camera.projection() {
         Projection::Perspective { eye, .. } => (eye, camera.forward() + offset),

@@ -3,10 +3,14 @@
 //! A picture is `width` × `height` pixels; x runs right, y runs down, pixel (0, 0) is the top left
 //! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
 
-use glam::{DMat4, DVec3, DVec4};
+mod around;
+mod matrix;
+
+use glam::DVec3;
+
+pub use around::views;
 
 use crate::error::Kind;
-use crate::random::SplitMix64;
 use crate::viewpoint::{Frustum, Viewpoint};
 
 /// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their
@@ -17,13 +21,23 @@ const NON_FINITE: &str = "a camera parameter is NaN or infinite";
 const FIELD_OF_VIEW: &str = "the field of view must be more than 0 and less than π radians";
 
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
+///
+/// [`perspective`](Self::perspective) and [`parallel`](Self::parallel) make cameras with square pixels that look at
+/// the middle of the picture. [`from_matrix`](Self::from_matrix) also makes cameras whose pixels are oblong or skewed,
+/// and cameras that look past the middle (off-axis).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     projection: Projection,
-    /// Unit vectors, each perpendicular to the others.
+    /// Unit vectors along the lower and the left side of a pixel.
     right: DVec3,
     up: DVec3,
+    /// The unit normal of the picture's plane.
     forward: DVec3,
+    /// The vector from the eye to the middle of the picture at distance 1, measured along `forward`. It is `forward`
+    /// itself unless the camera is off-axis.
+    middle: DVec3,
+    /// The width of a pixel as a multiple of its height.
+    aspect: f64,
     size: [u32; 2],
 }
 
@@ -34,7 +48,8 @@ pub enum Projection {
     Perspective {
         /// The eye.
         eye: DVec3,
-        /// The tangent of half the vertical field of view.
+        /// Half of the picture's height at distance 1 from the eye: the tangent of half the vertical field of view,
+        /// unless the camera is off-axis.
         half_height: f64,
     },
     /// Along a direction, from infinitely far away.
@@ -117,7 +132,7 @@ impl Camera {
         projection: Projection,
         view: DVec3,
         up: DVec3,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
     ) -> Result<Self, CameraError> {
         let (origin, span, too_small) = match projection {
             Projection::Perspective { eye, half_height } => (eye, half_height, FIELD_OF_VIEW),
@@ -131,15 +146,7 @@ impl Camera {
         if span <= 0.0 {
             return refused(too_small);
         }
-        let sides = 1..=Self::MAX_SIDE;
-        let pixels = u64::from(width) * u64::from(height);
-        if !sides.contains(&width) || !sides.contains(&height) || pixels > Self::MAX_PIXELS {
-            return refused(format!(
-                "a picture must have 1 to {} pixels each way and at most {} in all, not {width}x{height}",
-                Self::MAX_SIDE,
-                Self::MAX_PIXELS
-            ));
-        }
+        let size = checked(size)?;
         let Some(forward) = unit(view) else {
             return refused(
                 "the camera looks nowhere: its eye and target are the same, or its direction is zero",
@@ -152,7 +159,7 @@ impl Camera {
         }
         let right = side.normalize();
         let up = right.cross(forward).normalize();
-        Ok(Self { projection, right, up, forward, size: [width, height] })
+        Ok(Self { projection, right, up, forward, middle: forward, aspect: 1.0, size })
     }
 
     /// How the camera projects.
@@ -176,101 +183,89 @@ impl Camera {
         }
     }
 
-    /// The view-projection matrix: from the world to clip coordinates, with x to the right, y upwards, and
-    /// depths from 0 at the distance `near` to 1 at `far`, as WebGPU, Vulkan (y aside), Metal and Direct3D
-    /// have them. Distances are along the direction of view, from the eye, or from the centre of a
-    /// parallel camera, where they may be negative. They must be finite and different.
-    ///
-    /// ```
-    /// use binspace::glam::DVec3;
-    /// use binspace::view::Camera;
-    ///
-    /// let eye = DVec3::new(0.0, -5.0, 2.0);
-    /// let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 1.0, [640, 480])?;
-    /// let point = DVec3::new(0.4, 0.3, 0.7);
-    /// let clip = camera.matrix(0.1, 100.0).project_point3(point);
-    /// let [x, y] = camera.project(point).expect("in front of the eye");
-    /// assert!(((0.5 + 0.5 * clip.x) * 640.0 - x).abs() < 1e-9);
-    /// assert!(((0.5 - 0.5 * clip.y) * 480.0 - y).abs() < 1e-9);
-    /// assert!(clip.z > 0.0 && clip.z < 1.0);
-    /// # Ok::<(), binspace::view::CameraError>(())
-    /// ```
-    pub fn matrix(&self, near: f64, far: f64) -> DMat4 {
-        let [half_width, half_height] =
-            self.size.map(|side| 0.5 * f64::from(side) * self.pixel_size());
-        let row = |axis: DVec3, origin: DVec3, scale: f64, offset: f64| -> DVec4 {
-            (axis * scale).extend(offset - axis.dot(origin) * scale)
-        };
-        let depth = 1.0 / (far - near);
-        let rows = match self.projection {
-            Projection::Perspective { eye, .. } => [
-                row(self.right, eye, 1.0 / half_width, 0.0),
-                row(self.up, eye, 1.0 / half_height, 0.0),
-                row(self.forward, eye, far * depth, -near * far * depth),
-                row(self.forward, eye, 1.0, 0.0),
-            ],
-            Projection::Parallel { centre, .. } => [
-                row(self.right, centre, 1.0 / half_width, 0.0),
-                row(self.up, centre, 1.0 / half_height, 0.0),
-                row(self.forward, centre, depth, -near * depth),
-                DVec4::W,
-            ],
-        };
-        DMat4::from_cols_array_2d(&rows.map(|row| row.to_array())).transpose()
-    }
-
     /// The picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The unit vector to the right.
+    /// The unit vector to the right: from a pixel to the next one of its row.
     pub fn right(&self) -> DVec3 {
         self.right
     }
 
-    /// The unit vector upwards in the picture.
+    /// The unit vector upwards in the picture: from a pixel to the one above it. It is perpendicular to
+    /// [`right`](Self::right) unless the camera is made from a matrix that skews.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// The unit vector in the direction in which the camera looks.
+    /// The unit vector in the direction in which the camera looks: the normal of the picture's plane. A perspective
+    /// camera sees there what appears in the middle of the picture, unless it is off-axis.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
-    /// The side of a pixel: at distance 1 from the eye, or, for a parallel camera, at any distance.
-    pub fn pixel_size(&self) -> f64 {
+    /// The width and the height of a pixel: at distance 1 from the eye, or, for a parallel camera, at any distance.
+    /// They are equal unless the camera is made from a matrix.
+    pub fn pixel_size(&self) -> [f64; 2] {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
             Projection::Parallel { height, .. } => height,
         };
-        span / f64::from(self.size[1])
+        let height = span / f64::from(self.size[1]);
+        [height * self.aspect, height]
     }
 
-    /// The same view with a picture of another size; the vertical field of view stays.
+    /// Half of the picture's width and height, in the unit of [`pixel_size`](Self::pixel_size).
+    pub(crate) fn half_size(&self) -> [f64; 2] {
+        let [width, height] = self.pixel_size();
+        [0.5 * f64::from(self.size[0]) * width, 0.5 * f64::from(self.size[1]) * height]
+    }
+
+    /// The vector from the eye to the middle of the picture at distance 1, measured along
+    /// [`forward`](Self::forward).
+    pub(crate) fn middle(&self) -> DVec3 {
+        self.middle
+    }
+
+    /// The same view with a picture of another size. The height that it shows, its middle and the shape of its pixels
+    /// stay.
     ///
     /// # Errors
     ///
     /// If the size is zero or beyond the limits.
     pub fn with_size(&self, size: [u32; 2]) -> Result<Self, CameraError> {
-        Self::oriented(self.projection, self.forward, self.up, size)
+        Ok(Self { size: checked(size)?, ..*self })
+    }
+
+    /// The eye, or the centre of a parallel camera.
+    fn origin(&self) -> DVec3 {
+        match self.projection {
+            Projection::Perspective { eye, .. } => eye,
+            Projection::Parallel { centre, .. } => centre,
+        }
+    }
+
+    /// Two vectors whose scalar products with a point's vector from the [origin](Self::origin) are its distances from
+    /// the middle of the picture, along [`right`](Self::right) and along [`up`](Self::up). From an eye, these are as
+    /// many times larger as the point is further away than 1.
+    fn rows(&self) -> [DVec3; 2] {
+        let Self { right, up, forward, middle, .. } = *self;
+        let sine = up.cross(right).dot(forward);
+        let duals = [forward.cross(up) / sine, right.cross(forward) / sine];
+        duals.map(|dual| dual - forward * dual.dot(middle))
     }
 
     /// A point in homogeneous picture coordinates: (x·w, y·w, w) for the pixel position (x, y),
     /// with w the distance in front of the eye's plane, or 1 for a parallel camera.
     pub fn homogeneous(&self, point: DVec3) -> DVec3 {
-        let (origin, parallel) = match self.projection {
-            Projection::Perspective { eye, .. } => (eye, false),
-            Projection::Parallel { centre, .. } => (centre, true),
-        };
-        let arm = point - origin;
-        let w = if parallel { 1.0 } else { arm.dot(self.forward) };
-        let pixel = self.pixel_size();
+        let arm = point - self.origin();
+        let w = if self.eye().is_some() { arm.dot(self.forward) } else { 1.0 };
         let [width, height] = self.size.map(f64::from);
+        let ([pixel_width, pixel_height], [x, y]) = (self.pixel_size(), self.rows());
         DVec3::new(
-            arm.dot(self.right) / pixel + 0.5 * width * w,
-            0.5 * height * w - arm.dot(self.up) / pixel,
+            arm.dot(x) / pixel_width + 0.5 * width * w,
+            0.5 * height * w - arm.dot(y) / pixel_height,
             w,
         )
     }
@@ -291,23 +286,21 @@ impl Camera {
     ///
     /// There is no near and no far plane; a perspective camera sees what is ahead of its eye.
     pub fn frustum(&self) -> Frustum {
-        let [half_width, half_height] =
-            self.size.map(|side| 0.5 * f64::from(side) * self.pixel_size());
-        let (right, up, ahead) = (self.right, self.up, self.forward);
-        let planes = |origin: DVec3, normals: [DVec3; 4], half: [f64; 4]| {
+        let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());
+        let (origin, ahead) = (self.origin(), self.forward);
+        let planes = |normals: [DVec3; 4], half: [f64; 4]| {
             let sides = normals.into_iter().zip(half);
             sides.map(move |(normal, half)| (normal, normal.dot(origin) - half))
         };
         match self.projection {
-            Projection::Perspective { eye, .. } => {
+            Projection::Perspective { .. } => {
                 let (side, rise) = (ahead * half_width, ahead * half_height);
-                let sides =
-                    planes(eye, [side + right, side - right, rise + up, rise - up], [0.0; 4]);
-                Frustum::new(sides.chain([(ahead, ahead.dot(eye))]))
+                let sides = planes([side + x, side - x, rise + y, rise - y], [0.0; 4]);
+                Frustum::new(sides.chain([(ahead, ahead.dot(origin))]))
             }
-            Projection::Parallel { centre, .. } => {
+            Projection::Parallel { .. } => {
                 let half = [half_width, half_width, half_height, half_height];
-                Frustum::new(planes(centre, [right, -right, up, -up], half))
+                Frustum::new(planes([x, -x, y, -y], half))
             }
         }
     }
@@ -332,6 +325,20 @@ impl Camera {
             .map(|v| [(v.x / v.z).clamp(0.0, width), (v.y / v.z).clamp(0.0, height)])
             .collect()
     }
+}
+
+/// A picture's size, if it is within the limits.
+fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], CameraError> {
+    let sides = 1..=Camera::MAX_SIDE;
+    let pixels = u64::from(width) * u64::from(height);
+    if !sides.contains(&width) || !sides.contains(&height) || pixels > Camera::MAX_PIXELS {
+        return refused(format!(
+            "a picture must have 1 to {} pixels each way and at most {} in all, not {width}x{height}",
+            Camera::MAX_SIDE,
+            Camera::MAX_PIXELS
+        ));
+    }
+    Ok([width, height])
 }
 
 /// The unit vector along a vector of any length that `f64` can express; `None` for zero.
@@ -366,107 +373,8 @@ pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, CameraError> {
     Err(Kind::Camera(problem.into()).error())
 }
 
-/// The field of view of cameras that stand around a scene, in radians.
-const AROUND: f64 = 0.7;
-/// The share of the picture left free around a scene that is shown whole.
-const BORDER: f64 = 0.05;
-/// The field of view of cameras inside: wide, as a room has to be seen from within.
-const INSIDE: f64 = 1.4;
-
-impl Camera {
-    /// A perspective camera that shows all of a bounding box, from the front, the right and above.
-    ///
-    /// # Errors
-    ///
-    /// If a number is not finite, `up` is zero, or the size is zero or beyond the limits.
-    pub fn looking_at_all(
-        bounds: [DVec3; 2],
-        up: DVec3,
-        size: [u32; 2],
-    ) -> Result<Self, CameraError> {
-        let [up, side, ahead] = axes(up);
-        let from = ahead * 0.8 + side * 0.45 + up * 0.4;
-        around(bounds, up, from, 1.0, size)
-    }
-}
-
-/// `count` cameras, alternately around a bounding box and inside it; the same for the same seed.
-///
-/// # Errors
-///
-/// If a number is not finite, `up` is zero, or the size is zero or beyond the limits.
-pub fn views(
-    bounds: [DVec3; 2],
-    up: DVec3,
-    count: usize,
-    size: [u32; 2],
-    seed: u64,
-) -> Result<Vec<Camera>, CameraError> {
-    let mut random = SplitMix64::new(seed);
-    let [up, side, ahead] = axes(up);
-    (0..count)
-        .map(|i| {
-            if i % 2 == 0 {
-                let (angle, height) =
-                    (random.range(0.0, std::f64::consts::TAU), random.range(-0.6, 0.9));
-                let from = side * angle.cos() + ahead * angle.sin() + up * height;
-                around(bounds, up, from, random.range(0.7, 1.6), size)
-            } else {
-                // At a point in the middle four fifths of the box, looking at another one there.
-                let [eye, target] = [(); 2].map(|()| {
-                    let share = random.point(0.1, 0.9);
-                    bounds[0] * (1.0 - share) + bounds[1] * share
-                });
-                // In a box without extent the two points coincide, or one is straight above the other.
-                Camera::perspective(eye, target, up, INSIDE, size)
-                    .or_else(|_| around(bounds, up, ahead + side, 0.1, size))
-            }
-        })
-        .collect()
-}
-
-/// A camera that looks at the middle of a box from the direction `from`. At distance 1 the box just
-/// fits the picture.
-fn around(
-    [min, max]: [DVec3; 2],
-    up: DVec3,
-    from: DVec3,
-    distance: f64,
-    size: [u32; 2],
-) -> Result<Camera, CameraError> {
-    let centre = min * 0.5 + max * 0.5;
-    let half = max * 0.5 - min * 0.5;
-    // A scene that is a single point still has a direction to be seen from.
-    let points = [half.abs().max_element(), centre.abs().max_element(), 1.0];
-    let largest = points.into_iter().find(|&size| size > 0.0).unwrap_or(1.0);
-    let from = unit(from).unwrap_or(DVec3::ZERO);
-    let orientation = Camera::perspective(from, DVec3::ZERO, up, AROUND, size)?;
-    let [width, height] = size.map(f64::from);
-    let rise = (AROUND * 0.5).tan() * (1.0 - BORDER);
-    let run = rise * width / height;
-    // A corner at c from the centre has depth d − c·from, and must lie within the picture's slopes
-    // there.
-    let needs = |corner: usize| {
-        let sign = |axis: usize| if corner >> axis & 1 == 0 { 1.0 } else { -1.0 };
-        let c = half / largest * DVec3::new(sign(0), sign(1), sign(2));
-        let (x, y) = (c.dot(orientation.right()).abs(), c.dot(orientation.up()).abs());
-        c.dot(from) + (x / run).max(y / rise)
-    };
-    let step = (0..8).map(needs).fold(1e-3, f64::max) * distance;
-    Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
-}
-
-/// The unit vector along `up`, and two perpendicular to it and to each other: for up = z, x and −y; for
-/// up = y, x and z. The last is the front, and the second to its right.
-fn axes(up: DVec3) -> [DVec3; 3] {
-    let up = unit(up).unwrap_or(DVec3::ZERO);
-    let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };
-    let side = unit(up.cross(reference)).unwrap_or(DVec3::X);
-    [up, side, side.cross(up)]
-}
-
 #[cfg(test)]
-mod camera_tests {
+mod tests {
     use super::*;
 
     const SIZE: [u32; 2] = [64, 48];
@@ -535,31 +443,6 @@ mod camera_tests {
         assert!(near(camera.project(DVec3::new(2.0, 1.0, -9.0)).unwrap(), [10.0, 10.0]));
     }
 
-    /// The matrix puts points where the camera does, and depths between those of the two planes.
-    #[test]
-    fn the_matrix_projects_as_the_camera_does() {
-        let eye = DVec3::new(3.0, -7.0, 2.0);
-        let size = [640, 360];
-        for camera in [
-            Camera::perspective(eye, DVec3::ONE, DVec3::Z, 0.9, size).unwrap(),
-            Camera::parallel(-eye, DVec3::Z, DVec3::ONE, 12.0, size).unwrap(),
-        ] {
-            let matrix = camera.matrix(0.5, 40.0);
-            let from = camera.eye().unwrap_or(DVec3::ONE);
-            let mut random = SplitMix64::new(5);
-            for _ in 0..100 {
-                let point = from + camera.forward() * 20.0 + random.point(-6.0, 6.0);
-                let clip = matrix.project_point3(point);
-                let [x, y] = camera.project(point).unwrap();
-                assert!(near([(0.5 + 0.5 * clip.x) * 640.0, (0.5 - 0.5 * clip.y) * 360.0], [x, y]));
-            }
-            for (distance, depth) in [(0.5, 0.0), (40.0, 1.0)] {
-                let at = from + camera.forward() * distance + camera.right();
-                assert!((matrix.project_point3(at).z - depth).abs() < 1e-12, "{camera:?}");
-            }
-        }
-    }
-
     #[test]
     fn a_floor_that_reaches_behind_the_eye_fills_the_lower_half() {
         let floor = [[-1e3, -1.0, 1e3], [1e3, -1.0, 1e3], [1e3, -1.0, -1e3], [-1e3, -1.0, -1e3]];
@@ -579,54 +462,5 @@ mod camera_tests {
         let beside = behind.map(|p| DVec3::new(p.x + 50.0, p.y, -p.z));
         assert!(camera().clip(&beside).is_empty());
         assert!(camera().clip(&[]).is_empty());
-    }
-}
-
-#[cfg(test)]
-mod vantage_tests {
-    use super::*;
-
-    const SIZE: [u32; 2] = [320, 240];
-
-    #[test]
-    fn shows_all_corners_of_the_box() {
-        for (up, size) in [(DVec3::Y, SIZE), (DVec3::Z, [240, 320]), (DVec3::X, SIZE)] {
-            for scale in [1e-300, 1.0, 1e300] {
-                let (min, max) =
-                    (DVec3::new(-1.0, 2.0, 0.0) * scale, DVec3::new(5.0, 3.0, 7.0) * scale);
-                let camera = Camera::looking_at_all([min, max], up, size).unwrap();
-                for i in 0..8 {
-                    let pick = |axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
-                    let [x, y] = camera.project(DVec3::new(pick(0), pick(1), pick(2))).unwrap();
-                    let [width, height] = size.map(f64::from);
-                    assert!(
-                        x > 0.0 && x < width && y > 0.0 && y < height,
-                        "{up} {scale:e} {x} {y}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_front_of_y_up_is_z_and_right_is_x() {
-        let camera = Camera::looking_at_all([-DVec3::ONE, DVec3::ONE], DVec3::Y, SIZE).unwrap();
-        assert!(camera.forward().z < -0.5 && camera.right().x > 0.5, "{camera:?}");
-        let camera = Camera::looking_at_all([-DVec3::ONE, DVec3::ONE], DVec3::Z, SIZE).unwrap();
-        assert!(camera.forward().y > 0.5 && camera.right().x > 0.5, "{camera:?}");
-    }
-
-    #[test]
-    fn views_are_reproducible_and_exist_for_degenerate_boxes() {
-        let boxes =
-            [[DVec3::ZERO, DVec3::ZERO], [DVec3::ZERO, DVec3::Y], [DVec3::ZERO, DVec3::ONE]];
-        for bounds in boxes {
-            for up in [DVec3::Y, DVec3::Z, DVec3::ONE] {
-                let cameras = views(bounds, up, 9, SIZE, 7).unwrap();
-                assert_eq!(cameras, views(bounds, up, 9, SIZE, 7).unwrap());
-                assert_ne!(cameras, views(bounds, up, 9, SIZE, 8).unwrap());
-            }
-        }
-        assert!(views(boxes[0], DVec3::ZERO, 1, SIZE, 0).is_err());
     }
 }
