@@ -40,6 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod batches;
 mod cell;
 mod crossings;
 mod edges;
@@ -51,10 +52,15 @@ mod map;
 mod order;
 mod overlaid;
 mod paths;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod pen;
+mod picture;
 mod regions;
+mod seams;
 mod sight;
 mod stock;
+mod svg;
 mod tile;
 mod translucent;
 
@@ -63,4 +69,5 @@ pub use map::{Hidden, MapCell, ViewOptions, VisibilityMap, VisiblePolygon};
 pub use overlaid::{LineRun, MarkerView};
 pub use paths::{DisplayItem, Drawing, Path};
 pub use pen::{Polyline, polylines};
+pub use picture::{Paint, Stroke, VectorPicture};
 pub use regions::Region;
