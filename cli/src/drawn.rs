@@ -76,7 +76,9 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
     });
     let mut filled: Vec<_> = filled.collect();
     // As finely as opacities are written.
-    filled.sort_by_key(|&(material, fill, opacity, _)| (material, fill, (1e4 * opacity).round() as u32));
+    filled.sort_by_key(|&(material, fill, opacity, _)| {
+        (material, fill, (1e4 * opacity).round() as u32)
+    });
     picture.added_up(|picture| {
         for run in filled.chunk_by(|a, b| a.0 == b.0) {
             named(picture, run[0].0, |picture| {
@@ -143,7 +145,7 @@ pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], ids: boo
             for Strokes { class, runs, lines, .. } in same {
                 picture.group(&[("class", class)], |picture| {
                     if !ids {
-                        picture.add_lines(lines.iter().map(|line| &line.points[..]), stroke);
+                        picture.add_lines(lines, stroke);
                         return;
                     }
                     for line in lines {

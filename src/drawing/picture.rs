@@ -34,8 +34,7 @@ const UNITS: u32 = 50;
 /// let mut picture = VectorPicture::new(map.size());
 /// picture.add_drawing(&map.drawing()?, |polygon| [[200, 80, 40], [40, 80, 200]][polygon]);
 /// let edges = map.edges(Hidden::Skip)?;
-/// let lines = polylines(edges.iter().map(|run| run.ends))?;
-/// picture.add_lines(lines.iter().map(|line| &line.points[..]), Stroke::new(1.0, [0, 0, 0]));
+/// picture.add_lines(polylines(edges.iter().map(|run| run.ends))?, Stroke::new(1.0, [0, 0, 0]));
 /// picture.add_label([160.0, 20.0], "two squares", 16.0, [0, 0, 0]);
 /// # let path = std::env::temp_dir().join("binspace-two-squares.svg");
 /// std::fs::write(path, picture.to_svg())?;
@@ -124,7 +123,7 @@ impl Paint {
     /// The paint with numbers that can be written and compared, without fills and strokes that are not visible.
     fn tidy(self) -> Self {
         // Four decimals are finer than 256 levels.
-        let share = |opacity: f64| (1e4 * opacity.max(0.0).min(1.0)).round() / 1e4;
+        let share = |opacity: f64| (1e4 * bounded(opacity, 1.0)).round() / 1e4;
         let opacity = share(self.opacity);
         let fill = self.fill.filter(|_| opacity > 0.0);
         let stroke = self.stroke.map(|stroke| {
@@ -232,25 +231,26 @@ impl VectorPicture {
 
     /// Adds an area. Its outlines are filled together by the nonzero rule, as those of a
     /// [`Path`](super::Path::outlines) or a [`Region`](super::Region::outlines).
-    pub fn add_area<'o>(
+    pub fn add_area<O: AsRef<[[f64; 2]]>>(
         &mut self,
-        outlines: impl IntoIterator<Item = &'o [[f64; 2]]>,
+        outlines: impl IntoIterator<Item = O>,
         paint: impl Into<Paint>,
     ) {
-        let outlines: Vec<&[[f64; 2]]> = outlines.into_iter().collect();
+        let given: Vec<O> = outlines.into_iter().collect();
+        let outlines: Vec<&[[f64; 2]]> = given.iter().map(AsRef::as_ref).collect();
         if outlines.iter().copied().flatten().all(is_near) {
             self.add(Shape::Path(Steps::filled(&outlines, units(self.size))), paint.into());
         }
     }
 
-    /// Adds polylines that are painted together: where they overlap, a translucent stroke is no darker. One that ends
-    /// where it begins is closed.
-    pub fn add_lines<'l>(
+    /// Adds lines that are painted together: where they overlap, a translucent stroke is no darker. They are
+    /// [polylines](super::polylines) or lists of points. One that ends where it begins is closed.
+    pub fn add_lines<L: AsRef<[[f64; 2]]>>(
         &mut self,
-        lines: impl IntoIterator<Item = &'l [[f64; 2]]>,
+        lines: impl IntoIterator<Item = L>,
         stroke: Stroke,
     ) {
-        let lines = lines.into_iter().filter(|line| line.iter().all(is_near));
+        let lines = lines.into_iter().filter(|line| line.as_ref().iter().all(is_near));
         self.add(Shape::Path(Steps::drawn(lines, units(self.size))), stroke.into());
     }
 
@@ -346,7 +346,12 @@ fn is_near(point: &[f64; 2]) -> bool {
 
 /// A length that can be written.
 fn length(given: f64) -> f64 {
-    given.max(0.0).min(FURTHEST)
+    bounded(given, FURTHEST)
+}
+
+/// A number that is not negative and at most another; 0 in place of NaN.
+fn bounded(given: f64, most: f64) -> f64 {
+    if given > 0.0 { given.min(most) } else { 0.0 }
 }
 
 fn in_steps(point: [f64; 2], scale: f64) -> [i64; 2] {
@@ -396,9 +401,9 @@ impl Steps {
     }
 
     /// Rounds lines, given in pixels, to whole units. A line that ends where it begins is closed.
-    pub(super) fn drawn<'l>(lines: impl Iterator<Item = &'l [[f64; 2]]>, units: u32) -> Self {
-        let line = |points: &[[f64; 2]]| {
-            let mut corners = rounded(points, f64::from(units));
+    pub(super) fn drawn<L: AsRef<[[f64; 2]]>>(lines: impl Iterator<Item = L>, units: u32) -> Self {
+        let line = |points: L| {
+            let mut corners = rounded(points.as_ref(), f64::from(units));
             if corners.len() > 3 && corners.first() == corners.last() {
                 corners.pop();
                 return Line { corners, is_closed: true };
@@ -407,7 +412,7 @@ impl Steps {
             corners.extend_from_within(..usize::from(corners.len() == 1));
             Line { corners, is_closed: false }
         };
-        let lines = lines.filter(|points| !points.is_empty());
+        let lines = lines.filter(|points| !points.as_ref().is_empty());
         Self { lines: lines.map(line).collect(), decimals: 0 }
     }
 }

@@ -299,10 +299,10 @@ mod tests {
     #[test]
     fn steps_are_short_and_set_apart() {
         let outline = [[11.5, 4.1], [12.75, 3.0], [12.7, 3.0], [12.7, 3.05], [13.7, -0.5]];
-        assert_eq!(filled(&[&outline], 100), "m1200 460 125-110-5 0 0 5 100-355z");
+        assert_eq!(filled(&[&outline], 100), "m1150 410 125-110-5 0 0 5 100-355z");
         let square = [[-0.5, -0.5], [0.0, -0.5], [0.0, 0.0]];
         let hole = [[0.75, 1.0], [1.0, 1.25], [1.25, 1.0]];
-        assert_eq!(filled(&[&square, &hole], 100), "m0 0 50 0 0 50zm125 150 25 25 25-25z");
+        assert_eq!(filled(&[&square, &hole], 100), "m-50-50 50 0 0 50zm125 150 25 25 25-25z");
     }
 
     #[test]
@@ -313,7 +313,7 @@ mod tests {
         let lines: [&[[f64; 2]]; 4] = [&corner, &ring, &dot, &corner[..2]];
         let data = data(&Steps::drawn(lines.into_iter(), 10));
         // After an open line the pen is at its end, after a closed one where that began.
-        assert_eq!(data, "m10 10 10 0 0 20m-10-10 10 0-10 10zm30 20 0 0m-30-30 10 0");
+        assert_eq!(data, "m5 5 10 0 0 20m-10-10 10 0-10 10zm30 20 0 0m-30-30 10 0");
     }
 
     #[test]
@@ -323,20 +323,20 @@ mod tests {
         outline.push([2.0, 9.5]);
         let text = filled(&[&outline], 100);
         let ends = filled(&[&[outline[0], outline[999], outline[1000]]], 100);
-        assert_eq!(ends, "m50 100 400 0-200 900z");
-        assert!(text.starts_with("m50 100 1 0"), "{text}");
+        assert_eq!(ends, "m0 50 400 0-200 900z");
+        assert!(text.starts_with("m0 50 1 0"), "{text}");
         assert!(text.ends_with(" 0-200 900z"), "{text}");
     }
 
     #[test]
     fn what_is_small_keeps_an_area() {
         let speck = [[3.0, 3.0], [3.001, 3.0], [3.0, 3.0003]];
-        assert_eq!(filled(&[&speck], 100), "m350 350 .1 0-.1.03z");
+        assert_eq!(filled(&[&speck], 100), "m300 300 .1 0-.1.03z");
         // Smaller than all steps: a path all the same.
-        assert_eq!(filled(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 100), "m350 350z");
+        assert_eq!(filled(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 100), "m300 300z");
         // Corners that fall together are one, and what is left of a hole is nothing.
         let square = [[0.0, 0.0], [0.001, 0.0], [4.0, 0.0], [4.0, 4.0], [0.001, 0.001]];
-        assert_eq!(filled(&[&square, &speck], 100), "m50 50 400 0 0 400z");
+        assert_eq!(filled(&[&square, &speck], 100), "m0 0 400 0 0 400z");
     }
 
     #[test]

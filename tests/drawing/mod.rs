@@ -17,6 +17,7 @@ mod lines;
 mod meetings;
 mod overlay;
 mod pen;
+mod pictures;
 mod progress;
 mod same;
 mod scenes;
