@@ -12,6 +12,9 @@ use super::paths::Drawing;
 const MOST_STEPS: f64 = 1e9;
 /// Shapes and lengths reach no further than this, in pixels: in steps, they are whole numbers of 64 bits.
 const FURTHEST: f64 = 1e6;
+/// Shorter lengths, in pixels, are nothing. Too small: they are written as 0, which makes no dashes; too large: lines that
+/// are visible in an enlarged picture are left out.
+const SHORTEST: f64 = 1e-4;
 /// If the longer side of a picture is at least this, units are fiftieths of a pixel: corners are off by a hundredth,
 /// which is not visible, even if the picture is enlarged a few times. For each tenth of this side, units are a tenth as
 /// large.
@@ -43,7 +46,7 @@ const UNITS: u32 = 50;
 ///
 /// Positions and lengths are in pixels, as those of [`Camera::project`](crate::view::Camera::project). They are rounded
 /// to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a coordinate that is NaN,
-/// infinite, or further away than a million pixels is left out. A length that is NaN or not positive is 0, and shapes or
+/// infinite, or further away than a million pixels is left out. A length that is NaN or less than 10⁻⁴ pixels is 0; shapes and
 /// strokes of this size are left out. Opacities are clamped to 0 to 1, and NaN is 0. So files are well-formed whatever
 /// the numbers are.
 #[derive(Clone, Debug)]
@@ -344,9 +347,9 @@ fn is_near(point: &[f64; 2]) -> bool {
     point.iter().all(|c| c.abs() <= FURTHEST)
 }
 
-/// A length that can be written.
+/// A length that can be written: not negative, and 0 if all that is written of it is 0.
 fn length(given: f64) -> f64 {
-    bounded(given, FURTHEST)
+    if given >= SHORTEST { bounded(given, FURTHEST) } else { 0.0 }
 }
 
 /// A number that is not negative and at most another; 0 in place of NaN.

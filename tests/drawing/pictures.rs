@@ -347,6 +347,9 @@ fn odd_numbers_make_no_broken_files() {
         let mut stroke =
             Stroke::new(odd(), [1, 2, 3]).with_opacity(odd()).with_dashes(odd(), odd());
         stroke.round_ends = round % 3 == 0;
+        // A viewer takes its time for a line of a million dashes.
+        let is_for_viewers = round % 4 < 2;
+        stroke.dashes = stroke.dashes.filter(|_| !is_for_viewers);
         let paint = Paint::from([7; 3]).with_opacity(odd()).with_stroke(stroke);
         let point = [odd(), odd()];
         picture.add_area([[point, [odd(), odd()], [3.0, 1.0]], [point; 3]], paint);
@@ -374,7 +377,7 @@ fn odd_numbers_make_no_broken_files() {
                 }
             }
         }
-        if round % 4 < 2 {
+        if is_for_viewers {
             Tree::from_str(&text, &Options::default()).unwrap();
         }
     }
