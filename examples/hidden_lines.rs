@@ -13,12 +13,11 @@
 #![allow(clippy::print_stdout, reason = "a program")]
 
 use binspace::BspTree;
-use binspace::drawing::{EdgeKind, EdgeRun, Hidden, ViewOptions, polylines};
+use binspace::drawing::{EdgeKind, EdgeRun, Hidden, Stroke, VectorPicture, ViewOptions, polylines};
 use binspace::glam::{DVec3, dvec3};
 use binspace::view::Camera;
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
-use std::fmt::Write;
 
 const SIZE: [u32; 2] = [640, 420];
 /// Quads around the part.
@@ -78,25 +77,14 @@ fn runs() -> Result<Vec<EdgeRun>, Box<dyn Error>> {
 
 /// Lines as an SVG, hidden ones below the others.
 fn svg(runs: &[EdgeRun]) -> Result<String, Box<dyn Error>> {
-    let [width, height] = SIZE;
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n\
-         <g fill=\"none\" stroke=\"#123\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
-    );
-    for (is_visible, style) in
-        [(false, "stroke-width=\".8\" stroke-dasharray=\"3.5 3\""), (true, "stroke-width=\"1.6\"")]
-    {
+    const INK: [u8; 3] = [17, 34, 51];
+    let mut picture = VectorPicture::new(SIZE).with_background([255; 3]);
+    let hidden = Stroke::new(0.8, INK).with_dashes(3.5, 3.0);
+    for (is_visible, stroke) in [(false, hidden), (true, Stroke::new(1.6, INK))] {
         let alike = runs.iter().filter(|run| run.is_visible == is_visible);
-        write!(svg, "<path {style} d=\"")?;
-        for line in polylines(alike.map(|run| run.ends))? {
-            for (i, [x, y]) in line.points.iter().enumerate() {
-                write!(svg, "{}{x:.1} {y:.1}", if i == 0 { 'M' } else { 'L' })?;
-            }
-        }
-        writeln!(svg, "\"/>")?;
+        picture.add_lines(polylines(alike.map(|run| run.ends))?, stroke);
     }
-    Ok(svg + "</g>\n</svg>\n")
+    Ok(picture.to_svg())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -125,5 +113,5 @@ fn outlines_are_closed_and_some_edges_hidden() {
         assert!(x > 5.0 && x < f64::from(SIZE[0]) - 5.0 && y > 5.0 && y < f64::from(SIZE[1]) - 5.0);
     }
     let text = svg(&runs).unwrap();
-    assert!(text.matches('M').count() < 120 && text.len() < 20_000, "{}", text.len());
+    assert!(text.matches('m').count() < 120 && text.len() < 20_000, "{}", text.len());
 }

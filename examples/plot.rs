@@ -272,7 +272,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     if let Some(path) = std::env::args().nth(1) {
         match path.ends_with(".svg") {
-            true => std::fs::write(path, svg::text(&plot)?)?,
+            true => std::fs::write(path, svg::picture(&plot)?.to_svg())?,
             false => plot.paint()?.write_png(&path)?,
         }
     }
@@ -336,7 +336,7 @@ fn a_vector_picture_has_the_markers_that_show() {
     }
     assert!(found[0] > 5 && found[1] > 1, "{found:?}");
     let shown = markers.iter().filter(|marker| marker.is_visible).count();
-    let text = svg::text(&plot).unwrap();
+    let text = svg::picture(&plot).unwrap().to_svg();
     assert_eq!(text.matches("<circle").count() + text.matches("<text").count(), shown);
     assert!(text.matches("<path").count() > 1000 && text.contains("stroke-dasharray"));
 }

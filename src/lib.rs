@@ -44,6 +44,7 @@
 //! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
 //! | `raster` | no | cameras (`view`), a painter and a z-buffer that decide every pixel exactly (`raster`, `paint`), their comparison (`verify`), and occlusion culling (`occlusion`) |
 //! | `drawing` | no | module `drawing`: one view as a vector picture, one path a visible polygon; turns on `raster` |
+//! | `pdf` | no | vector pictures as PDF; turns on `drawing` |
 //! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
 //! | `obj` | no | reading Wavefront OBJ files into a `Scene`; turns on `scene` |

@@ -1,8 +1,9 @@
 //! Cameras that the user asks for, and default cameras for a scene.
 
+use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError, Projection, views};
+use binspace::view::{Camera, Projection, views};
 
 use clap::Args;
 
@@ -98,8 +99,8 @@ pub(crate) fn around_and_inside(
 fn upright(
     scene: &Scene,
     up: Option<DVec3>,
-    make: impl Fn(DVec3) -> Result<Camera, CameraError>,
-) -> Result<Camera, CameraError> {
+    make: impl Fn(DVec3) -> Result<Camera, Error>,
+) -> Result<Camera, Error> {
     if let Some(up) = up {
         return make(up);
     }
@@ -121,7 +122,7 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
 }
 
 /// A failure to make a camera for a scene.
-pub(crate) fn about(scene: &Scene, error: &CameraError) -> Failure {
+pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
     let [low, high] = bounds(scene);
     let furthest = low.abs().max(high.abs()).max_element();
     if furthest < TOO_LARGE {

@@ -1,15 +1,13 @@
-//! What is written of a view: filled polygons in an order to paint them, and lines above them.
+//! Drawings as vector pictures: filled polygons in an order to paint them, and lines above them.
 
-use binspace::drawing::{Path, Region};
+use binspace::drawing::{Drawing, EdgeKind, EdgeRun, Paint, Path, Region, Stroke, VectorPicture};
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-use crate::colours::Colours;
-use crate::fill_order::by_fill;
+use crate::colours::{BACKGROUND, Colours};
 use crate::seams::Seams;
 use crate::shading::shaded;
 use crate::strokes::Strokes;
-use crate::traps::{Outline, trapped};
 
 /// The width of visible lines, in pixels.
 pub(crate) const WIDTH: f64 = 1.0;
@@ -24,31 +22,6 @@ pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
         3 => [1.0, 3.0],
         _ => [1.0, 6.0],
     }
-}
-
-/// A filled path.
-#[derive(Debug)]
-pub(crate) struct Filled<'a> {
-    /// What shows, front to back: one, but for regions where something shows through.
-    pub(crate) polygons: Vec<usize>,
-    /// The name of its material, if paths are to be named.
-    pub(crate) material: &'a str,
-    pub(crate) fill: [u8; 3],
-    /// From 0 to 1.
-    pub(crate) opacity: f32,
-    pub(crate) outlines: Vec<Outline>,
-}
-
-/// All of a file.
-#[derive(Debug)]
-pub(crate) struct Drawn<'a> {
-    pub(crate) size: [u32; 2],
-    pub(crate) fills: Vec<Filled<'a>>,
-    pub(crate) strokes: Vec<Strokes>,
-    /// Whether polygons, materials and edges are named.
-    pub(crate) ids: bool,
-    /// Whether fills are regions side by side, to be added up.
-    pub(crate) are_regions: bool,
 }
 
 /// Where the colours of paths come from.
@@ -88,45 +61,121 @@ impl<'a> Style<'a> {
     }
 }
 
-/// Regions as they are written: those that look alike together.
-pub(crate) fn filled_regions<'a>(regions: &[Region], style: &Style<'a>) -> Vec<Filled<'a>> {
-    let filled = regions.iter().map(|region| {
-        let [r, g, b, opacity] = style.blended(region.polygons());
-        let front = region.polygons().first().copied().unwrap_or_default();
-        Filled {
-            polygons: region.polygons().to_vec(),
-            material: style.material(front),
-            fill: [r, g, b].map(|channel| (255.0 * channel / opacity).round() as u8),
-            // Four decimals are finer than 256 levels.
-            opacity: (1e4 * opacity).round() as f32 / 1e4,
-            outlines: region.outlines().map(<[_]>::to_vec).collect(),
-        }
-    });
-    let mut filled: Vec<Filled<'_>> = filled.collect();
-    filled.sort_by_key(|filled| (filled.material, filled.fill, filled.opacity.to_bits()));
-    filled
+/// A picture to add fills and strokes to.
+pub(crate) fn blank(camera: &Camera) -> VectorPicture {
+    VectorPicture::new(camera.size()).with_background(BACKGROUND)
 }
 
-/// Paths as they are written: those that look alike together where nothing lies between them, and opaque
-/// ones extended under their later neighbours.
-pub(crate) fn filled<'a>(paths: &[Path<'_>], style: &Style<'a>) -> Vec<Filled<'a>> {
-    let size = style.camera.size();
-    // Opacities from 0 to 1 are in the order of their bits.
-    let look = |path: &Path<'_>| {
-        let polygon = path.polygon();
-        (style.material(polygon), style.fill(polygon), style.opacity(polygon).to_bits())
-    };
-    let looks: Vec<(&str, [u8; 3], u32)> = paths.iter().map(look).collect();
-    let order = by_fill(paths, &looks, size);
-    let paths: Vec<Path<'_>> = order.iter().map(|&number| paths[number]).collect();
-    let is_trapped =
-        |number: usize| style.seams == Seams::Trap && style.opacity(paths[number].polygon()) == 1.0;
-    let outlines = trapped(&paths, size, is_trapped);
-    let all = paths.iter().zip(outlines).zip(&order);
-    let filled = all.map(|((path, outlines), &number)| {
-        let (material, fill, opacity) = looks[number];
-        let opacity = f32::from_bits(opacity);
-        Filled { polygons: vec![path.polygon()], material, fill, opacity, outlines }
+/// Adds regions, which viewers add up: those that look alike together.
+pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style: &Style<'_>) {
+    let front = |region: &Region| region.polygons().first().copied().unwrap_or_default();
+    let filled = regions.iter().map(|region| {
+        let [r, g, b, opacity] = style.blended(region.polygons());
+        let fill = [r, g, b].map(|channel| (255.0 * channel / opacity).round() as u8);
+        (style.material(front(region)), fill, opacity, region)
     });
-    filled.collect()
+    let mut filled: Vec<_> = filled.collect();
+    // As finely as opacities are written.
+    filled.sort_by_key(|&(material, fill, opacity, _)| {
+        (material, fill, (1e4 * opacity).round() as u32)
+    });
+    picture.added_up(|picture| {
+        for run in filled.chunk_by(|a, b| a.0 == b.0) {
+            named(picture, run[0].0, |picture| {
+                for &(_, fill, opacity, region) in run {
+                    let numbers: Vec<String> =
+                        region.polygons().iter().map(usize::to_string).collect();
+                    let name = if numbers.len() == 1 { "data-polygon" } else { "data-polygons" };
+                    let names = [(name, &*numbers.join(" "))];
+                    picture.group(if style.ids { &names } else { &[] }, |picture| {
+                        let paint = Paint::from(fill).with_opacity(opacity);
+                        picture.add_area(region.outlines(), paint);
+                    });
+                }
+            });
+        }
+    });
+}
+
+/// Adds the paths of a drawing: those that look alike together where nothing lies between them.
+pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
+    let opacity = |polygon| style.opacity(polygon);
+    // Opacities from 0 to 1 are in the order of their bits.
+    let look = |polygon| (style.material(polygon), style.fill(polygon), opacity(polygon).to_bits());
+    let traps = |polygon| style.seams == Seams::Trap && opacity(polygon) == 1.0;
+    let drawing = drawing.batched(look).trapped(traps);
+    let paths: Vec<Path<'_>> = drawing.paths().collect();
+    let material = |path: &Path<'_>| style.material(path.polygon());
+    for run in paths.chunk_by(|a, b| material(a) == material(b)) {
+        named(picture, material(&run[0]), |picture| {
+            for path in run {
+                let polygon = path.polygon();
+                let number = polygon.to_string();
+                let names = [("data-polygon", &*number)];
+                picture.group(if style.ids { &names } else { &[] }, |picture| {
+                    let opacity = f64::from(opacity(polygon));
+                    let paint = Paint::from(style.fill(polygon)).with_opacity(opacity);
+                    picture.add_area(path.outlines(), paint);
+                });
+            }
+        });
+    }
+}
+
+/// Groups what has a material, if materials are named.
+fn named(picture: &mut VectorPicture, material: &str, add: impl FnOnce(&mut VectorPicture)) {
+    if material.is_empty() {
+        add(picture);
+    } else {
+        picture.group(&[("data-material", material)], add);
+    }
+}
+
+/// Adds lines: one path for each kind of edges or, with names, for each run of an edge.
+pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], ids: bool) {
+    for same in all.chunk_by(|a, b| a.depth == b.depth) {
+        let (depth, stroke) = (same[0].depth, stroke(same[0].depth));
+        let class = match depth {
+            0 => "visible".to_owned(),
+            1 => "hidden".to_owned(),
+            // A second class for those behind several polygons.
+            _ => format!("hidden layers-{depth}"),
+        };
+        picture.group(&[("class", &class)], |picture| {
+            for Strokes { class, runs, lines, .. } in same {
+                picture.group(&[("class", class)], |picture| {
+                    if !ids {
+                        picture.add_lines(lines, stroke);
+                        return;
+                    }
+                    for line in lines {
+                        for (ends, &number) in line.points.windows(2).zip(&line.segments) {
+                            add_run(picture, &runs[number], ends, stroke);
+                        }
+                    }
+                });
+            }
+        });
+    }
+}
+
+/// Adds a run of an edge with the names of its polygon and of the edge.
+fn add_run(picture: &mut VectorPicture, run: &EdgeRun, ends: &[[f64; 2]], stroke: Stroke) {
+    let polygon = run.polygon.to_string();
+    let second = match (run.edge, run.kind) {
+        (Some(edge), _) => Some(("data-edge", edge.to_string())),
+        (_, EdgeKind::Crossing(other)) => Some(("data-crosses", other.to_string())),
+        _ => None,
+    };
+    let mut names = vec![("data-polygon", &*polygon)];
+    names.extend(second.iter().map(|(name, number)| (*name, &**number)));
+    picture.group(&names, |picture| picture.add_lines([ends], stroke));
+}
+
+fn stroke(depth: u32) -> Stroke {
+    if depth == 0 {
+        return Stroke::new(WIDTH, [0; 3]);
+    }
+    let [dash, gap] = dashes(depth);
+    Stroke::new(HIDDEN_WIDTH, [0; 3]).with_dashes(dash, gap)
 }

@@ -1,8 +1,9 @@
 //! Cameras that show all of a scene, as large as it fits.
 
+use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 
 /// How much of the picture the scene fills.
 const FILL: f64 = 0.92;
@@ -14,7 +15,7 @@ const FILL: f64 = 0.92;
 /// plane through the eye and that side. With r, u, b the directions right, up and back, and t the
 /// tangent of half the width: ±(p − eye)·r ≤ t (eye − p)·b, so that eye·b must be at least
 /// (max(p·r + t p·b) + max(−p·r + t p·b)) / 2t; the same holds up and down.
-pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, CameraError> {
+pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Error> {
     let [width, height] = like.size().map(f64::from);
     let tangent = (0.5 * fov).tan() * FILL;
     let (right, up, back) = (like.right(), like.up(), -like.forward());
@@ -55,7 +56,7 @@ pub(crate) fn parallel(
     up: DVec3,
     scene: &Scene,
     size: [u32; 2],
-) -> Result<Camera, CameraError> {
+) -> Result<Camera, Error> {
     let axes = Camera::parallel(direction, up, DVec3::ZERO, 1.0, size)?;
     let [width, height] = size.map(f64::from);
     let span = |axis: DVec3| (reach(scene, axis), reach(scene, -axis));

@@ -1,10 +1,11 @@
 //! The pictures that can be drawn of a tree, as RGB pixels.
 
 use binspace::BspTree;
+use binspace::Error;
 use binspace::paint::{paint_tree, paint_tree_in_colour};
 use binspace::raster::{Rays, depth_map, difference, picture, zbuffer};
 use binspace::verify::{Verification, verify, verify_fronts};
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use clap::ValueEnum;
 
 use crate::args::KindArgs;
@@ -95,7 +96,7 @@ pub(crate) fn rows_at_once([columns, rows]: [u32; 2], samples: u32) -> u32 {
 impl Drawing<'_> {
     /// Its pixels. Transparency shows only in the painter's picture. A difference comes with the
     /// figures of what differs.
-    pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), CameraError> {
+    pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), Error> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),
             Kind::Depth(bright) => {
@@ -118,7 +119,7 @@ impl Drawing<'_> {
     }
 
     /// A picture with all its samples, some rows at a time.
-    fn in_parts(&self, kind: Kind) -> Result<Vec<u8>, CameraError> {
+    fn in_parts(&self, kind: Kind) -> Result<Vec<u8>, Error> {
         let rays = self.cull.rays(Rays::sampled(self.camera, self.tree.faces(), self.samples)?);
         let ([columns, rows], [width, _]) = (rays.size(), self.camera.size());
         let step = rows_at_once([columns, rows], self.samples);

@@ -1,11 +1,12 @@
 //! The command line.
 
+use binspace::Error;
 use std::path::PathBuf;
 
 use binspace::BuildOptions;
 use binspace::glam::DVec3;
 use binspace::partition::Extent;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use clap::Parser;
 
 /// The vertical field of view in radians.
@@ -57,7 +58,7 @@ impl Arguments {
     }
 
     /// The camera for a scene of some extent.
-    pub(crate) fn camera(&self, extent: &Extent) -> Result<Camera, CameraError> {
+    pub(crate) fn camera(&self, extent: &Extent) -> Result<Camera, Error> {
         let is_something = extent.low.cmple(extent.high).all();
         let [low, high] =
             if is_something { [extent.low, extent.high] } else { [DVec3::NEG_ONE, DVec3::ONE] };

@@ -13,11 +13,13 @@
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
+//! A [`VectorPicture`] takes any of these with its own colours and lines, and writes SVG or, with the feature `pdf`, PDF.
+//!
 //! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
 //! map.
 //!
 //! ```
-//! use binspace::drawing::ViewOptions;
+//! use binspace::drawing::{VectorPicture, ViewOptions};
 //! use binspace::view::Camera;
 //! use binspace::{BspTree, glam::DVec3};
 //!
@@ -31,15 +33,13 @@
 //! let drawing = map.drawing()?;
 //! // Both are whole, and the hidden one comes first.
 //! assert!(drawing.paths().map(|path| path.polygon()).eq([0, 1]));
-//! for path in drawing.paths() {
-//!     // The outlines of one path are filled together: some are holes.
-//!     let outline = |o: &[[f64; 2]]| o.iter().map(|[x, y]| format!("{x:.2},{y:.2} ")).collect();
-//!     let outlines: Vec<String> = path.outlines().map(outline).collect();
-//!     println!(r#"<path d="M{}Z"/>"#, outlines.join("ZM"));
-//! }
+//! let mut picture = VectorPicture::new(drawing.size());
+//! picture.add_drawing(&drawing, |polygon| [[200, 80, 40], [40, 80, 200]][polygon]);
+//! println!("{}", picture.to_svg());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod batches;
 mod cell;
 mod crossings;
 mod edges;
@@ -51,10 +51,15 @@ mod map;
 mod order;
 mod overlaid;
 mod paths;
+#[cfg(feature = "pdf")]
+mod pdf;
 mod pen;
+mod picture;
 mod primitives;
 mod regions;
+mod seams;
 mod sight;
+mod svg;
 mod tile;
 mod translucent;
 
@@ -63,4 +68,5 @@ pub use map::{Hidden, MapCell, ViewOptions, VisibilityMap, VisiblePolygon};
 pub use overlaid::{LineRun, MarkerView};
 pub use paths::{DisplayItem, Drawing, Path};
 pub use pen::{Polyline, polylines};
+pub use picture::{Paint, Stroke, VectorPicture};
 pub use regions::Region;

@@ -27,13 +27,13 @@ use crate::{Error, parallel_map};
 /// A view as filled outlines, in the order to paint them.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    size: [u32; 2],
+    pub(super) size: [u32; 2],
     pub(super) paths: Vec<Record>,
     /// Where each outline begins, and all corners.
-    outlines: Vec<u32>,
-    corners: Vec<[f64; 2]>,
+    pub(super) outlines: Vec<u32>,
+    pub(super) corners: Vec<[f64; 2]>,
     /// The edge of its polygon along which the side runs that begins at each corner.
-    edges: Vec<Option<u32>>,
+    pub(super) edges: Vec<Option<u32>>,
     /// Lines and points, each with how many paths come before it: in the order to paint them.
     pub(super) overlaid: Vec<(u32, Overlaid)>,
 }
@@ -42,14 +42,14 @@ pub struct Drawing {
 pub(super) struct Record {
     polygon: usize,
     is_clipped: bool,
-    outlines: Range<u32>,
+    pub(super) outlines: Range<u32>,
 }
 
 /// What is filled for a polygon.
 #[derive(Clone, Copy, Debug)]
 pub struct Path<'d> {
     drawing: &'d Drawing,
-    record: &'d Record,
+    pub(super) record: &'d Record,
 }
 
 impl Drawing {

@@ -30,6 +30,12 @@ impl Polyline {
     }
 }
 
+impl AsRef<[[f64; 2]]> for Polyline {
+    fn as_ref(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+}
+
 /// Joins segments that have ends in common to as few lines as there can be, and puts these in an order,
 /// each from that of its ends, in which a pen travels little between them.
 ///

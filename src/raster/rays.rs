@@ -1,11 +1,12 @@
 //! One integer ray for each pixel.
 
+use crate::Error;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use crate::exact::{Eye, Faces, Lattice};
-use crate::view::{Camera, CameraError, Projection, refused};
+use crate::view::{Camera, Projection, refused};
 use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
@@ -97,7 +98,7 @@ impl Rays {
     /// n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000 by 1 000 pixels, that is a
     /// field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. An oblong pixel is as large as its shorter
     /// side; a skewed one, as its shorter side times √(1 − |cos φ|), where φ is the angle between its sides.
-    pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, CameraError> {
+    pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }
 
@@ -109,7 +110,7 @@ impl Rays {
     ///
     /// As for [`new`](Self::new), with pixels `samples` times finer; and if `samples` is 0, or the
     /// picture's sides do not fit `u32`.
-    pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, CameraError> {
+    pub fn sampled(camera: &Camera, faces: &Faces, samples: u32) -> Result<Self, Error> {
         let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
         let [Some(width), Some(height)] = sides else {
             return refused(format!(
@@ -159,7 +160,7 @@ impl Rays {
         steps: [f64; 2],
         finest: f64,
         depth_unit: f64,
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, Error> {
         let [width, height] = size.map(f64::from);
         let (right, down) = (camera.right() * steps[0], camera.up() * -steps[1]);
         let reach = middle.abs() + right.abs() * width + down.abs() * height;

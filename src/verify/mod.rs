@@ -1,6 +1,7 @@
 //! Comparing a tree's picture with a depth buffer's, and the forms in which a tree returns an order with each
 //! other: the only module that knows both the tree and the judge.
 
+use crate::Error;
 use std::fmt;
 
 use crate::paint::{Pieces, paint_list};
@@ -9,7 +10,7 @@ use crate::raster::{
     zbuffer_layers,
 };
 use crate::tree::{BspTree, Fragment};
-use crate::view::{Camera, CameraError};
+use crate::view::Camera;
 use crate::viewpoint::Viewpoint;
 
 /// A tree verified from one camera: the picture painted in its order, the true picture, and their
@@ -73,7 +74,7 @@ impl Verification {
 /// # Errors
 ///
 /// If the camera does not fit the scene's grid; see [`Rays::new`].
-pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, CameraError> {
+pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     let rays = Rays::new(camera, tree.faces())?;
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
@@ -84,7 +85,7 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, CameraErr
 /// # Errors
 ///
 /// As for [`verify`].
-pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, CameraError> {
+pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     let rays = Rays::new(camera, tree.faces())?.with_front_faces_only();
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }

@@ -1,8 +1,9 @@
 //! Cameras that show a scene whole, and views around and inside of one.
 
+use crate::Error;
 use glam::DVec3;
 
-use super::{Camera, CameraError, unit};
+use super::{Camera, unit};
 use crate::random::SplitMix64;
 
 /// The field of view of cameras that stand around a scene, in radians.
@@ -18,11 +19,7 @@ impl Camera {
     /// # Errors
     ///
     /// If a number is not finite, `up` is zero, or the size is zero or beyond the limits.
-    pub fn looking_at_all(
-        bounds: [DVec3; 2],
-        up: DVec3,
-        size: [u32; 2],
-    ) -> Result<Self, CameraError> {
+    pub fn looking_at_all(bounds: [DVec3; 2], up: DVec3, size: [u32; 2]) -> Result<Self, Error> {
         let [up, side, ahead] = axes(up);
         let from = ahead * 0.8 + side * 0.45 + up * 0.4;
         around(bounds, up, from, 1.0, size)
@@ -40,7 +37,7 @@ pub fn views(
     count: usize,
     size: [u32; 2],
     seed: u64,
-) -> Result<Vec<Camera>, CameraError> {
+) -> Result<Vec<Camera>, Error> {
     let mut random = SplitMix64::new(seed);
     let [up, side, ahead] = axes(up);
     (0..count)
@@ -72,7 +69,7 @@ fn around(
     from: DVec3,
     distance: f64,
     size: [u32; 2],
-) -> Result<Camera, CameraError> {
+) -> Result<Camera, Error> {
     let centre = min * 0.5 + max * 0.5;
     let half = max * 0.5 - min * 0.5;
     // A scene that is a single point still has a direction to be seen from.

@@ -1,8 +1,9 @@
 //! Cameras from view-projection matrices, and the matrices of cameras.
 
+use crate::Error;
 use glam::{DMat4, DVec3, DVec4};
 
-use super::{Camera, CameraError, NON_FINITE, Projection, checked, refused, unit};
+use super::{Camera, NON_FINITE, Projection, checked, refused, unit};
 
 /// A field of view with a smaller tangent counts as that of a parallel camera. Too small: a parallel matrix whose last
 /// row was rounded has an eye, very far away. Too large: eyes of narrow views are lost. ([`Rays`](crate::raster::Rays)
@@ -56,7 +57,7 @@ impl Camera {
     /// // The window's corners are the picture's.
     /// let [x, y] = camera.project(DVec3::new(1.0, 0.0, 0.0)).expect("ahead");
     /// assert!((x - 600.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9);
-    /// # Ok::<(), binspace::view::CameraError>(())
+    /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
     /// # Errors
@@ -64,7 +65,7 @@ impl Camera {
     /// If a number is not finite; if the rows determine neither an eye nor a direction; if nothing is ahead, as w is
     /// not positive anywhere; if the picture is mirrored; if the sides of a pixel, or the picture and the line of sight
     /// to its middle, form an angle of less than 0.001 radians; or if the size is zero or beyond the limits.
-    pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, CameraError> {
+    pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, Error> {
         let size = checked(size)?;
         if !matrix.is_finite() {
             return refused(NON_FINITE);
@@ -142,7 +143,7 @@ impl Camera {
     /// assert!(((0.5 + 0.5 * clip.x) * 640.0 - x).abs() < 1e-9);
     /// assert!(((0.5 - 0.5 * clip.y) * 480.0 - y).abs() < 1e-9);
     /// assert!(clip.z > 0.0 && clip.z < 1.0);
-    /// # Ok::<(), binspace::view::CameraError>(())
+    /// # Ok::<(), binspace::Error>(())
     /// ```
     pub fn matrix(&self, near: f64, far: f64) -> DMat4 {
         let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());

@@ -6,6 +6,7 @@
 mod around;
 mod matrix;
 
+use crate::Error;
 use glam::DVec3;
 
 pub use around::views;
@@ -82,7 +83,7 @@ impl Camera {
         up: DVec3,
         field_of_view: f64,
         size: [u32; 2],
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, Error> {
         if !field_of_view.is_finite() {
             return refused(NON_FINITE);
         }
@@ -105,7 +106,7 @@ impl Camera {
         up: DVec3,
         half_height: f64,
         size: [u32; 2],
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, Error> {
         // Halved first, so that the difference of two finite points is finite.
         let view = target * 0.5 - eye * 0.5;
         Self::oriented(Projection::Perspective { eye, half_height }, view, up, size)
@@ -124,7 +125,7 @@ impl Camera {
         centre: DVec3,
         height: f64,
         size: [u32; 2],
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, Error> {
         Self::oriented(Projection::Parallel { direction, centre, height }, direction, up, size)
     }
 
@@ -133,7 +134,7 @@ impl Camera {
         view: DVec3,
         up: DVec3,
         size: [u32; 2],
-    ) -> Result<Self, CameraError> {
+    ) -> Result<Self, Error> {
         let (origin, span, too_small) = match projection {
             Projection::Perspective { eye, half_height } => (eye, half_height, FIELD_OF_VIEW),
             Projection::Parallel { centre, height, .. } => {
@@ -234,7 +235,7 @@ impl Camera {
     /// # Errors
     ///
     /// If the size is zero or beyond the limits.
-    pub fn with_size(&self, size: [u32; 2]) -> Result<Self, CameraError> {
+    pub fn with_size(&self, size: [u32; 2]) -> Result<Self, Error> {
         Ok(Self { size: checked(size)?, ..*self })
     }
 
@@ -328,7 +329,7 @@ impl Camera {
 }
 
 /// A picture's size, if it is within the limits.
-fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], CameraError> {
+fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], Error> {
     let sides = 1..=Camera::MAX_SIDE;
     let pixels = u64::from(width) * u64::from(height);
     if !sides.contains(&width) || !sides.contains(&height) || pixels > Camera::MAX_PIXELS {
@@ -366,10 +367,8 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-pub use crate::Error as CameraError;
-
 /// The error of a problem.
-pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, CameraError> {
+pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, Error> {
     Err(Kind::Camera(problem.into()).error())
 }
 
@@ -402,7 +401,7 @@ mod tests {
     fn degenerate_cameras_are_errors() {
         let (o, x, z) = (DVec3::ZERO, DVec3::X, DVec3::Z);
         let perspective = |eye, up, fov, size| Camera::perspective(eye, o, up, fov, size);
-        let message = |camera: Result<Camera, CameraError>| camera.unwrap_err().to_string();
+        let message = |camera: Result<Camera, Error>| camera.unwrap_err().to_string();
         assert!(message(perspective(o, z, 1.0, SIZE)).contains("looks nowhere"));
         assert!(message(perspective(x, x, 1.0, SIZE)).contains("up vector"));
         assert!(message(perspective(x, o, 1.0, SIZE)).contains("up vector"));

@@ -18,6 +18,7 @@ mod matrices;
 mod meetings;
 mod overlay;
 mod pen;
+mod pictures;
 mod progress;
 mod same;
 mod scenes;

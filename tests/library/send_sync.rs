@@ -13,7 +13,7 @@ use binspace::overlay::{Marker, Overlaid, Overlay, OverlayOrder, Segment, Shape}
 use binspace::raster::{Comparison, DepthImage, Image};
 use binspace::scene::{Material, ObjError, ObjReport};
 use binspace::verify::Verification;
-use binspace::view::{CameraError, Projection};
+use binspace::view::Projection;
 use binspace::{
     Child, Culling, Error, Fragment, Frustum, Grid, Hit, Location, Node, Order,
     ParseHeuristicError, Part, Preparation, Progress, Ray, Stats,
@@ -47,7 +47,7 @@ assert_shared!(
 assert_shared!(Overlay, Overlaid<'_>, OverlayOrder<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
 assert_shared!(PieceSet<'_>, SplitPlane);
-assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, CameraError);
+assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, Error);
 // Geometry.
 assert_shared!(Faces, Preparation, Lattice, PreparedPlane, StoredVertex, Vertex, Eye, EdgeLine);
 assert_shared!(PlaneId, PlaneKind, Side, VertexId, VertexKind);

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use binspace::drawing::{Drawing, ViewOptions, VisibilityMap};
+use binspace::drawing::{Drawing, VectorPicture, ViewOptions, VisibilityMap};
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 use serde::Serialize;
@@ -17,7 +17,7 @@ use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
-use crate::drawn::{Drawn, Filled, Style, filled, filled_regions};
+use crate::drawn::{Style, add_drawing, add_regions, add_strokes, blank};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::format::{about_output, format};
@@ -26,10 +26,12 @@ use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::{note, say};
 use crate::upright::note_z_up;
-use crate::{camera, coverage, drawn_pdf, drawn_svg, ink, job, png_file};
+use crate::{camera, coverage, ink, job, png_file};
 
 /// The side of the square, in pixels, that a polygon has to show, unless the user says.
 const MIN_SIZE: f64 = 0.01;
+/// The longest side of a PDF's page, in points, as the standard has it (ISO 32000-1, annex C).
+const LONGEST: u32 = 14_400;
 
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
@@ -97,12 +99,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         figures.bytes = output.write_counted(write)?;
     } else {
         let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
-        let fills = view.fills(&tree, map.as_ref(), start, &mut figures).map_err(about)?;
-        let drawn = view.drawn(fills, strokes, &mut figures);
+        figures.count(&strokes);
+        let mut picture = blank(&camera);
+        view.fill(&mut picture, &tree, map.as_ref(), start, &mut figures).map_err(about)?;
+        add_strokes(&mut picture, &strokes, args.ids);
         view.show(None);
         figures.bytes = output.write_counted(|out| match format {
-            DrawFormat::Pdf => drawn_pdf::write(out, &drawn),
-            _ => drawn_svg::write(out, &drawn),
+            DrawFormat::Pdf => out.write_all(&picture.to_pdf()),
+            _ => out.write_all(picture.to_svg().as_bytes()),
         })?;
     }
     if figures.visible == 0 {
@@ -163,19 +167,20 @@ impl<'a> View<'a> {
         tree.visibility(self.style.camera, &self.options)
     }
 
-    /// The filled paths, counted; none if there are to be lines alone.
-    fn fills(
+    /// Adds the filled paths, counted, to a picture; none if there are to be lines alone.
+    fn fill(
         &self,
+        picture: &mut VectorPicture,
         tree: &BspTree,
         map: Option<&VisibilityMap<'_>>,
         start: Instant,
         figures: &mut Figures,
-    ) -> Result<Vec<Filled<'a>>, Error> {
+    ) -> Result<(), Error> {
         let Self { args, style, .. } = self;
         figures.visible = map.map_or(0, |map| map.polygons().count());
         figures.draw_seconds = start.elapsed().as_secs_f64();
         if args.lines {
-            return Ok(vec![]);
+            return Ok(());
         }
         self.show(Some("drawing"));
         let drawing = match map {
@@ -183,7 +188,8 @@ impl<'a> View<'a> {
                 let regions = map.regions()?;
                 figures.paths = regions.len();
                 figures.draw_seconds = start.elapsed().as_secs_f64();
-                return Ok(filled_regions(&regions, style));
+                add_regions(picture, &regions, style);
+                return Ok(());
             }
             Some(map) if !args.translucent => map.drawing()?,
             _ => Drawing::translucent(tree, style.camera, &self.options, None)?,
@@ -196,7 +202,8 @@ impl<'a> View<'a> {
             let drawn = paths.iter().map(|path| path.polygon());
             figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
-        Ok(filled(&paths, style))
+        add_drawing(picture, &drawing, style);
+        Ok(())
     }
 
     fn strokes(
@@ -212,19 +219,6 @@ impl<'a> View<'a> {
             runs.append(&mut map.crossings(hidden)?);
         }
         strokes(&runs, edges, min_size(self.args))
-    }
-
-    /// The paths and lines that are written, counted.
-    fn drawn(
-        &self,
-        fills: Vec<Filled<'a>>,
-        strokes: Vec<Strokes>,
-        figures: &mut Figures,
-    ) -> Drawn<'a> {
-        figures.count(&strokes);
-        let Style { camera, ids, seams, .. } = self.style;
-        let are_regions = seams == Seams::PlusLighter && !fills.is_empty();
-        Drawn { size: camera.size(), fills, strokes, ids, are_regions }
     }
 }
 
@@ -288,10 +282,10 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
         "--ids is for SVG: other formats have no place for names"
     } else if format == DrawFormat::Png && args.min_size.is_some() && !has_lines {
         "--min-size is for SVG, PDF and lines: a PNG has of each polygon just what it shows"
-    } else if format == DrawFormat::Pdf && longest > drawn_pdf::LONGEST {
+    } else if format == DrawFormat::Pdf && longest > LONGEST {
         return Err(format!(
             "a page of a PDF has at most {} points each way, one for each pixel: give a smaller --size",
-            drawn_pdf::LONGEST
+            LONGEST
         ));
     } else {
         return Ok(());

@@ -1,10 +1,11 @@
 //! A scene as a camera sees it, drawn by one method after another.
 
+use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::raster::{Image, Rays, picture, zbuffer};
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use binspace_evidence::measure::PictureError;
 use binspace_evidence::method::{Method, MethodError};
 
@@ -41,10 +42,7 @@ impl<'a> Shot<'a> {
         Self::new(scene, camera)
     }
 
-    pub(super) fn new(
-        scene: &'a Scene,
-        camera: Result<Camera, CameraError>,
-    ) -> Result<Self, Failure> {
+    pub(super) fn new(scene: &'a Scene, camera: Result<Camera, Error>) -> Result<Self, Failure> {
         let about = |error: &dyn std::fmt::Display| Failure::about(scene.name(), error);
         let camera = camera.map_err(|error| about(&error))?;
         let (faces, _) = Faces::new(scene.polygons(), None).map_err(|error| about(&error))?;

@@ -2,11 +2,12 @@
 //! blended in paint order.
 
 use binspace::BspTree;
+use binspace::Error;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::raster::{NONE, Rays, zbuffer};
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 
 use crate::translucent::Colour;
 
@@ -64,7 +65,7 @@ pub fn supersampled(
     side: u32,
     colour: impl Fn(usize) -> Colour,
     background: Colour,
-) -> Result<Vec<Colour>, CameraError> {
+) -> Result<Vec<Colour>, Error> {
     let rays = Rays::sampled(camera, faces, side)?;
     let depth = zbuffer(&rays, faces);
     let [width, height] = camera.size();

@@ -1,5 +1,6 @@
 //! What is left of a scene by each step of culling.
 
+use binspace::Error;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
@@ -7,7 +8,7 @@ use binspace::glam::{DVec3, dvec3};
 use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use binspace::{BspTree, Culling, Facing, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
@@ -85,7 +86,7 @@ pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
 /// # Errors
 ///
 /// None is known.
-pub fn over_the_city(size: [u32; 2]) -> Result<Camera, CameraError> {
+pub fn over_the_city(size: [u32; 2]) -> Result<Camera, Error> {
     let eye = dvec3(2400.0, 2400.0, 130.0);
     Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
 }

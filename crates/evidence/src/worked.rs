@@ -4,8 +4,9 @@
 mod tests;
 
 use binspace::BspTree;
+use binspace::Error;
 use binspace::glam::DVec3;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 
 /// Where eight walls stand on a floor, as x and y of their ends, by their letters. In the order of
 /// the letters as the order of splitters, A divides C, F and G from B, D, E and H; C divides F from
@@ -41,7 +42,7 @@ pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
 /// # Errors
 ///
 /// If the size is zero or beyond the limits.
-pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, CameraError> {
+pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, Error> {
     let [x, y] = EYE_OF_EIGHT;
     let (eye, target) = (DVec3::new(x, y, 9.0), DVec3::new(6.0, 4.3, 0.0));
     Camera::perspective(eye, target, DVec3::Z, 1.2, size)
@@ -75,7 +76,7 @@ pub fn six_by_six() -> [[DVec3; 3]; 2] {
 /// # Errors
 ///
 /// None: the size is as it should be.
-pub fn six_by_six_camera() -> Result<Camera, CameraError> {
+pub fn six_by_six_camera() -> Result<Camera, Error> {
     Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::new(3.0, 3.0, 0.0), 6.0, [6, 6])
 }
 

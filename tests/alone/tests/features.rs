@@ -117,6 +117,17 @@ fn drawings_have_a_path_for_each_polygon_that_shows() {
     }
 }
 
+#[cfg(feature = "pdf")]
+#[test]
+fn pdf_writes_a_page() {
+    use binspace::drawing::VectorPicture;
+
+    let mut picture = VectorPicture::new([30, 20]);
+    picture.add_label([15.0, 10.0], "one", 8.0, [0, 0, 0]);
+    let file = picture.to_pdf();
+    assert!(file.starts_with(b"%PDF-1.7") && file.ends_with(b"%%EOF"));
+}
+
 #[cfg(feature = "raster")]
 #[test]
 fn raster_paints_what_is_seen() {

@@ -16,12 +16,12 @@ use crate::args::ReportArgs;
 use crate::camera::{self, FIELD_OF_VIEW};
 use crate::colours::{Colouring, Colours};
 use crate::cull::Cull;
-use crate::drawn::{Drawn, Style, filled};
+use crate::drawn::{Style, add_drawing, blank};
 use crate::failure::Failure;
 use crate::pictures::Drawing;
 use crate::progress::Progress;
 use crate::seams::Seams;
-use crate::{drawn_svg, svg};
+use crate::svg;
 
 /// The scenes that every report draws, with their sizes.
 const SCENES: [(Builtin, Option<u32>); 6] = [
@@ -98,8 +98,8 @@ fn draw(scene: &Scene, size: [u32; 2]) -> Result<Figures, Failure> {
         paths: drawing.paths().len(),
         clipped: drawing.paths().filter(|path| path.is_clipped()).count(),
         bytes: [
-            bytes(Seams::Trap)?,
-            bytes(Seams::None)?,
+            bytes(Seams::Trap),
+            bytes(Seams::None),
             bytes_of_list(&tree, scene, &camera, &colours)?,
         ],
         seconds: [built, drawn],
@@ -114,15 +114,11 @@ fn bytes_of(
     camera: &Camera,
     colours: &Colours<'_>,
     seams: Seams,
-) -> Result<u64, Failure> {
+) -> u64 {
     let style = Style { scene, camera, colours, ids: false, is_opaque: true, seams };
-    let paths: Vec<_> = drawing.paths().collect();
-    let fills = filled(&paths, &style);
-    let drawn =
-        Drawn { size: camera.size(), fills, strokes: vec![], ids: false, are_regions: false };
-    let mut counted = Counted(0);
-    drawn_svg::write(&mut counted, &drawn).map_err(|error| Failure::of_output(&error))?;
-    Ok(counted.0)
+    let mut picture = blank(camera);
+    add_drawing(&mut picture, drawing, &style);
+    picture.to_svg().len() as u64
 }
 
 fn bytes_of_list(

@@ -1,5 +1,6 @@
 //! A scene with its views and their truth: what every method is held against.
 
+use binspace::Error;
 use std::panic::resume_unwind;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -8,7 +9,7 @@ use binspace::glam::DVec3;
 use binspace::internals::{Faces, SplitMix64};
 use binspace::raster::{Image, Rays, zbuffer};
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use binspace_evidence::Family;
 use binspace_evidence::measure::{PictureError, area_error, extent};
 use binspace_evidence::method::{Method, MethodError, Prepared};
@@ -62,7 +63,7 @@ impl Trial {
     fn new(
         scene: &Scene,
         tolerance: Option<f64>,
-        cameras: Result<Vec<Camera>, CameraError>,
+        cameras: Result<Vec<Camera>, Error>,
     ) -> Result<Self, Failure> {
         let (faces, preparation) =
             Faces::new(scene.polygons(), tolerance).map_err(|error| job::about(scene, &error))?;
@@ -191,7 +192,7 @@ fn around_and_inside(
     count: usize,
     seed: u64,
     size: [u32; 2],
-) -> Result<Vec<Camera>, CameraError> {
+) -> Result<Vec<Camera>, Error> {
     let (low, high) = scene.bounds().unwrap_or_default();
     let (centre, half) = (low * 0.5 + high * 0.5, high * 0.5 - low * 0.5);
     let reach = half.max_element();

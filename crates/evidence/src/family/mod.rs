@@ -9,11 +9,12 @@ mod sheets;
 mod tests;
 mod trial;
 
+use binspace::Error;
 use std::fmt;
 use std::str::FromStr;
 
 use binspace::scene::Scene;
-use binspace::view::{Camera, CameraError};
+use binspace::view::Camera;
 use trial::{Look, Trial};
 
 /// A family of scenes that are hard to decide. One parameter, the difficulty, makes them harder.
@@ -176,12 +177,7 @@ impl Family {
     /// # Errors
     ///
     /// If the size is zero or too large, or the difficulty is not a usable number.
-    pub fn cameras(
-        self,
-        difficulty: f64,
-        seed: u64,
-        size: [u32; 2],
-    ) -> Result<Vec<Camera>, CameraError> {
+    pub fn cameras(self, difficulty: f64, seed: u64, size: [u32; 2]) -> Result<Vec<Camera>, Error> {
         let Trial { looks, half_height, .. } = self.trial(difficulty, seed);
         let camera = |look: &Look| {
             Camera::perspective_by_slope(look.eye, look.target, look.up, half_height, size)

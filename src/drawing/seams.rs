@@ -1,0 +1,435 @@
+//! Seams between neighbours, and trapping, which closes them.
+
+use super::paths::{Drawing, Path};
+
+/// How far a path reaches under a neighbour, in pixels. Too small: the background shows where a viewer's pixels
+/// and the edge meet obliquely; too large: the neighbour's ends cut more corners.
+const WIDTH: f64 = 1.0;
+/// A path reaches under at most this share of the neighbour's height. Too large: it comes out on the other side, where
+/// corners are rounded; too small: the background shows along thin neighbours.
+const SHARE: f64 = 0.6;
+/// Sides that are nearer to one another than this, in pixels, are one edge. Too small: rounded corners tear edges
+/// apart; too large: sides that only pass each other are taken for edges.
+const NEAR: f64 = 0.02;
+/// A triangle replaces a strip if it has at least this share of the strip's area. Too small: the background shows near
+/// the ends of edges; too large: most neighbours get strips, which have one corner more.
+const ENOUGH: f64 = 0.85;
+/// Strips with less area than this, in square pixels, are left out. Too large: seams of small polygons show; too
+/// small: drawings of small polygons have many corners for nothing that is seen.
+const SMALLEST: f64 = 0.1;
+/// Paths that are not convex and have more corners than this are not reached under. Too large: time that grows with
+/// the cube of it; too small: seams at polygons that are not convex.
+const MOST_CORNERS: usize = 24;
+/// The grid of sides has at most this many cells. Too large: memory; too small: more sides in each cell of drawings of
+/// millions.
+const MOST_CELLS: usize = 1 << 20;
+
+type Point = [f64; 2];
+type Outline = Vec<Point>;
+type Segment = [Point; 2];
+
+impl Drawing {
+    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that no background shows in the
+    /// seams.
+    ///
+    /// Viewers blend each path with what is below it. Along an edge of two polygons that each cover half of a pixel, a
+    /// quarter of the background shows. Printers close such gaps by *trapping* (ISO 32000-1, 14.11.6): the lower area
+    /// reaches about a pixel under the upper one, which is opaque and painted later, so that the addition is not
+    /// visible. `is_opaque` is called with numbers of polygons. Other polygons keep their outlines, and so do edges
+    /// next to nothing. The list of paths stays the same; only outlines get corners. An extended side is no longer one
+    /// of its polygon's [edges](Path::edges).
+    ///
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself. O(n log n) for n corners,
+    /// unless they are spread very unevenly.
+    #[must_use]
+    pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
+        let mut grid = Grid::new(self.size, self.corners.len());
+        let mut parts: Vec<Outline> = Vec::new();
+        let all = || self.paths().enumerate().filter(|(_, path)| is_opaque(path.polygon()));
+        for (number, path) in all() {
+            for (part, sides) in parts_of(path) {
+                for ends in sides {
+                    grid.add(PlacedSide { path: number, part: parts.len(), ends });
+                }
+                parts.push(part);
+            }
+        }
+        let mut trapped = Self { overlaid: self.overlaid.clone(), ..Self::empty(self.size) };
+        let (mut near, mut ring) = (Vec::new(), Outline::new());
+        for (number, path) in self.paths().enumerate() {
+            let start = trapped.outlines.len() as u32;
+            let turn = path.outlines().map(double_area).sum::<f64>().signum();
+            let reaches = is_opaque(path.polygon());
+            for (outline, edges) in path.outlines().zip(path.edges()) {
+                ring.clear();
+                trapped.outlines.push(trapped.corners.len() as u32);
+                for (ends, &edge) in sides(outline).zip(edges) {
+                    ring.push(ends[0]);
+                    let start = ring.len();
+                    if let Some(frame) = Frame::outside_of(ends, turn).filter(|_| reaches) {
+                        grid.find_near(ends, number, &mut near);
+                        extend(&mut ring, &frame, &near, &parts);
+                    }
+                    // An extended side has left its edge.
+                    trapped.edges.push(edge.filter(|_| ring.len() == start));
+                    trapped.edges.resize(trapped.corners.len() + ring.len(), None);
+                }
+                trapped.corners.extend_from_slice(&ring);
+            }
+            let mut record = path.record.clone();
+            record.outlines = start..trapped.outlines.len() as u32;
+            trapped.paths.push(record);
+        }
+        // Corners have numbers of 32 bits.
+        if trapped.corners.len() > u32::MAX as usize { self.clone() } else { trapped }
+    }
+}
+
+/// Extends a ring at its last side under the neighbours whose sides are near.
+fn extend(ring: &mut Outline, frame: &Frame, near: &[PlacedSide], parts: &[Outline]) {
+    let mut strips: Vec<Outline> = Vec::new();
+    for sides in near.chunk_by(|a, b| a.part == b.part) {
+        strips.extend(strip(frame, &parts[sides[0].part]));
+    }
+    // In local coordinates, each from its lower to its upper end along the side.
+    strips.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
+    ring.extend(strips.iter().flatten().map(|&point| frame.world(point)));
+}
+
+fn sides(outline: &[Point]) -> impl Iterator<Item = Segment> {
+    (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]])
+}
+
+fn double_area(outline: &[Point]) -> f64 {
+    sides(outline).map(|[a, b]| cross(a, b)).sum()
+}
+
+fn cross(a: Point, b: Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// A side of an outline, the number of its path, and that of the convex part that it bounds.
+#[derive(Clone, Copy)]
+struct PlacedSide {
+    path: usize,
+    part: usize,
+    ends: Segment,
+}
+
+/// Square cells of a picture, each with the sides that pass through it.
+struct Grid {
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    sides: Vec<PlacedSide>,
+    cells: Vec<Vec<u32>>,
+}
+
+impl Grid {
+    /// An empty grid with about as many cells as there will be sides.
+    fn new(size: [u32; 2], sides: usize) -> Self {
+        let [width, height] = size.map(f64::from);
+        let cells = sides.clamp(1, MOST_CELLS) as f64;
+        let cell = (width * height / cells).sqrt().max(1.0);
+        let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
+        Self { cell, columns, rows, sides: vec![], cells: vec![vec![]; columns * rows] }
+    }
+
+    fn add(&mut self, side: PlacedSide) {
+        let number = self.sides.len() as u32;
+        self.sides.push(side);
+        for cell in self.passed(side.ends, NEAR) {
+            self.cells[cell].push(number);
+        }
+    }
+
+    /// Finds the sides near a side that are of later paths, sorted by their parts.
+    fn find_near(&self, ends: Segment, path: usize, found: &mut Vec<PlacedSide>) {
+        found.clear();
+        let mut numbers: Vec<u32> = Vec::new();
+        for cell in self.passed(ends, WIDTH) {
+            let later = |&&number: &&u32| self.sides[number as usize].path > path;
+            numbers.extend(self.cells[cell].iter().filter(later));
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        found.extend(numbers.iter().map(|&number| self.sides[number as usize]));
+    }
+
+    /// The cells that a side passes through, or passes within reach.
+    fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
+        let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
+        let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
+        // Steps to the side for each downwards; along rows all of them at once.
+        let slope = (high[0] - low[0]) / (high[1] - low[1]).max(f64::MIN_POSITIVE);
+        let mut passed = Vec::new();
+        for row in place(low[1] - reach, self.rows)..=place(high[1] + reach, self.rows) {
+            let at = |y: f64| {
+                let x = low[0] + (y.clamp(low[1], high[1]) - low[1]) * slope;
+                x.clamp(a[0].min(b[0]), a[0].max(b[0]))
+            };
+            let is_flat = high[1] - low[1] < reach;
+            let [x0, x1] = if is_flat {
+                [a[0], b[0]]
+            } else {
+                // The first and the last row reach beyond the picture.
+                let edge = |row: usize| row as f64 * self.cell;
+                let top = if row == 0 { low[1] } else { edge(row) - reach };
+                let is_last = row + 1 == self.rows;
+                let bottom = if is_last { high[1] } else { edge(row + 1) + reach };
+                [at(top), at(bottom)]
+            };
+            let [from, to] =
+                [x0.min(x1) - reach, x0.max(x1) + reach].map(|x| place(x, self.columns));
+            passed.extend((from..=to).map(|column| row * self.columns + column));
+        }
+        passed
+    }
+}
+
+/// Convex parts inside a path that together have all of its sides, each with its own: the path itself if it is convex,
+/// otherwise a triangle on each side.
+fn parts_of(path: Path<'_>) -> Vec<(Outline, Vec<Segment>)> {
+    let outlines: Vec<&[Point]> = path.outlines().collect();
+    if let [only] = outlines[..]
+        && is_convex(only)
+    {
+        return vec![(only.to_vec(), sides(only).collect())];
+    }
+    let all: Vec<Segment> = outlines.iter().flat_map(|outline| sides(outline)).collect();
+    if all.len() > MOST_CORNERS {
+        return vec![];
+    }
+    let turn = outlines.iter().map(|outline| double_area(outline)).sum::<f64>().signum();
+    let triangles = all.iter().filter_map(|&side| triangle_on(side, turn, &all));
+    triangles.map(|triangle| (triangle.to_vec(), vec![[triangle[0], triangle[1]]])).collect()
+}
+
+fn is_convex(outline: &[Point]) -> bool {
+    let turn = double_area(outline).signum();
+    let n = outline.len();
+    (0..n).all(|i| turn * area_of([0, 1, 2].map(|k| outline[(i + k) % n])) >= 0.0)
+}
+
+/// The highest triangle on a side whose apex is a corner and that no side enters.
+fn triangle_on([a, b]: Segment, turn: f64, sides: &[Segment]) -> Option<[Point; 3]> {
+    let area = |p: Point| turn * area_of([a, b, p]);
+    let mut apexes: Vec<[f64; 2]> = sides.iter().map(|side| side[0]).collect();
+    apexes.retain(|&apex| area(apex) > 0.0);
+    apexes.sort_by(|&p, &q| area(q).total_cmp(&area(p)));
+    let is_free = |&apex: &[f64; 2]| !sides.iter().any(|&side| enters(side, [a, b, apex], turn));
+    apexes.into_iter().find(is_free).map(|apex| [a, b, apex])
+}
+
+/// Whether a part of a segment lies inside a triangle that turns in the given sense.
+fn enters(segment: Segment, triangle: [Point; 3], turn: f64) -> bool {
+    let [mut from, mut to] = [0.0, 1.0];
+    for k in 0..3 {
+        let [p, q] = [triangle[k], triangle[(k + 1) % 3]];
+        let [before, after] = segment.map(|end| turn * area_of([p, q, end]));
+        if before <= 0.0 && after <= 0.0 {
+            return false;
+        }
+        let share = before / (before - after);
+        if before < 0.0 {
+            from = share.max(from);
+        } else if after < 0.0 {
+            to = share.min(to);
+        }
+    }
+    from < to
+}
+
+/// Twice the area of a triangle, positive if it turns from x to y.
+fn area_of([a, b, c]: [Point; 3]) -> f64 {
+    cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]])
+}
+
+/// Coordinates along a side, and outwards from it.
+struct Frame {
+    start: Point,
+    length: f64,
+    along: Point,
+    out: Point,
+}
+
+impl Frame {
+    /// The frame of a side of an outline that turns in the given sense; `None` if the side has no length.
+    fn outside_of([start, end]: Segment, turn: f64) -> Option<Self> {
+        let step = [end[0] - start[0], end[1] - start[1]];
+        let length = step[0].hypot(step[1]);
+        let along = step.map(|c| c / length);
+        let out = [turn * along[1], -turn * along[0]];
+        (length > NEAR).then_some(Self { start, length, along, out })
+    }
+
+    fn local(&self, point: Point) -> Point {
+        let arm = [point[0] - self.start[0], point[1] - self.start[1]];
+        [self.along, self.out].map(|axis| axis[0] * arm[0] + axis[1] * arm[1])
+    }
+
+    fn world(&self, [along, out]: Point) -> Point {
+        [0, 1].map(|axis| self.start[axis] + self.along[axis] * along + self.out[axis] * out)
+    }
+
+    /// The range of this side along which a neighbour's side, given in local coordinates, lies: on it, or inwards by
+    /// less than a strip's width. There the neighbour's edge is blended with what is below both.
+    fn along(&self, [a, b]: Segment) -> Option<[f64; 2]> {
+        let [low, high] = [a[0].min(b[0]).max(0.0), a[0].max(b[0]).min(self.length)];
+        if high - low <= NEAR {
+            return None;
+        }
+        let out = |along: f64| a[1] + (b[1] - a[1]) * ((along - a[0]) / (b[0] - a[0]));
+        let is_along = [low, high].map(out).iter().all(|out| (-WIDTH..=NEAR).contains(out));
+        is_along.then_some([low, high])
+    }
+}
+
+/// The extension of a path at a side into a convex neighbour, along their common edges: its corners in local
+/// coordinates, from the lower to the upper end along the side.
+fn strip(frame: &Frame, neighbour: &[Point]) -> Option<Outline> {
+    let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
+    let strip = band(frame, &corners)?;
+    if 0.5 * double_area(&strip).abs() < SMALLEST {
+        return None;
+    }
+    Some(triangle(&corners, &strip).unwrap_or(strip))
+}
+
+/// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour. It has one
+/// corner less, which makes drawings shorter.
+fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
+    let [low, high] = [*strip.first()?, *strip.last()?];
+    let length = high[0] - low[0];
+    let far: Outline = neighbour.iter().copied().filter(|corner| corner[1] > NEAR).collect();
+    // From the middle of the edge to that of the corners which are not on it.
+    let apex = [0, 1].map(|axis: usize| {
+        let end = far.iter().map(|corner| corner[axis]).sum::<f64>() / far.len() as f64;
+        let start = 0.5 * (low[axis] + high[axis]);
+        start + SHARE * (end - start)
+    });
+    let width = strip.iter().map(|corner| corner[1]).fold(0.0, f64::max);
+    let covered = if apex[1] > width {
+        length * width * (1.0 - 0.5 * width / apex[1])
+    } else {
+        0.5 * length * apex[1]
+    };
+    let is_enough = covered >= ENOUGH * 0.5 * double_area(strip).abs();
+    is_enough.then(|| vec![low, apex, high])
+}
+
+/// A strip along the common edges, clipped to the neighbour, which is given in local coordinates.
+fn band(frame: &Frame, corners: &[Point]) -> Option<Outline> {
+    let turn = double_area(corners).signum();
+    let height = corners.iter().map(|corner| corner[1]).fold(0.0, f64::max);
+    let common = |ends: Segment| {
+        let is_outside = turn * (ends[1][0] - ends[0][0]) > 0.0;
+        frame.along(ends).filter(|_| is_outside)
+    };
+    let hull = sides(corners).filter_map(common);
+    let [low, high] = hull.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    if height <= NEAR {
+        return None;
+    }
+    let width = WIDTH.min(SHARE * height);
+    let mut strip = vec![[low, 0.0], [low, width], [high, width], [high, 0.0]];
+    for [a, b] in sides(corners).filter(|&ends| common(ends).is_none()) {
+        strip = inside(&strip, a, b, turn);
+    }
+    // The corners on the side come first and last, all others in between.
+    let n = strip.len();
+    let last = (0..n)
+        .filter(|&i| strip[i][1] == 0.0)
+        .max_by(|&i, &j| strip[i][0].total_cmp(&strip[j][0]))?;
+    strip.rotate_left((last + 1) % n);
+    strip.dedup();
+    (strip.len() > 2 && strip[0][1] == 0.0).then_some(strip)
+}
+
+/// The part of a convex outline on the inner side of a line.
+fn inside(outline: &[Point], a: Point, b: Point, turn: f64) -> Outline {
+    let side = |p: Point| turn * cross([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let mut inner = Outline::new();
+    for (i, &to) in outline.iter().enumerate() {
+        let from = outline[(i + outline.len() - 1) % outline.len()];
+        let [before, after] = [side(from), side(to)];
+        if (before < 0.0) != (after < 0.0) {
+            let share = before / (before - after);
+            inner.push([0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share));
+        }
+        if after >= 0.0 {
+            inner.push(to);
+        }
+    }
+    inner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_do_not_leave_the_outline() {
+        // A square with a notch from above that reaches below its middle.
+        let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]];
+        assert!(!is_convex(&outline) && is_convex(&outline[..3]));
+        let all: Vec<Segment> = sides(&outline).collect();
+        let apex = |side: usize| triangle_on(all[side], 1.0, &all).map(|triangle| triangle[2]);
+        // Below, only the notch's end is seen from both ends; to the side the corner opposite is
+        // behind it.
+        assert_eq!(apex(0), Some([2.0, 1.0]));
+        assert_eq!(apex(1), Some([2.0, 1.0]));
+        assert_eq!(apex(2), Some([4.0, 0.0]));
+        assert_eq!(apex(3), Some([0.0, 0.0]));
+        let reversed: Vec<Segment> = all.iter().rev().map(|&[a, b]| [b, a]).collect();
+        assert_eq!(triangle_on(reversed[4], -1.0, &reversed).map(|t| t[2]), Some([2.0, 1.0]));
+    }
+
+    #[test]
+    fn strips_are_inside_of_the_neighbour() {
+        // The side from (1, 2) to (5, 2) of what is below it, with y up.
+        let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let strip = |outline: &[Point]| {
+            let corners: Outline = outline.iter().map(|&corner| frame.local(corner)).collect();
+            band(&frame, &corners)
+        };
+        let triangle = [[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]];
+        assert_eq!(frame.along([[0.0, 0.0], [4.0, 0.0]]), Some([0.0, 4.0]));
+        assert_eq!(frame.along([[4.0, 0.0], [2.0, 10.0]]), None);
+        // Inwards by less than a pixel, and outwards by more than a rounding.
+        assert_eq!(frame.along([[-4.0, -0.8], [3.0, -0.5]]), Some([0.0, 3.0]));
+        assert_eq!(frame.along([[0.0, 0.5], [3.0, 0.5]]), None);
+        let found = strip(&triangle).unwrap();
+        assert_eq!(found.len(), 4);
+        for (found, expected) in found.iter().zip([[0.0, 0.0], [0.2, 1.0], [3.8, 1.0], [4.0, 0.0]])
+        {
+            assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
+        }
+        assert_eq!(frame.world([0.5, 1.0]), [4.5, 3.0]);
+        // The other way round; a low neighbour has a narrow strip.
+        let low = [[3.0, 2.5], [4.0, 2.0], [2.0, 2.0]];
+        let found = strip(&low).unwrap();
+        assert!(found.iter().all(|corner| corner[1] <= 0.3 + 1e-12), "{found:?}");
+        assert_eq!(found.first(), Some(&[1.0, 0.0]));
+        assert_eq!(found.last(), Some(&[3.0, 0.0]));
+        // A wedge along the side that leaves it on the other side of its tip.
+        let wedge = [[0.9, 2.01], [4.0, 1.5], [30.0, 9.0], [3.0, 2.005]];
+        let found = strip(&wedge).unwrap();
+        assert!(found.iter().all(|corner| corner[1] < 0.01), "{found:?}");
+        // On the same side of the edge there is nothing to reach under.
+        assert_eq!(strip(&[[1.0, 2.0], [5.0, 2.0], [3.0, -9.0]]), None);
+    }
+
+    #[test]
+    fn a_triangle_stands_for_a_strip_that_it_nearly_covers() {
+        let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let found = strip(&frame, &[[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]]).unwrap();
+        assert_eq!(found.len(), 3);
+        for (found, expected) in found.iter().zip([[0.0, 0.0], [2.0, 6.0], [4.0, 0.0]]) {
+            assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
+        }
+        // Of a low neighbour it would leave out too much near the ends.
+        let low = [[1.0, 2.0], [5.0, 2.0], [5.0, 2.8], [1.0, 2.8]];
+        assert_eq!(strip(&frame, &low).unwrap().len(), 4);
+    }
+}
