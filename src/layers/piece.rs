@@ -192,8 +192,8 @@ impl Layer {
     }
 
     /// Cuts the layer by the rectangle of an ancestor that hides what overflows it (CSS `overflow: hidden`), and by
-    /// the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor need not be in the page, and is
-    /// not painted unless it is.
+    /// the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor need not be in the
+    /// page; it is only painted if it is.
     ///
     /// CSS flattens the content of such an ancestor: both layers lie in one plane, and what remains is the intersection
     /// of both outlines, up to the rounding of `f64`. If both have the same matrix, it is exact. Layers in
