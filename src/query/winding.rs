@@ -133,14 +133,16 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if winding == 0 {
         return 0;
     }
+    // Where only the given corners wind around the ray, and not those that were moved, the face's plane meets
+    // the ray anywhere, or nowhere. So corners decide for a point above or below all of them.
+    let is_below_of = |&corner: &[f64; 3]| point.at(&Plane::axis(2, corner)).start().is_lt();
+    let below = corners.iter().filter(|&corner| is_below_of(corner)).count();
     let plane = faces.plane(PlaneId::face(face));
     let is_below = match plane.normal()[2].cmp(&0) {
+        _ if below == 0 || below == corners.len() => below > 0,
         Ordering::Greater => point.at(&plane).start().is_lt(),
         Ordering::Less => point.at(&plane).start().is_gt(),
-        // Given corners wind around the ray, though the plane is upright: the ray is within the tolerance.
-        Ordering::Equal => {
-            corners.iter().all(|&corner| point.at(&Plane::axis(2, corner)).start().is_lt())
-        }
+        Ordering::Equal => false,
     };
     if is_below { winding } else { 0 }
 }

@@ -97,6 +97,19 @@ fn boxes_are_those_of_the_polygons_that_the_tree_has_now() {
     assert_eq!(builder.tree().bounds(), None);
 }
 
+/// Whether bodies are closed is asked of each frame.
+#[test]
+fn open_edges_are_those_of_the_polygons_that_the_frame_has_now() {
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let body = [[a, c, b], [a, b, d], [a, d, c], [b, c, d]];
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    for count in [4, 3, 4] {
+        let frame = builder.build(&body[..count]).expect("within budget");
+        assert_eq!(frame.open_edges().len(), if count == 4 { 0 } else { 3 });
+        assert_eq!(frame.winding_number([0.1, 0.2, 0.3]).is_ok(), count == 4);
+    }
+}
+
 #[test]
 fn triangles_of_another_frame_are_refused() {
     for [one, other, again] in &frames() {

@@ -259,3 +259,17 @@ fn a_moved_corner_is_where_its_plane_is() {
         assert_eq!(tree.fragments_in(&above).count(), usize::from(is_in), "{height}");
     }
 }
+
+/// Blocks that are not full end where the tree does.
+#[test]
+fn all_fragments_of_trees_of_every_size_are_in_all_of_space() {
+    for count in (1..70).chain([255, 256, 257, 271]) {
+        let square =
+            |k: u32| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, y]| [x, y, f64::from(k)]);
+        let tree = BspTree::build((0..count).map(square)).unwrap();
+        let room = Frustum::from_box([DVec3::splat(-1.0), DVec3::splat(300.0)]);
+        for region in [Frustum::EVERYWHERE, room] {
+            assert!(tree.fragments_in(&region).eq(0..count), "{count}");
+        }
+    }
+}

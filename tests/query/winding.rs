@@ -209,6 +209,26 @@ fn open_edges_are_named() {
     assert_eq!(tree.winding_number([6.0, 7.0, 8.0]), Ok(Some(1)));
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
+    // The same once more: each of its edges is open twice.
+    bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
+    assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 6);
+}
+
+/// Nearer to a side than boxes are wide.
+#[test]
+fn points_next_to_a_side_are_inside_or_outside() {
+    let mut bodies = Bodies::default();
+    bodies.cuboid([[0, 0, 0], [2, 2, 2]], false);
+    let tree = bodies.tree(Heuristic::Auto);
+    for axis in 0..3 {
+        for near in [1e-3, 1e-7, 1e-10, 1e-14] {
+            for (at, expected) in [(near, 1), (-near, 0), (2.0 - near, 1), (2.0 + near, 0)] {
+                let mut point = [0.75; 3];
+                point[axis] = at;
+                assert_eq!(tree.winding_number(point), Ok(Some(expected)), "{point:?}");
+            }
+        }
+    }
 }
 
 /// A prism whose sides have a corner on an edge of the top, which is bent or not convex: triangles of the top skip
@@ -246,4 +266,51 @@ fn corners_on_straight_edges_keep_a_body_closed() {
         bodies.0.remove(2);
         assert!(bodies.tree(Heuristic::Auto).open_edges().count() > 0);
     }
+}
+
+/// A box whose side at x = 1 has a corner beside its plane, by less than the tolerance, and is nearly upright or
+/// leans: as flattened it has hardly any area seen from below, and its plane meets a line along z anywhere. Its
+/// neighbours have the corner as given.
+#[test]
+fn a_flattened_side_closes_a_body_for_points_far_below() {
+    let mut flattened = 0;
+    for (off, lean) in [(4e-4, 0.0), (4e-4, 1e-6), (4e-4, -1e-6), (-4e-4, 1e-6), (-4e-4, -1e-6)] {
+        for first in 0..4 {
+            let bottom = [[0.0, 0.0, 0.0], [1.0, -0.2, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+            let top =
+                [[0.0, 0.0, 1.0], [1.0 + lean, 0.0, 1.0], [1.0 + off, 1.0, 1.0], [0.0, 1.0, 1.0]];
+            let mut polygons = vec![top.to_vec(), bottom.into_iter().rev().collect()];
+            for k in 0..4 {
+                let next = (k + 1) % 4;
+                let side = [bottom[k], bottom[next], top[next], top[k]];
+                // The first side is not planar: in triangles.
+                let parts = if k == 0 {
+                    vec![vec![0, 1, 2], vec![0, 2, 3]]
+                } else {
+                    vec![vec![0, 1, 2, 3]]
+                };
+                for mut part in parts {
+                    if part.len() == 4 {
+                        part.rotate_left(first);
+                    }
+                    polygons.push(part.into_iter().map(|k| side[k]).collect());
+                }
+            }
+            let tree = BuildOptions::DEFAULT.with_tolerance(1e-3).build(&polygons).unwrap();
+            assert_eq!(tree.open_edges().count(), 0);
+            flattened += tree.preparation().flattened;
+            assert_eq!(tree.winding_number([0.5, 0.5, 0.5]), Ok(Some(1)));
+            for share in 1..20 {
+                let x = 1.0 + off * f64::from(share) / 16.0;
+                for (y, z) in [0.1, 0.5, 0.9]
+                    .into_iter()
+                    .flat_map(|y| [-3.0, -90.0, 2.0, 300.0].map(|z| (y, z)))
+                {
+                    let found = tree.winding_number([x, y, z]);
+                    assert_eq!(found, Ok(Some(0)), "{off} {lean} {first}: {x} {y} {z}");
+                }
+            }
+        }
+    }
+    assert!(flattened >= 20, "{flattened}");
 }

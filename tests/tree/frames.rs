@@ -72,6 +72,36 @@ fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Erro
     Ok(())
 }
 
+/// What options say holds from the next frame on, and no longer than they say it.
+#[test]
+fn options_count_from_the_next_frame_on() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-64.0), DVec3::splat(64.0));
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    for options in [BuildOptions::DEFAULT, room, BuildOptions::DEFAULT.with_tolerance(0.5), room] {
+        builder.set_options(options);
+        let tree = builder.build([square]).expect("a tree");
+        let alone = options.build([square]).expect("a tree");
+        assert_eq!(tree.grid(), alone.grid(), "{options:?}");
+        assert_eq!(tree.stats().tolerance, alone.stats().tolerance, "{options:?}");
+    }
+}
+
+/// The precision of a frame's numbers counts for that frame alone.
+#[test]
+fn the_default_tolerance_of_a_frame_is_that_of_its_own_polygons() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let single = square.map(|corner| corner.map(|c| c as f32));
+    let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
+    for _ in 0..2 {
+        let coarse = builder.build([single]).expect("a tree").stats().tolerance;
+        assert_eq!(coarse, BspTree::build([single]).expect("a tree").stats().tolerance);
+        let fine = builder.build([square]).expect("a tree").stats().tolerance;
+        assert_eq!(fine, BspTree::build([square]).expect("a tree").stats().tolerance);
+        assert!(coarse > 100.0 * fine, "{coarse} {fine}");
+    }
+}
+
 /// More polygons than one thread prepares, sets that are passed to other threads.
 #[test]
 fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {

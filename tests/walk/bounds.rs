@@ -122,3 +122,18 @@ fn a_box_has_room_for_the_rounding_of_a_cut() {
     let root = tree.root().expect("the floor's node");
     assert!(root.bounds()[1].x > 0.5 && tree.bounds().unwrap()[1].x > 0.5);
 }
+
+/// The box of a tree is that of its polygons, wherever they are in their room, and however many there are.
+#[test]
+fn polygons_in_a_corner_of_their_room_have_a_small_box() {
+    let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-100.0), DVec3::splat(100.0));
+    for count in [1, 15, 16, 17, 100, 256, 257] {
+        let square = |k: u32| {
+            let z = 50.0 + f64::from(k) / 256.0;
+            [[50.0, 50.0, z], [51.0, 50.0, z], [51.0, 51.0, z], [50.0, 51.0, z]]
+        };
+        let tree = options.build((0..count).map(square)).unwrap();
+        let [low, high] = tree.bounds().unwrap();
+        assert!(low.min_element() > 49.99 && high.max_element() < 51.01, "{count}: {low} {high}");
+    }
+}

@@ -4,7 +4,7 @@ use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
 use binspace::view;
-use binspace::{Culling, Facing, Frustum, Sides};
+use binspace::{Culling, Facing, Flow, Frustum, Part, Sides};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::rational::Plane;
@@ -13,7 +13,8 @@ use testkit::shapes;
 use testkit::snapshot::order;
 use testkit::views::View;
 
-/// A culled order, after checks that it is a part of the whole order, from both ends.
+/// A culled order, after checks that it is a part of the whole order, and that it is the same from both ends,
+/// read one by one and walked.
 fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     let mut found = vec![3; 5];
     tree.order(viewpoint).culled(culling).write_into(&mut found);
@@ -22,7 +23,47 @@ fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     let mut reverse = Vec::new();
     tree.order(viewpoint).culled(culling).front_to_back().write_into(&mut reverse);
     assert!(found.iter().rev().eq(&reverse));
+    let order = tree.order(viewpoint).culled(culling);
+    for (order, expected) in [(order, &found), (order.front_to_back(), &reverse)] {
+        let one_by_one = order.into_iter();
+        assert_eq!(one_by_one.len(), expected.len());
+        assert!(one_by_one.map(|fragment| fragment.index()).eq(expected.iter().copied()));
+        let mut walked = Vec::new();
+        let _ = order.walk(|part| {
+            if let Part::Fragment(fragment) = part {
+                walked.push(fragment.index());
+            }
+            Flow::<()>::Descend
+        });
+        assert_eq!(&walked, expected);
+    }
     found
+}
+
+/// A walk comes to no subtree that is outside as a whole, or turned away.
+#[test]
+fn a_culled_walk_skips_subtrees() {
+    let tree = BspTree::build(scene::terrain(2000, 1).polygons()).unwrap();
+    let [low, high] = tree.bounds().unwrap();
+    let subtrees = |viewpoint: Viewpoint, culling: &Culling| {
+        let (mut subtrees, mut fragments) = (0, 0);
+        let _ = tree.order(viewpoint).culled(culling).walk(|part| {
+            match part {
+                Part::Subtree(_) => subtrees += 1,
+                Part::Fragment(_) => fragments += 1,
+            }
+            Flow::<()>::Descend
+        });
+        (subtrees, fragments)
+    };
+    let above = Viewpoint::Direction(DVec3::NEG_Z);
+    let all = subtrees(above, &Culling::NONE);
+    assert_eq!(all, (tree.stats().nodes, tree.len()));
+    let corner = Frustum::from_box([low, low + (high - low) * dvec3(0.1, 0.1, 1.0)]);
+    let few = subtrees(above, &Culling::NONE.with_frustum(corner));
+    assert!(few.0 * 4 < all.0 && few.1 > 10, "{few:?} of {all:?}");
+    assert_eq!(subtrees(above, &Culling::NONE.with_sides(Sides::Front)), all);
+    assert_eq!(subtrees(above, &Culling::NONE.with_sides(Sides::Back)), (0, 0));
 }
 
 /// Whether a fragment's box reaches over a plane of the region, exactly, and by how much at most it
@@ -398,4 +439,41 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
         }
     }
     enough!(compared > 4000; "{compared}");
+}
+
+/// Of coplanar polygons that face either way, as many as do not fill the last block, those of one side.
+#[test]
+fn one_side_of_a_plane_of_both_is_drawn() {
+    for count in (1..70).chain([255, 257, 1000]) {
+        let square = |k: u32| {
+            let (x, y) = (f64::from(k % 40), f64::from(k / 40));
+            let mut square =
+                [[x, y, 0.0], [x + 0.5, y, 0.0], [x + 0.5, y + 0.5, 0.0], [x, y + 0.5, 0.0]];
+            if k % 3 == 0 {
+                square.reverse();
+            }
+            square
+        };
+        let tree = BspTree::build((0..count).map(square)).unwrap();
+        for (sides, is_turned) in [(Sides::Front, false), (Sides::Back, true)] {
+            let culling = Culling::NONE.with_sides(sides);
+            let found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
+            assert!(
+                found.into_iter().eq((0..count).filter(|k| (k % 3 == 0) == is_turned)),
+                "{count}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_first_32_planes_of_a_region_count() {
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let tree = BspTree::build([square]).unwrap();
+    for place in [0, 30, 31, 32, 39] {
+        let planes = (0..40).map(|k| (DVec3::X, if k == place { 2.0 } else { -1.0 }));
+        let culling = Culling::NONE.with_frustum(Frustum::new(planes));
+        let found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
+        assert_eq!(found.is_empty(), place < 32, "{place}");
+    }
 }
