@@ -58,19 +58,19 @@ pub struct VectorPicture {
     pub(super) adds_up: bool,
 }
 
-/// How areas, markers and labels are painted. A colour or a [`Stroke`] alone is a `Paint` too, by `Into`.
+/// How areas, markers and labels are painted. A colour or a [`Stroke`] converts to a `Paint`.
 ///
 /// ```
 /// use binspace::drawing::{Paint, Stroke};
 ///
 /// let glass = Paint::from([40, 80, 200]).with_opacity(0.25).with_stroke(Stroke::new(1.0, [0, 0, 0]));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Paint {
     /// The colour of the area: red, green and blue. Default: `None`, it is not filled.
     pub fill: Option<[u8; 3]>,
-    /// The opacity of the area, from 0 to 1. A colour has 1.
+    /// The opacity of the area, from 0 to 1. Default: 1.
     pub opacity: f64,
     /// The line along the boundary. It covers half of its width on either side. Default: `None`.
     pub stroke: Option<Stroke>,
@@ -95,17 +95,19 @@ pub struct Stroke {
 
 impl From<[u8; 3]> for Paint {
     fn from(colour: [u8; 3]) -> Self {
-        Self { fill: Some(colour), opacity: 1.0, stroke: None }
+        Self { fill: Some(colour), ..Self::NOTHING }
     }
 }
 
 impl From<Stroke> for Paint {
     fn from(stroke: Stroke) -> Self {
-        Self { stroke: Some(stroke), ..Self::default() }
+        Self { stroke: Some(stroke), ..Self::NOTHING }
     }
 }
 
 impl Paint {
+    const NOTHING: Self = Self { fill: None, opacity: 1.0, stroke: None };
+
     /// The same paint with another [`opacity`](Self::opacity) of the area.
     #[must_use]
     pub fn with_opacity(self, opacity: f64) -> Self {
@@ -118,7 +120,7 @@ impl Paint {
         Self { stroke: Some(stroke), ..self }
     }
 
-    /// Whether nothing below it is visible.
+    /// Whether it hides everything below the area.
     fn is_opaque(&self) -> bool {
         self.fill.is_some() && self.opacity >= 1.0
     }
@@ -136,7 +138,7 @@ impl Paint {
             Stroke { width, opacity, dashes, ..stroke }
         });
         let stroke = stroke.filter(|stroke| stroke.width > 0.0 && stroke.opacity > 0.0);
-        Self { fill, opacity: if fill.is_some() { opacity } else { 0.0 }, stroke }
+        Self { fill, opacity: if fill.is_some() { opacity } else { 1.0 }, stroke }
     }
 }
 
@@ -222,8 +224,7 @@ impl VectorPicture {
     }
 
     /// Adds the paths of a drawing, without seams: [batched](Drawing::batched) by paint, and
-    /// [trapped](Drawing::trapped). `paint` is called once for each polygon that
-    /// has a path, with its number.
+    /// [trapped](Drawing::trapped). `paint` is called once for each polygon that has a path, with its number.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). It is painted right after its path, so later paths cover
     /// it. Drawings with strokes are not batched. To draw edges over all paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
@@ -235,7 +236,7 @@ impl VectorPicture {
         let polygons: BTreeSet<usize> = drawing.paths().map(|path| path.polygon()).collect();
         let paints: BTreeMap<usize, Paint> =
             polygons.into_iter().map(|polygon| (polygon, paint(polygon).into().tidy())).collect();
-        let paint = |polygon: usize| paints.get(&polygon).copied().unwrap_or_default();
+        let paint = |polygon: usize| paints.get(&polygon).copied().unwrap_or(Paint::NOTHING);
         let has_strokes = paints.values().any(|paint| paint.stroke.is_some());
         let key = |polygon: usize| {
             let Paint { fill, opacity, .. } = paint(polygon);
