@@ -54,7 +54,10 @@ impl Arguments {
         if let Some(length) = self.tolerance {
             options = options.with_tolerance(length);
         }
-        self.max_fragments.map_or(options, |most| options.with_max_fragments(most))
+        if let Some(most) = self.max_fragments {
+            options = options.with_max_fragments(most);
+        }
+        options
     }
 
     /// The camera for a scene of some extent.

@@ -96,9 +96,10 @@ impl<'a> PieceSet<'a> {
     /// On which side of a plane each piece lies, in the order of their numbers; `None` if the plane has no
     /// such piece, no such axis, or a coordinate that is NaN or infinite.
     ///
-    /// This is exact, with the tolerance: as the pieces will be divided. (Only a piece in whose plane a larger
-    /// polygon lies may be divided otherwise: see [`Heuristic`](crate::Heuristic).) O(1) for most pieces, and a
-    /// search among all corners for an axis plane.
+    /// These are the sides on which the build will put the pieces: exact, except for the tolerance. The build
+    /// takes another plane only where a larger polygon lies in the plane of a piece, within the tolerance (see
+    /// [`Heuristic`](crate::Heuristic)). O(n) for n vertices. For an axis plane, it first searches all corners in
+    /// O(log n); the first search along an axis sorts them.
     pub fn sides(
         &self,
         plane: SplitPlane,
