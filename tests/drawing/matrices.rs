@@ -107,8 +107,7 @@ fn pictures_of_any_matrix_are_right() {
         }
         let verdict = verify(&tree, &camera).unwrap();
         assert!(verdict.is_right(), "{camera:?}");
-        check(&tree, &camera, &mut score)
-            .unwrap_or_else(|fault| panic!("{camera:?}: {fault}"));
+        check(&tree, &camera, &mut score).unwrap_or_else(|fault| panic!("{camera:?}: {fault}"));
     }
     enough!(compared > 200_000, covered > 80_000, score.pixels > 300_000; "{compared} {covered} {score:?}");
 }

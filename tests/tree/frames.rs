@@ -78,8 +78,10 @@ fn options_count_from_the_next_frame_on() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-64.0), DVec3::splat(64.0));
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
-    for options in [BuildOptions::DEFAULT, room, BuildOptions::DEFAULT.with_tolerance(0.5), room] {
-        builder.set_options(options);
+    for options in
+        [BuildOptions::DEFAULT, room.clone(), BuildOptions::DEFAULT.with_tolerance(0.5), room]
+    {
+        builder.set_options(options.clone());
         let tree = builder.build([square]).expect("a tree");
         let alone = options.build([square]).expect("a tree");
         assert_eq!(tree.grid(), alone.grid(), "{options:?}");
