@@ -449,7 +449,7 @@ fn one_side_of_a_plane_of_both_is_drawn() {
             let (x, y) = (f64::from(k % 40), f64::from(k / 40));
             let mut square =
                 [[x, y, 0.0], [x + 0.5, y, 0.0], [x + 0.5, y + 0.5, 0.0], [x, y + 0.5, 0.0]];
-            if k % 3 == 0 {
+            if k.is_multiple_of(3) {
                 square.reverse();
             }
             square
