@@ -449,7 +449,7 @@ fn one_side_of_a_plane_of_both_is_drawn() {
             let (x, y) = (f64::from(k % 40), f64::from(k / 40));
             let mut square =
                 [[x, y, 0.0], [x + 0.5, y, 0.0], [x + 0.5, y + 0.5, 0.0], [x, y + 0.5, 0.0]];
-            if k % 3 == 0 {
+            if k.is_multiple_of(3) {
                 square.reverse();
             }
             square
@@ -459,7 +459,7 @@ fn one_side_of_a_plane_of_both_is_drawn() {
             let culling = Culling::NONE.with_sides(sides);
             let found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
             assert!(
-                found.into_iter().eq((0..count).filter(|k| (k % 3 == 0) == is_turned)),
+                found.into_iter().eq((0..count).filter(|k| k.is_multiple_of(3) == is_turned)),
                 "{count}"
             );
         }
