@@ -255,3 +255,22 @@ fn the_same_holds_in_hard_scenes() {
     let least = [on_a_line, whole, triangulated, duplicates].into_iter().min();
     assert!(least > Some(10), "{kinds:?}");
 }
+
+/// Floats find no area between any two corners of this polygon and its first. In integers one of them is off the
+/// line of the others, and spans a triangle of twice the area 1 with two of them.
+#[test]
+fn a_polygon_that_only_integers_see_an_area_of_is_kept() {
+    const S: f64 = (1_u64 << 50) as f64;
+    let [a, b] = [1_001_839_071_114_162.0, 862_809_303_082_285.0];
+    let [c, d] = [361_461_402_778_337.0, 311_299_758_628_383.0];
+    assert_eq!(a * d, b * c);
+    let wall = [[-S, -S, -S], [S, -S, -S], [S, S, -S], [-S, S, -S]];
+    let mut sliver = [[0.0, 0.0, 0.0], [c, d, 0.0], [a, b, 0.0], [-a, -b, 0.0]];
+    for _ in 0..4 {
+        let tree = BspTree::build([sliver, wall]).unwrap();
+        assert_eq!(tree.dropped().count(), 0, "{sliver:?}");
+        sliver.rotate_left(1);
+    }
+    let straight = [[0.0, 0.0, 0.0], [0.5 * S, 0.5 * S, 0.0], [S, S, 0.0], [-S, -S, 0.0]];
+    assert!(BspTree::build([straight, wall]).unwrap().dropped().eq([0]));
+}

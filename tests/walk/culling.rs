@@ -459,7 +459,7 @@ fn one_side_of_a_plane_of_both_is_drawn() {
             let culling = Culling::NONE.with_sides(sides);
             let found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
             assert!(
-                found.into_iter().eq((0..count).filter(|k| (k % 3 == 0) == is_turned)),
+                found.into_iter().eq((0..count).filter(|k| k.is_multiple_of(3) == is_turned)),
                 "{count}"
             );
         }
