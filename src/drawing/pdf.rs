@@ -69,7 +69,7 @@ fn items(picture: &VectorPicture) -> impl Iterator<Item = &Item> {
 /// The opacities of fills and strokes, each once; none if all are opaque.
 fn opacities(picture: &VectorPicture) -> Vec<f32> {
     let mut all: Vec<f32> = Vec::new();
-    for Paint { fill, opacity, stroke } in items(picture).map(|item| item.paint) {
+    for Paint { fill, opacity, stroke } in items(picture).map(Item::own_paint) {
         all.extend(fill.map(|_| opacity as f32));
         all.extend(stroke.map(|stroke| stroke.opacity as f32));
     }
@@ -103,14 +103,15 @@ fn painted(picture: &VectorPicture) -> Vec<u8> {
     }
     // Pages are measured upwards from below.
     page.content.transform([1.0 / units, 0.0, 0.0, -1.0 / units, 0.0, height]);
-    for Item { shape, paint } in items(picture) {
-        match shape {
-            Shape::Path(steps) => page.paint(*paint, |content| add_path(content, steps)),
+    for item in items(picture) {
+        let paint = item.own_paint();
+        match &item.shape {
+            Shape::Path(steps) => page.paint(paint, |content| add_path(content, steps)),
             Shape::Marker { at, radius } => {
                 let radius = *radius as f32 * units;
-                page.paint(*paint, |content| add_circle(content, *at, radius));
+                page.paint(paint, |content| add_circle(content, *at, radius));
             }
-            Shape::Label { at, size, text } => page.write(*paint, *at, *size as f32, text),
+            Shape::Label { at, size, text } => page.write(paint, *at, *size as f32, text),
         }
     }
     page.content.finish().into_vec()

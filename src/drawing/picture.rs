@@ -176,6 +176,26 @@ pub(super) enum Node {
 pub(super) struct Item {
     pub(super) shape: Shape,
     pub(super) paint: Paint,
+    pub(super) part: Part,
+}
+
+/// The part of its paint that a shape has. The fill and the stroke of a path are two shapes that share a look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    All,
+    Fill,
+    Stroke,
+}
+
+impl Item {
+    /// The paint without the part that the shape lacks.
+    pub(super) fn own_paint(&self) -> Paint {
+        match self.part {
+            Part::All => self.paint,
+            Part::Fill => Paint { stroke: None, ..self.paint },
+            Part::Stroke => Paint { fill: None, opacity: 1.0, ..self.paint },
+        }
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -248,10 +268,15 @@ impl VectorPicture {
         let trapped = drawing.trapped(|polygon| paint(polygon).is_opaque());
         for (path, extended) in drawing.paths().zip(trapped.paths()) {
             let paint = paint(path.polygon());
-            self.add_area(extended.outlines(), Paint { stroke: None, ..paint });
-            if let Some(stroke) = paint.stroke {
-                self.add_lines(own_edges(path), stroke);
+            if paint.stroke.is_none() {
+                self.add_area(extended.outlines(), paint);
+                continue;
             }
+            if paint.fill.is_some() {
+                self.add_outlines(extended.outlines(), paint, Part::Fill);
+            }
+            let lines = Steps::drawn(own_edges(path).into_iter(), units(self.size));
+            self.add(Shape::Path(lines), paint, Part::Stroke);
         }
     }
 
@@ -262,10 +287,19 @@ impl VectorPicture {
         outlines: impl IntoIterator<Item = O>,
         paint: impl Into<Paint>,
     ) {
+        self.add_outlines(outlines, paint.into(), Part::All);
+    }
+
+    fn add_outlines<O: AsRef<[[f64; 2]]>>(
+        &mut self,
+        outlines: impl IntoIterator<Item = O>,
+        paint: Paint,
+        part: Part,
+    ) {
         let given: Vec<O> = outlines.into_iter().collect();
         let outlines: Vec<&[[f64; 2]]> = given.iter().map(AsRef::as_ref).collect();
         if outlines.iter().copied().flatten().all(is_near) {
-            self.add(Shape::Path(Steps::filled(&outlines, units(self.size))), paint.into());
+            self.add(Shape::Path(Steps::filled(&outlines, units(self.size))), paint, part);
         }
     }
 
@@ -277,7 +311,7 @@ impl VectorPicture {
         stroke: Stroke,
     ) {
         let lines = lines.into_iter().filter(|line| line.as_ref().iter().all(is_near));
-        self.add(Shape::Path(Steps::drawn(lines, units(self.size))), stroke.into());
+        self.add(Shape::Path(Steps::drawn(lines, units(self.size))), stroke.into(), Part::All);
     }
 
     /// Adds a disc of a radius around a point.
@@ -285,7 +319,7 @@ impl VectorPicture {
         let radius = length(radius);
         if is_near(&at) && radius > 0.0 {
             let at = in_steps(at, f64::from(units(self.size)));
-            self.add(Shape::Marker { at, radius }, paint.into());
+            self.add(Shape::Marker { at, radius }, paint.into(), Part::All);
         }
     }
 
@@ -300,7 +334,8 @@ impl VectorPicture {
         if is_near(&at) && size > 0.0 && !text.is_empty() {
             let baseline = [x, y + 0.5 * CAPITAL * size];
             let at = in_steps(baseline, f64::from(units(self.size)));
-            self.add(Shape::Label { at, size, text: text.to_owned() }, paint.into());
+            let text = text.to_owned();
+            self.add(Shape::Label { at, size, text }, paint.into(), Part::All);
         }
     }
 
@@ -354,11 +389,11 @@ impl VectorPicture {
         result
     }
 
-    fn add(&mut self, shape: Shape, paint: Paint) {
+    fn add(&mut self, shape: Shape, paint: Paint, part: Part) {
         let paint = paint.tidy();
         let is_empty = matches!(&shape, Shape::Path(steps) if steps.lines.is_empty());
         if !is_empty && (paint.fill.is_some() || paint.stroke.is_some()) {
-            self.nodes.push(Node::Item(Item { shape, paint }));
+            self.nodes.push(Node::Item(Item { shape, paint, part }));
         }
     }
 }

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::fmt::{self, Write};
 
-use super::picture::{Item, Line, Node, Paint, Shape, Steps, Stroke, VectorPicture, units};
+use super::picture::{Item, Line, Node, Paint, Part, Shape, Steps, Stroke, VectorPicture, units};
 
 impl VectorPicture {
     /// The picture as the text of an SVG file.
@@ -116,7 +116,7 @@ fn looks(nodes: &[Node]) -> Vec<Option<Look>> {
     let mut looks = vec![None; nodes.len()];
     for (at, node) in nodes.iter().enumerate().rev() {
         looks[at] = match node {
-            Node::Item(Item { paint, shape: Shape::Label { size, .. } }) => {
+            Node::Item(Item { paint, shape: Shape::Label { size, .. }, .. }) => {
                 Some((*paint, Some(*size)))
             }
             Node::Item(Item { paint, .. }) => Some((*paint, None)),
@@ -143,7 +143,12 @@ fn write_item(
     match &item.shape {
         Shape::Path(steps) => {
             write!(out, "<path{attributes}")?;
-            write_look(out, look, scale)?;
+            match (look, item.part) {
+                (None, Part::Fill) => write!(out, " stroke=\"none\"")?,
+                (None, Part::Stroke) => write!(out, " fill=\"none\"")?,
+                (None, Part::All) => {}
+                (Some(_), _) => write_look(out, Some((item.own_paint(), None)), scale)?,
+            }
             writeln!(out, " d=\"{}\"/>", data(steps))
         }
         Shape::Marker { at: [x, y], radius } => {

@@ -207,6 +207,7 @@ fn strokes_follow_the_outlines_of_polygons() {
         data.split_whitespace().count() / 2
     };
     for (pair, path) in paths.chunks(2).zip(drawing.paths()) {
+        assert_eq!(pair[0].attribute("stroke"), Some("none"));
         assert_eq!(pair[1].attribute("fill"), Some("none"));
         assert_eq!(corners(&pair[1]), path.outlines().flatten().count());
         assert!(corners(&pair[0]) >= corners(&pair[1]));
