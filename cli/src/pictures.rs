@@ -1,11 +1,10 @@
 //! The pictures that can be drawn of a tree, as RGB pixels.
 
-use binspace::BspTree;
-use binspace::Error;
 use binspace::paint::{paint_tree, paint_tree_in_colour};
 use binspace::raster::{Rays, depth_map, difference, picture, zbuffer};
 use binspace::verify::{Verification, verify, verify_fronts};
 use binspace::view::Camera;
+use binspace::{BspTree, Error};
 use clap::ValueEnum;
 
 use crate::args::KindArgs;

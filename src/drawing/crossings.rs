@@ -158,7 +158,7 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    /// The outlines of faces. (Those of polygons that do not show have no lines.)
+    /// The outlines of faces: none of those that the picture does not show.
     fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
         let faces = 0..self.primitives.views.len() as u32;
         faces.map(|face| (face, self.primitives.outline(face)))
@@ -390,20 +390,23 @@ fn crossings_of(
     for pair in each(watch, LINES, pairs) {
         let Pair { below, above } = *pair?;
         let View { is_positive, .. } = primitives.views[below as usize];
-        cuts.push(lines.cut(below, PlaneId::face(above), true, is_positive)?);
+        let is_bent = inner.bend(primitives.lines.frame.faces, [below, above]).is_some();
+        let cut = || lines.cut(below, PlaneId::face(above), true, is_positive);
+        cuts.push((!is_bent).then(cut).transpose()?);
     }
     let lines = &lines;
     let shares: Vec<_> = pairs.chunks(SHARE).zip(cuts.chunks(SHARE)).enumerate().collect();
     let count = shares.len();
-    let share = |(i, (pairs, cuts)): (usize, (&[Pair], &[HalfPlane]))| {
+    let share = |(i, (pairs, cuts)): (usize, (&[Pair], &[Option<HalfPlane>]))| {
         let mut found = Vec::new();
         for (&Pair { below, above }, &cut) in pairs.iter().zip(cuts) {
             let faces = [below, above];
             let corners: usize = faces.map(|face| primitives.edges_work(face)).iter().sum();
             watch.work(CUT + corners)?;
-            let sight = match inner.bend(primitives.lines.frame.faces, faces) {
-                Some(bend) => bent(&bend, primitives, lines, watch)?,
-                None => straight(faces, cut, primitives, lines, watch)?,
+            let sight = match (cut, inner.bend(primitives.lines.frame.faces, faces)) {
+                (Some(cut), _) => straight(faces, cut, primitives, lines, watch)?,
+                (None, Some(bend)) => bent(&bend, primitives, lines, watch)?,
+                (None, None) => None,
             };
             if let Some(sight) = sight {
                 found.push(Crossing { faces, sight });

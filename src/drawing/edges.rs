@@ -27,7 +27,7 @@ pub(super) struct Runs {
 
 impl VisibilityMap<'_> {
     /// The edges of polygons that show a side to the camera, as far as they are in the picture, in runs
-    /// that are visible or hidden. Runs of one polygon follow one another, and those of an edge from its
+    /// that are visible or, unless they are [skipped](Hidden::Skip), hidden. Runs of one polygon follow one another, and those of an edge from its
     /// beginning to its end.
     ///
     /// Visibility is read off the map, so it is as exact: only the ends of runs are rounded. The faces that have an

@@ -34,8 +34,8 @@ use crate::view::Camera;
 /// which corners were moved decide which polygon is in front. Edges go through the corners as moved where these
 /// were moved further, where the given ones are not convex in the picture, or where there are more than eight.
 ///
-/// Time is O(n log n) for n fragments in most scenes; visible polygons add to it, hidden ones do not. Memory
-/// likewise. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
+/// Time is O(n log n) for n fragments in most scenes. Of hidden polygons, only the lines of their edges are computed;
+/// they take about 200 bytes each while the map exists. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
 /// for bit.
 ///
 /// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
@@ -80,7 +80,7 @@ pub struct ViewOptions<'a> {
     /// and those with 0 are left out. Default: an empty list, all are opaque.
     pub opacities: Vec<f64>,
     /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square pixels is
-    /// less. Default: 0, all are drawn.
+    /// less. Default: 0, all are drawn; so they are with NaN.
     pub least_area: f64,
     /// A callback that is told how far the work is, and can cancel it: [Progress](VisibilityMap#progress). Default:
     /// `None`.
@@ -219,7 +219,8 @@ impl VisibilityMap<'_> {
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// The visible polygons, by their numbers.
+    /// The visible polygons, by their numbers, with [small](ViewOptions::least_area) ones. Computed anew at each call:
+    /// O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
         for cell in self.cells() {
@@ -236,7 +237,7 @@ impl VisibilityMap<'_> {
 
     /// The polygons, by their numbers and sorted, that drawings leave out as too little of them is visible.
     pub(super) fn left_out(&self) -> Vec<usize> {
-        if self.least_area <= 0.0 {
+        if self.least_area.is_nan() || self.least_area <= 0.0 {
             return vec![];
         }
         let small = self.polygons().filter(|visible| visible.area < self.least_area);
@@ -259,12 +260,12 @@ pub(super) fn checked(tree: &BspTree, opacities: &[f64]) -> Result<Vec<f64>, Err
 }
 
 impl MapCell<'_> {
-    /// The polygon that shows, by its number in the input.
+    /// The visible polygon, by its number in the input.
     pub fn polygon(&self) -> usize {
         self.polygon
     }
 
-    /// The corners, rounded, three or more, clockwise in the picture, with x to the right and y down.
+    /// The corners, rounded, three or more, clockwise in the picture; in pixels.
     pub fn corners(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + Clone {
         self.cell.sides.iter().map(|side| side.start.at)
     }
@@ -389,7 +390,8 @@ pub(super) fn finish_item(watch: &Watch<'_>, i: usize, n: usize) {
     }
 }
 
-/// The items of a loop that hears cancellation; each takes as long as a build takes to examine so many pieces.
+/// Wraps an iterator so that the loop polls for cancellation. `pieces` is the cost of one item, in pieces that a build
+/// examines.
 pub(super) fn each<T>(
     watch: &Watch<'_>,
     pieces: usize,
@@ -421,7 +423,7 @@ impl Done<'_, '_> {
 
 impl Drop for Done<'_, '_> {
     fn drop(&mut self) {
-        // If it was cancelled, the next one to ask hears it.
+        // If it was cancelled, the next poll returns the error.
         let _ = self.tell();
     }
 }

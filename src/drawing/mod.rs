@@ -4,7 +4,7 @@
 //! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: where each polygon is visible,
 //! exactly. From the map come
 //!
-//! | | |
+//! | call | result |
 //! |---|---|
 //! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in an order to paint them in |
 //! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |

@@ -61,7 +61,7 @@ impl LineRun {
 
 impl VisibilityMap<'_> {
     /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
-    /// or hidden: in input order, and along each segment from its beginning to its end.
+    /// or, unless they are [skipped](Hidden::Skip), hidden: in input order, and along each segment from its beginning to its end.
     ///
     /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
     /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the

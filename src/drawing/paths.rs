@@ -120,8 +120,8 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Whether the path has only a part of its polygon: what shows of one that is in a cycle with others;
-    /// or one of several parts of a translucent one.
+    /// Whether the path is only a part of its polygon: the visible part of one in a cycle with others, or one of several
+    /// parts of a translucent one.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
@@ -159,6 +159,10 @@ impl<'d> Path<'d> {
     }
 }
 
+/// A side is part of an edge if its middle is at most this far beyond the edge's ends, in pixels. Too small: roundings
+/// take edges away. Too large: sides along collinear edges of other polygons are taken for edges.
+const BEYOND: f64 = 1e-3;
+
 /// The edges of a polygon's faces, by the lines that they are on.
 struct PolygonEdges<'s, 't> {
     primitives: &'s Primitives<'t>,
@@ -182,15 +186,14 @@ impl<'s, 't> PolygonEdges<'s, 't> {
         let line = side.half.line();
         let first = self.edges.partition_point(|edge| edge.0 < line);
         let count = self.edges[first..].iter().take_while(|edge| edge.0 == line).count();
-        let alike = &self.edges[first..first + count];
-        let &(_, face, k) = match alike {
-            [only] => only,
-            _ => {
-                let middle = [0, 1].map(|i: usize| 0.5 * (side.start.at[i] + end[i]));
-                let off = |edge: &&(u64, u32, u32)| self.off(edge.1, edge.2, middle);
-                alike.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?
-            }
-        };
+        let middle = [0, 1].map(|i: usize| 0.5 * (side.start.at[i] + end[i]));
+        let alike = self.edges[first..first + count].iter();
+        let offs = alike.map(|&(_, face, k)| (self.off(face, k, middle), face, k));
+        let (off, face, k) = offs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        // Another polygon's edge may be on the same line, beyond this one's.
+        if off > BEYOND {
+            return None;
+        }
         self.primitives.lines.frame.faces.outline_edge(face, k)
     }
 
@@ -474,16 +477,13 @@ impl VisibilityMap<'_> {
     ///
     /// If it was [cancelled](Self#progress).
     pub fn drawing(&self) -> Result<Drawing, Error> {
-        let mut drawing = self.reporter.watch(2, |watch| self.drawn(watch))?;
-        let left_out = self.left_out();
-        drawing.paths.retain(|path| left_out.binary_search(&path.polygon).is_err());
-        Ok(drawing)
+        self.reporter.watch(2, |watch| self.drawn(watch))
     }
 
     fn drawn(&self, watch: &Watch<'_>) -> Result<Drawing, Error> {
         let Self { primitives, leaves, .. } = self;
         if primitives.has_translucent() {
-            return mixed(primitives, leaves, watch);
+            return mixed(primitives, leaves, &self.left_out(), watch);
         }
         let size = self.size();
         let shown = Nodes::of(primitives, leaves, watch)?;
@@ -491,6 +491,10 @@ impl VisibilityMap<'_> {
         let pairs = |wanted: Wanted<'_>| pairs(primitives, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
         let cells = shown.cells(primitives, leaves, &is_clipped, watch)?;
+        let left_out = self.left_out();
+        let is_drawn =
+            |node: &u32| left_out.binary_search(&shown.polygons[*node as usize]).is_err();
+        let order: Vec<u32> = order.into_iter().filter(is_drawn).collect();
         let shares: Vec<_> = order.chunks(SHARE).enumerate().collect();
         let count = shares.len();
         let part = |(i, nodes): (usize, &[u32])| {

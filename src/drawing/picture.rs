@@ -243,11 +243,12 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing, without seams: [batched](Drawing::batched) by paint, and
+    /// Adds the paths of a drawing, with closed seams: [batched](Drawing::batched) by paint, and
     /// [trapped](Drawing::trapped). `paint` is called once for each polygon that has a path, with its number.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). It is painted right after its path, so later paths cover
-    /// it. Drawings with strokes are not batched. To draw edges over all paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
+    /// it. Drawings with strokes are not batched. The lines and points of an overlay are not added: go through
+    /// [`Drawing::display_list`] for these. To draw edges over all paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
         drawing: &Drawing,
@@ -328,7 +329,7 @@ impl VectorPicture {
     ///
     /// The paint's stroke is below the letters: half of its width is visible around them, which keeps them legible on
     /// anything. The font is Helvetica or, in SVG, what the viewer has in its place. A PDF has the characters of
-    /// Windows-1252; others are `?` there, except that minus signs are dashes.
+    /// Windows-1252; others are `?` there, except that minus signs are dashes. A text is one line, whatever it holds.
     pub fn add_label(&mut self, at: [f64; 2], text: &str, size: f64, paint: impl Into<Paint>) {
         let (size, [x, y]) = (length(size), at);
         if is_near(&at) && size > 0.0 && !text.is_empty() {
@@ -374,7 +375,7 @@ impl VectorPicture {
     /// not, and a PDF, paint the areas one after another.
     pub fn added_up<R>(&mut self, add: impl FnOnce(&mut Self) -> R) -> R {
         self.adds_up = true;
-        self.group_with(" class=\"regions\" style=\"isolation:isolate\"".to_owned(), add)
+        self.group_with(" class=\"binspace-sum\" style=\"isolation:isolate\"".to_owned(), add)
     }
 
     fn group_with<R>(&mut self, attributes: String, add: impl FnOnce(&mut Self) -> R) -> R {

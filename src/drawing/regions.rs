@@ -34,11 +34,12 @@ impl VisibilityMap<'_> {
     ///
     /// If it was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
-        let mut regions = self
-            .reporter
-            .watch(2, |watch| self.stacks(watch)?.regions(&self.primitives.lines, watch))?;
-        regions.retain(|region| region.area() >= self.least_area);
-        Ok(regions)
+        self.reporter.watch(2, |watch| {
+            let mut regions = self.stacks(watch)?.regions(&self.primitives.lines, watch)?;
+            let is_small = |region: &Region| region.area() < self.least_area;
+            regions.retain(|region| !is_small(region));
+            Ok(regions)
+        })
     }
 
     /// What shows of polygons that lie one behind the other: a phase.

@@ -29,14 +29,15 @@ type Outline = Vec<Point>;
 type Segment = [Point; 2];
 
 impl Drawing {
-    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that no background shows in the
-    /// seams.
+    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that next to no background shows
+    /// in the seams.
     ///
     /// Viewers blend each path with what is below it. Along an edge of two polygons that each cover half of a pixel, a
     /// quarter of the background shows. Printers close such gaps by *trapping* (ISO 32000-1, 14.11.6): the lower area
     /// reaches about a pixel under the upper one, which is opaque and painted later, so that the addition is not
-    /// visible. `is_opaque` is called with numbers of polygons. Other polygons keep their outlines, and so do edges
-    /// next to nothing. The list of paths stays the same; only outlines get corners. An extended side is no longer one
+    /// visible. `is_opaque` is called with numbers of polygons. Other polygons keep their outlines, and so do
+    /// edges without an opaque neighbour, edges of polygons that are not convex and have many corners, and edges whose
+    /// extension would have less than a tenth of a square pixel. The list of paths stays the same; only outlines get corners. An extended side is no longer one
     /// of its polygon's [edges](Path::edges).
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself. O(n log n) for n corners,

@@ -33,7 +33,7 @@ impl VectorPicture {
         let scale = f64::from(units(self.size));
         writeln!(out, "<g transform=\"scale({})\">", 1.0 / scale)?;
         if self.adds_up {
-            writeln!(out, "<style>.regions path{{mix-blend-mode:plus-lighter}}</style>")?;
+            writeln!(out, "<style>.binspace-sum path{{mix-blend-mode:plus-lighter}}</style>")?;
         }
         write_nodes(out, &self.nodes, scale)?;
         writeln!(out, "</g>\n</svg>")
@@ -287,6 +287,8 @@ pub(super) fn escaped(text: &str) -> Cow<'_, str> {
             '"' => escaped += "&quot;",
             // Readers turn unescaped ones into spaces.
             '\t' => escaped += "&#9;",
+            '\n' => escaped += "&#10;",
+            '\r' => escaped += "&#13;",
             _ => escaped.push(if is_plain(c) { c } else { char::REPLACEMENT_CHARACTER }),
         }
     }

@@ -64,9 +64,8 @@ impl Drawing {
         overlay: Option<&Overlay>,
     ) -> Result<Self, Error> {
         let rays = drawing_rays(tree, camera, options.front_faces_only)?;
-        let is_left_out = |opacity: f64| if opacity == 0.0 { 0.0 } else { 1.0 };
         let mut opacities = checked(tree, &options.opacities)?;
-        opacities.iter_mut().for_each(|opacity| *opacity = is_left_out(*opacity));
+        opacities.iter_mut().for_each(|opacity| *opacity = f64::from(u8::from(*opacity > 0.0)));
         let reporter = Reporter::new(options.progress);
         if let Some(overlay) = overlay {
             overlay.expect_no_polygons(tree)?;
@@ -98,7 +97,7 @@ impl Drawing {
                     touching.push(pair);
                 }
             };
-            let (mut drawing, paths) = parts.drawing(&primitives, &ordered, None, watch)?;
+            let (mut drawing, paths) = parts.drawing(&primitives, &ordered, None, &[], watch)?;
             for placed in each(watch, 1, placed) {
                 let (parts, what): (u32, Overlaid) = placed?;
                 drawing.overlaid.push((paths[parts as usize], what));
@@ -110,10 +109,11 @@ impl Drawing {
 }
 
 /// The drawing of a map where something shows through: opaque polygons are in one path each, translucent ones
-/// as in [`Drawing::translucent`], and what shows nowhere is left out. Two phases.
+/// as in [`Drawing::translucent`], and hidden polygons and those of a list are left out. Two phases.
 pub(super) fn mixed(
     primitives: &Primitives<'_>,
     leaves: &[Leaf],
+    left_out: &[usize],
     watch: &Watch<'_>,
 ) -> Result<Drawing, Error> {
     // Polygons that show are known by their first items.
@@ -144,7 +144,7 @@ pub(super) fn mixed(
     }
     let parts = Parts::new(primitives, &blended, &[], watch)?;
     let ordered = parts.order(primitives, &pairs, Some(leaves), watch)?;
-    let (drawing, _) = parts.drawing(primitives, &ordered, Some(leaves), watch)?;
+    let (drawing, _) = parts.drawing(primitives, &ordered, Some(leaves), left_out, watch)?;
     Ok(drawing)
 }
 
@@ -376,6 +376,7 @@ impl Parts {
         primitives: &Primitives<'_>,
         ordered: &Ordered,
         leaves: Option<&[Leaf]>,
+        left_out: &[usize],
         watch: &Watch<'_>,
     ) -> Result<(Drawing, Vec<u32>), Error> {
         let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
@@ -392,7 +393,9 @@ impl Parts {
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
             let is_clipped = ordered.is_clipped[part as usize];
             area.clear();
+            let is_left_out = left_out.binary_search(&primitives.polygon(items[0])).is_ok();
             match shown {
+                _ if is_left_out => {}
                 Some(cells) if cells.is_empty() => {}
                 Some(cells) if is_clipped => {
                     for cell in each(watch, VISITED, cells) {

@@ -1,10 +1,10 @@
 //! One integer ray for each pixel.
 
-use crate::Error;
 use std::ops::Range;
 
 use glam::DVec3;
 
+use crate::Error;
 use crate::exact::{Eye, Faces, Lattice};
 use crate::view::{Camera, Projection, refused};
 use crate::viewpoint::Viewpoint;
@@ -24,7 +24,7 @@ use crate::viewpoint::Viewpoint;
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
 /// such as the cells of a partition, may share them. A function that takes rays and faces of different
-/// grids returns an error if it returns a `Result`, and panics otherwise.
+/// grids panics.
 #[derive(Clone, Debug)]
 pub struct Rays {
     lattice: Lattice,
@@ -350,7 +350,8 @@ impl Rays {
         if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
     }
 
-    /// A box in the picture, least and largest coordinates in pixels, that has all of the convex hull of these points, each given to within `off` lattice units along each axis;
+    /// A box in the picture that has all of the convex hull of these points, each given to within `off` lattice units
+    /// along each axis: its least and largest coordinates, in pixels, of which the first pixel's centre has `first`.
     /// `None` if the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
     pub(crate) fn region(&self, points: &[[f64; 3]], off: f64) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
@@ -387,7 +388,8 @@ impl Rays {
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
-    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, times the last, which is positive ahead of the eye. With bounds on their errors.
+    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, as those of
+    /// [`region`](Self::region), times the last, which is positive ahead of the eye. With bounds on their errors.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (at, error) = self.in_picture(point, VERTEX_ERROR);

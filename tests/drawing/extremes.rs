@@ -1,6 +1,8 @@
 //! Scenes, views and opacities at their limits.
 
 use super::map_with;
+use binspace::overlay::{Overlay, Shapes};
+use std::collections::BTreeSet;
 use testkit::fill::{Score, check};
 use testkit::layered::{Layers, check_mixed};
 use testkit::prelude::*;
@@ -127,4 +129,43 @@ fn eyes_on_polygons_and_away_from_all() {
     let camera = Camera::perspective(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0, [9, 9]).unwrap();
     let map = map_with(&none, &camera, |_| 0.5);
     assert!(map.regions().unwrap().is_empty() && map.drawing().unwrap().paths().len() == 0);
+}
+
+/// Without hidden runs, visible ones are as they were; polygons of which little is visible have no paths.
+#[test]
+fn hidden_runs_and_small_polygons_are_left_out_on_request() {
+    let scene = Builtin::Random.build(Some(60), 4);
+    let tree = BspTree::build(scene.polygons()).unwrap();
+    let (low, high) = scene.bounds().unwrap();
+    let camera = Camera::looking_at_all([low, high], scene.up(), [200, 150]).unwrap();
+    let map = map_with(&tree, &camera, |_| 1.0);
+    let mut overlay = Overlay::new(&tree);
+    overlay.replace_with(&tree, Shapes::NONE.with_lines([[low, high]])).unwrap();
+    let mut edges = map.edges(Hidden::Keep).unwrap();
+    let mut lines = map.lines(&overlay, Hidden::Keep).unwrap();
+    let all = edges.len() + lines.len();
+    edges.retain(|run| run.is_visible);
+    lines.retain(|run| run.is_visible);
+    assert!(edges.len() + lines.len() + 20 < all && !lines.is_empty(), "{all}");
+    assert_eq!(map.edges(Hidden::Skip).unwrap(), edges);
+    assert_eq!(map.lines(&overlay, Hidden::Skip).unwrap(), lines);
+
+    let mixed = |polygon: usize| if polygon.is_multiple_of(2) { 0.5 } else { 1.0 };
+    for options in [ViewOptions::DEFAULT, with_opacities(&tree, mixed)] {
+        let least = 30.0;
+        let drawn = |options: ViewOptions<'_>| {
+            let map = tree.visibility(&camera, &options).unwrap();
+            let large = |area: f64| area >= least;
+            let polygons = map.polygons().filter(|polygon| large(polygon.area));
+            let polygons: BTreeSet<usize> = polygons.map(|polygon| polygon.polygon).collect();
+            let (drawing, regions) = (map.drawing().unwrap(), map.regions().unwrap());
+            let paths: BTreeSet<usize> = drawing.paths().map(|path| path.polygon()).collect();
+            (polygons, paths, regions.iter().filter(|r| large(r.area())).count(), regions.len())
+        };
+        let (large, all, large_regions, regions) = drawn(options.clone());
+        assert!(large.len() + 3 < all.len() && large_regions + 3 < regions);
+        assert_eq!(drawn(options.clone().with_least_area(f64::NAN)).1, all);
+        let (_, paths, kept, of_all) = drawn(options.with_least_area(least));
+        assert_eq!((paths, kept, of_all), (large, large_regions, large_regions));
+    }
 }

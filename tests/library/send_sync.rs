@@ -1,6 +1,7 @@
 //! Public types are `Send` and `Sync`: trees above all, with everything that they return.
 
 use binspace::choose::{PieceSet, SplitPlane};
+use binspace::drawing::{Paint, Path, Region, Stroke, VectorPicture};
 use binspace::internals::{
     EdgeLine, Eye, Lattice, PlaneKind, PreparedPlane, Side, StoredVertex, Vertex, VertexId,
     VertexKind,
@@ -47,13 +48,23 @@ assert_shared!(
 assert_shared!(Overlay, Overlaid<'_>, OverlayOrder<'_>, Shape<'_>, Segment<'_>, Marker);
 assert_shared!(FragmentsIn<'_>, Grid, Hit<'_>, Hits<'_>, Location<'_>, Ray);
 assert_shared!(PieceSet<'_>, SplitPlane);
-assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError, Error);
+assert_shared!(BuildOptions, Heuristic, Progress, Error, ParseHeuristicError);
 // Geometry.
 assert_shared!(Faces, Preparation, Lattice, PreparedPlane, StoredVertex, Vertex, Eye, EdgeLine);
 assert_shared!(PlaneId, PlaneKind, Side, VertexId, VertexKind);
 // Scenes, cameras, pictures.
 assert_shared!(Scene, Material, Builtin, Camera, Projection, Image, DepthImage, Comparison);
 assert_shared!(Verification, ObjError, ObjReport);
+assert_shared!(
+    VisibilityMap<'_>,
+    ViewOptions<'_>,
+    Drawing,
+    Path<'_>,
+    Region,
+    VectorPicture,
+    Paint,
+    Stroke
+);
 
 #[test]
 fn a_tree_is_ordered_by_several_threads_at_once() {

@@ -65,7 +65,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     };
     let bar = Mutex::default();
     let go_on = |progress| go_on(&bar, progress);
-    let view = View { args, style, bar: &bar, options: options(args, &style, &go_on) };
+    let view = View { args, style, bar: &bar, options: options(args, format, &style, &go_on) };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -137,13 +137,16 @@ fn go_on(bar: &Mutex<Option<Progress>>, progress: binspace::Progress) -> Control
 
 fn options<'a>(
     args: &DrawArgs,
+    format: DrawFormat,
     style: &Style<'_>,
     progress: &'a (dyn Fn(binspace::Progress) -> ControlFlow<()> + Sync),
 ) -> ViewOptions<'a> {
+    // In a PNG, many small parts together may cover a pixel.
+    let least = if format == DrawFormat::Png { 0.0 } else { min_size(args) };
     let opacities = (0..style.scene.len()).map(|polygon| f64::from(style.opacity(polygon)));
     let options = ViewOptions::DEFAULT
         .with_opacities(opacities.collect())
-        .with_least_area(min_size(args) * min_size(args))
+        .with_least_area(least * least)
         .with_progress(progress);
     if args.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
 }

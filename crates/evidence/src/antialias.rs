@@ -1,13 +1,12 @@
 //! Anti-aliasing: the areas of what is visible in each pixel, against samples, and against coverages
 //! blended in paint order.
 
-use binspace::BspTree;
-use binspace::Error;
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 use binspace::raster::{NONE, Rays, zbuffer};
 use binspace::view::Camera;
+use binspace::{BspTree, Error};
 
 use crate::translucent::Colour;
 

@@ -1,6 +1,5 @@
 //! What is left of a scene by each step of culling.
 
-use binspace::Error;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
@@ -9,7 +8,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Culling, Facing, Flow, Fragment, Part, Sides};
+use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part, Sides};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]

@@ -3,10 +3,9 @@
 #[cfg(test)]
 mod tests;
 
-use binspace::BspTree;
-use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::view::Camera;
+use binspace::{BspTree, Error};
 
 /// Where eight walls stand on a floor, as x and y of their ends, by their letters. In the order of
 /// the letters as the order of splitters, A divides C, F and G from B, D, E and H; C divides F from

@@ -122,15 +122,29 @@ pub struct Score {
 }
 
 /// Compares map and drawing of a view with what the tree's order paints, pixel by pixel, by integers
-/// of another hand. Every fourth picture is of polygons seen from their fronts alone.
+/// of another hand. Of small scenes, also of polygons seen from their fronts alone.
 pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
     let rays = Rays::new(camera, tree.faces()).map_err(|error| error.to_string())?;
-    let (rays, options) = match score.pictures % 4 {
-        3 => (rays.with_front_faces_only(), ViewOptions::DEFAULT.with_front_faces_only()),
-        _ => (rays, ViewOptions::DEFAULT),
-    };
-    let truth = paint_tree(tree, camera.viewpoint(), &rays);
-    let map = tree.visibility(camera, &options).expect("memory");
+    if tree.len() < SMALL {
+        let fronts = ViewOptions::DEFAULT.with_front_faces_only();
+        let rays = rays.clone().with_front_faces_only();
+        check_view(tree, camera, &rays, &fronts, &mut Score::default())?;
+    }
+    check_view(tree, camera, &rays, &ViewOptions::DEFAULT, score)
+}
+
+/// Trees with fewer fragments are judged from their fronts as well.
+const SMALL: usize = 100;
+
+fn check_view(
+    tree: &BspTree,
+    camera: &Camera,
+    rays: &Rays,
+    options: &ViewOptions<'_>,
+    score: &mut Score,
+) -> Result<(), String> {
+    let truth = paint_tree(tree, camera.viewpoint(), rays);
+    let map = tree.visibility(camera, options).expect("memory");
     let drawing = map.drawing().expect("memory");
     let shown: Vec<usize> = map.polygons().map(|shown| shown.polygon).collect();
     let mut drawn: Vec<usize> = drawing.paths().map(|path| path.polygon()).collect();

@@ -1,10 +1,10 @@
 use glam::DVec3;
 
 use super::{HalfPlane, Key, LineTable, Rounded};
+use crate::drawing::map::drawing_rays;
 use crate::drawing::primitives::Primitives;
 use crate::progress::Watch;
 use crate::random::SplitMix64;
-use crate::raster::Rays;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
@@ -15,7 +15,7 @@ pub(in crate::drawing) fn all_lines<'t>(
     tree: &'t BspTree,
     camera: &Camera,
 ) -> Option<Primitives<'t>> {
-    let rays = Rays::new(camera, tree.faces()).ok()?;
+    let rays = drawing_rays(tree, camera, false).ok()?;
     Some(Primitives::new(tree, rays, vec![], &Watch::default()).unwrap())
 }
 

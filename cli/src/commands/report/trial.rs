@@ -1,10 +1,10 @@
 //! A scene with its views and their truth: what every method is held against.
 
-use binspace::Error;
 use std::panic::resume_unwind;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::internals::{Faces, SplitMix64};
 use binspace::raster::{Image, Rays, zbuffer};

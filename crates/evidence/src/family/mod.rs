@@ -9,10 +9,10 @@ mod sheets;
 mod tests;
 mod trial;
 
-use binspace::Error;
 use std::fmt;
 use std::str::FromStr;
 
+use binspace::Error;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 use trial::{Look, Trial};
