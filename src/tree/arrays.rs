@@ -64,7 +64,7 @@ impl BspTree {
     ///
     /// O(n) time and space for n vertices: per vertex 24 bytes for the position, 8 for the edge and the offset, and
     /// 12 for each of one to three weights; per fragment 8 bytes. Vertices that cuts have made are computed from
-    /// their exact definition, about 0.4 µs each.
+    /// their exact definition, 0.2 to 0.4 µs each.
     ///
     /// # Errors
     ///
