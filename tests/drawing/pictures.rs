@@ -361,7 +361,7 @@ fn odd_numbers_make_no_broken_files() {
                     let is_known = |c: char| c.is_ascii_digit() || "mz .-".contains(c);
                     assert!(value.chars().all(is_known), "{value}");
                     assert!(
-                        value.split('m').skip(1).all(|line| !line.is_empty() && line != "z"),
+                        value.split('m').skip(1).all(|line| !matches!(line, "" | "z")),
                         "{value}"
                     );
                     shapes += 1;
