@@ -393,9 +393,7 @@ impl Parts {
             let shown = cells.as_ref().map(|cells| &cells[part as usize]);
             let is_clipped = ordered.is_clipped[part as usize];
             area.clear();
-            let is_left_out = left_out.binary_search(&primitives.polygon(items[0])).is_ok();
             match shown {
-                _ if is_left_out => {}
                 Some(cells) if cells.is_empty() => {}
                 Some(cells) if is_clipped => {
                     for cell in each(watch, VISITED, cells) {
@@ -404,8 +402,11 @@ impl Parts {
                 }
                 _ => counts.add_pieces(primitives, items, &mut area, watch)?,
             }
-            if !area.is_empty() {
-                let polygon = primitives.polygon(items[0]);
+            let polygon = items.first().map(|&item| primitives.polygon(item));
+            if let Some(polygon) = polygon
+                && !area.is_empty()
+                && left_out.binary_search(&polygon).is_err()
+            {
                 let is_part = is_clipped || (items.len() as u32) < counts.of_polygon[polygon];
                 // Items of one face follow one another.
                 let faces = items.chunk_by(|&a, &b| primitives.face(a) == primitives.face(b));
