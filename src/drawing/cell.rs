@@ -36,7 +36,7 @@ const FINE: f64 = 1e-6;
 /// cut, it is as exact as its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
-    pub(super) sides: SmallVec<[Side; 8]>,
+    pub(super) sides: SmallVec<[Side; 5]>,
 }
 
 impl Cell {
