@@ -29,6 +29,15 @@
 //! [`Viewpoint`]. A tree's parts and figures: [`Node`], [`Child`], [`Facing`], [`Grid`], [`Preparation`],
 //! [`Stats`]. What went wrong, and at which polygon: [`Error`], [`ErrorKind`].
 //!
+//! # What works together
+//!
+//! | | orders, culled too | rays, regions | meshes, arrays | drawings | files |
+//! |---|---|---|---|---|---|
+//! | a tree, also that of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
+//! | the tree of a cell of a [`partition`] | yes | yes | yes | an error; so are winding numbers | yes |
+//! | polygons of an [`overlay`] | yes | not seen | not in them: each piece has its vertices | an error | no |
+//! | lines and points of an overlay | yes | not seen | not in them | yes | no |
+//!
 //! # Conventions
 //!
 //! - Coordinates are right-handed, in any unit; results are in the same.

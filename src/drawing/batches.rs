@@ -98,7 +98,7 @@ fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
 }
 
 /// A path: the outlines that it is compared by, and the box around them.
-struct Area {
+struct BoxedPath {
     low: Point,
     high: Point,
     outlines: Vec<Vec<Point>>,
@@ -106,7 +106,7 @@ struct Area {
 
 /// Pairs of paths that overlap, the lower one first; `None` if there are too many to compare.
 fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
-    let areas: Vec<Area> = paths.iter().map(area).collect();
+    let areas: Vec<BoxedPath> = paths.iter().map(area).collect();
     let [width, height] = size.map(f64::from);
     let cell = (width * height / areas.len().max(1) as f64).sqrt().max(1.0);
     let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
@@ -144,7 +144,7 @@ fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
     Some(pairs)
 }
 
-fn area(path: &Path<'_>) -> Area {
+fn area(path: &Path<'_>) -> BoxedPath {
     let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
     for (axis, c) in path.outlines().flatten().flat_map(|point| point.iter().enumerate()) {
         low[axis] = low[axis].min(*c);
@@ -157,10 +157,10 @@ fn area(path: &Path<'_>) -> Area {
             vec![low, [high[0], low[1]], high, [low[0], high[1]]]
         }
     });
-    Area { low, high, outlines: outlines.collect() }
+    BoxedPath { low, high, outlines: outlines.collect() }
 }
 
-fn overlap(a: &Area, b: &Area) -> bool {
+fn overlap(a: &BoxedPath, b: &BoxedPath) -> bool {
     let boxes = (0..2).all(|i| a.low[i] + THIN < b.high[i] && b.low[i] + THIN < a.high[i]);
     let apart = |p: &[Point], q: &[Point]| separates(p, q) || separates(q, p);
     boxes && a.outlines.iter().any(|p| b.outlines.iter().any(|q| !apart(p, q)))
@@ -205,7 +205,11 @@ mod tests {
             let fold = |f: fn(f64, f64) -> f64| {
                 [0, 1].map(|i: usize| outline.iter().map(|p| p[i]).reduce(f).unwrap())
             };
-            Area { low: fold(f64::min), high: fold(f64::max), outlines: vec![outline.to_vec()] }
+            BoxedPath {
+                low: fold(f64::min),
+                high: fold(f64::max),
+                outlines: vec![outline.to_vec()],
+            }
         };
         let left = area(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]);
         let right = area(&[[2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);

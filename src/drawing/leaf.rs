@@ -60,7 +60,7 @@ impl Leaf {
             }
             return Ok(Self { tile, cells: area.cells });
         }
-        let mut region = Region { cell: whole, pieces: vec![], growth: Growth::NONE };
+        let mut region = SubTile { cell: whole, pieces: vec![], growth: Growth::NONE };
         for &item in items {
             watch.work(CUT)?;
             let Some(halves) = primitives.crossing(item, &sides) else { continue };
@@ -83,7 +83,7 @@ impl Leaf {
 }
 
 /// A convex part of a tile, and the pieces in it, front to back and clipped to it.
-struct Region {
+struct SubTile {
     cell: Cell,
     pieces: Vec<Visible>,
     growth: Growth,
@@ -95,7 +95,7 @@ const TRIED: usize = 12;
 /// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes long.
 const SAMPLE: usize = 48;
 
-impl Region {
+impl SubTile {
     /// Adds a piece behind all others, and returns whether it is opaque and covers the region.
     fn push(&mut self, piece: Visible, primitives: &Primitives<'_>) -> bool {
         let (own, all) = (&piece.cell.sides, &self.cell.sides);

@@ -5,7 +5,7 @@ use pdf_writer::types::{LineCapStyle, LineJoinStyle, TextRenderingMode};
 use pdf_writer::writers::{ExtGraphicsState, Type1Font};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
 
-use super::picture::{Item, Node, Paint, Shape, Steps, Stroke, VectorPicture, units};
+use super::picture::{Node, Paint, PaintedShape, Shape, Steps, Stroke, VectorPicture, units};
 
 /// How hard to compress, up to 10. Too large: more time for little; too small: longer files.
 const LEVEL: u8 = 7;
@@ -59,9 +59,9 @@ impl VectorPicture {
     }
 }
 
-fn items(picture: &VectorPicture) -> impl Iterator<Item = &Item> {
+fn items(picture: &VectorPicture) -> impl Iterator<Item = &PaintedShape> {
     picture.nodes.iter().filter_map(|node| match node {
-        Node::Item(item) => Some(item),
+        Node::Shape(item) => Some(item),
         Node::Group { .. } => None,
     })
 }
@@ -69,7 +69,7 @@ fn items(picture: &VectorPicture) -> impl Iterator<Item = &Item> {
 /// The opacities of fills and strokes, each once; none if all are opaque.
 fn opacities(picture: &VectorPicture) -> Vec<f32> {
     let mut all: Vec<f32> = Vec::new();
-    for Paint { fill, opacity, stroke } in items(picture).map(Item::own_paint) {
+    for Paint { fill, opacity, stroke } in items(picture).map(PaintedShape::own_paint) {
         all.extend(fill.map(|_| opacity as f32));
         all.extend(stroke.map(|stroke| stroke.opacity as f32));
     }

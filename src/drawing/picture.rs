@@ -169,11 +169,11 @@ pub(super) enum Node {
         attributes: String,
         end: usize,
     },
-    Item(Item),
+    Shape(PaintedShape),
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Item {
+pub(super) struct PaintedShape {
     pub(super) shape: Shape,
     pub(super) paint: Paint,
     pub(super) part: Part,
@@ -187,7 +187,7 @@ pub(super) enum Part {
     Stroke,
 }
 
-impl Item {
+impl PaintedShape {
     /// The paint without the part that the shape lacks.
     pub(super) fn own_paint(&self) -> Paint {
         match self.part {
@@ -394,7 +394,7 @@ impl VectorPicture {
         let paint = paint.tidy();
         let is_empty = matches!(&shape, Shape::Path(steps) if steps.lines.is_empty());
         if !is_empty && (paint.fill.is_some() || paint.stroke.is_some()) {
-            self.nodes.push(Node::Item(Item { shape, paint, part }));
+            self.nodes.push(Node::Shape(PaintedShape { shape, paint, part }));
         }
     }
 }

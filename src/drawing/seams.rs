@@ -67,7 +67,7 @@ impl Drawing {
                 for (ends, &edge) in sides(outline).zip(edges) {
                     ring.push(ends[0]);
                     let start = ring.len();
-                    if let Some(frame) = Frame::outside_of(ends, turn).filter(|_| reaches) {
+                    if let Some(frame) = SideFrame::outside_of(ends, turn).filter(|_| reaches) {
                         grid.find_near(ends, number, &mut near);
                         extend(&mut ring, &frame, &near, &parts);
                     }
@@ -87,7 +87,7 @@ impl Drawing {
 }
 
 /// Extends a ring at its last side under the neighbours whose sides are near.
-fn extend(ring: &mut Outline, frame: &Frame, near: &[PlacedSide], parts: &[Outline]) {
+fn extend(ring: &mut Outline, frame: &SideFrame, near: &[PlacedSide], parts: &[Outline]) {
     let mut strips: Vec<Outline> = Vec::new();
     for sides in near.chunk_by(|a, b| a.part == b.part) {
         strips.extend(strip(frame, &parts[sides[0].part]));
@@ -247,14 +247,14 @@ fn area_of([a, b, c]: [Point; 3]) -> f64 {
 }
 
 /// Coordinates along a side, and outwards from it.
-struct Frame {
+struct SideFrame {
     start: Point,
     length: f64,
     along: Point,
     out: Point,
 }
 
-impl Frame {
+impl SideFrame {
     /// The frame of a side of an outline that turns in the given sense; `None` if the side has no length.
     fn outside_of([start, end]: Segment, turn: f64) -> Option<Self> {
         let step = [end[0] - start[0], end[1] - start[1]];
@@ -288,7 +288,7 @@ impl Frame {
 
 /// The extension of a path at a side into a convex neighbour, along their common edges: its corners in local
 /// coordinates, from the lower to the upper end along the side.
-fn strip(frame: &Frame, neighbour: &[Point]) -> Option<Outline> {
+fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
     let strip = band(frame, &corners)?;
     if 0.5 * double_area(&strip).abs() < SMALLEST {
@@ -320,7 +320,7 @@ fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
 }
 
 /// A strip along the common edges, clipped to the neighbour, which is given in local coordinates.
-fn band(frame: &Frame, corners: &[Point]) -> Option<Outline> {
+fn band(frame: &SideFrame, corners: &[Point]) -> Option<Outline> {
     let turn = double_area(corners).signum();
     let height = corners.iter().map(|corner| corner[1]).fold(0.0, f64::max);
     let common = |ends: Segment| {
@@ -389,7 +389,7 @@ mod tests {
     #[test]
     fn strips_are_inside_of_the_neighbour() {
         // The side from (1, 2) to (5, 2) of what is below it, with y up.
-        let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let frame = SideFrame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
         let strip = |outline: &[Point]| {
             let corners: Outline = outline.iter().map(|&corner| frame.local(corner)).collect();
             band(&frame, &corners)
@@ -423,7 +423,7 @@ mod tests {
 
     #[test]
     fn a_triangle_stands_for_a_strip_that_it_nearly_covers() {
-        let frame = Frame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
+        let frame = SideFrame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
         let found = strip(&frame, &[[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]]).unwrap();
         assert_eq!(found.len(), 3);
         for (found, expected) in found.iter().zip([[0.0, 0.0], [2.0, 6.0], [4.0, 0.0]]) {

@@ -6,7 +6,9 @@
 use std::borrow::Cow;
 use std::fmt::{self, Write};
 
-use super::picture::{Item, Line, Node, Paint, Part, Shape, Steps, Stroke, VectorPicture, units};
+use super::picture::{
+    Line, Node, Paint, PaintedShape, Part, Shape, Steps, Stroke, VectorPicture, units,
+};
 
 impl VectorPicture {
     /// The picture as the text of an SVG file.
@@ -78,13 +80,13 @@ fn write_nodes(out: &mut String, nodes: &[Node], scale: f64) -> fmt::Result {
             }
         }
         let (attributes, item) = match node {
-            Node::Item(item) => ("", item),
+            Node::Shape(item) => ("", item),
             Node::Group { attributes, end } => match &nodes[at + 1..*end] {
                 [] => {
                     at += 1;
                     continue;
                 }
-                [Node::Item(item)] => {
+                [Node::Shape(item)] => {
                     at += 1;
                     (&attributes[..], item)
                 }
@@ -107,7 +109,7 @@ fn write_nodes(out: &mut String, nodes: &[Node], scale: f64) -> fmt::Result {
 fn after(nodes: &[Node], at: usize) -> usize {
     match nodes[at] {
         Node::Group { end, .. } => end,
-        Node::Item(_) => at + 1,
+        Node::Shape(_) => at + 1,
     }
 }
 
@@ -116,10 +118,10 @@ fn looks(nodes: &[Node]) -> Vec<Option<Look>> {
     let mut looks = vec![None; nodes.len()];
     for (at, node) in nodes.iter().enumerate().rev() {
         looks[at] = match node {
-            Node::Item(Item { paint, shape: Shape::Label { size, .. }, .. }) => {
+            Node::Shape(PaintedShape { paint, shape: Shape::Label { size, .. }, .. }) => {
                 Some((*paint, Some(*size)))
             }
-            Node::Item(Item { paint, .. }) => Some((*paint, None)),
+            Node::Shape(PaintedShape { paint, .. }) => Some((*paint, None)),
             Node::Group { end, .. } => {
                 let mut inner = at + 1;
                 let first = if inner < *end { looks[inner] } else { None };
@@ -135,7 +137,7 @@ fn looks(nodes: &[Node]) -> Vec<Option<Look>> {
 
 fn write_item(
     out: &mut String,
-    item: &Item,
+    item: &PaintedShape,
     attributes: &str,
     look: Option<Look>,
     scale: f64,

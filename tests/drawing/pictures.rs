@@ -1,11 +1,11 @@
 //! Vector pictures, as a viewer shows them (resvg): seams, the order of paths, places, names, and odd numbers.
 
 use super::map_of;
-use binspace::drawing::{Paint, Polyline, Stroke, VectorPicture, polylines};
+use binspace::drawing::{Paint, Path, Polyline, Stroke, VectorPicture, polylines};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::roxmltree::{Document, Node};
 use resvg::usvg::{Options, ShapeRendering, Tree};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use testkit::prelude::*;
 
 /// The pixels of an SVG on a white background: each with its edges blended, or one sample at its centre.
@@ -151,6 +151,19 @@ fn trapped_outlines_go_through_the_same_corners() {
                 extended += usize::from(longer.len() > outline.len());
                 assert!(path.polygon() % 4 > 0 || longer.len() == outline.len());
             }
+            // A side that is as it was has its edge, and one that was extended has none.
+            let sides = |path: Path<'_>| -> BTreeMap<[[u64; 2]; 2], Option<u32>> {
+                let all = path.outlines().zip(path.edges()).flat_map(|(outline, edges)| {
+                    assert_eq!(outline.len(), edges.len());
+                    let next = outline.iter().cycle().skip(1);
+                    outline.iter().zip(next).zip(edges)
+                });
+                all.map(|((a, b), edge)| ([a, b].map(|end| end.map(f64::to_bits)), *edge)).collect()
+            };
+            let before = sides(path);
+            for (side, edge) in sides(longer) {
+                assert_eq!(edge, before.get(&side).copied().flatten());
+            }
         }
     }
     assert!(extended > 100, "{extended}");
@@ -214,6 +227,22 @@ fn strokes_follow_the_outlines_of_polygons() {
     }
     let extended = paths.chunks(2).filter(|pair| corners(&pair[0]) > corners(&pair[1])).count();
     assert!(extended > 50, "{extended}");
+}
+
+/// The border of the picture is no edge of a polygon that reaches beyond it.
+#[test]
+fn strokes_leave_out_the_border_of_the_picture() {
+    let corners = [[-9.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-9.0, 1.0]];
+    let tree = BspTree::build([corners.map(|[x, y]| dvec3(x, y, 0.0))]).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 4.0, [40, 40]).unwrap();
+    let drawing = map_of(&tree, &camera).drawing().unwrap();
+    let mut picture = VectorPicture::new(drawing.size());
+    picture.add_drawing(&drawing, |_| Paint::from([200; 3]).with_stroke(Stroke::new(2.0, [0; 3])));
+    let pixels = crisp(&picture);
+    let at = |x: usize, y: usize| pixels[40 * y + x];
+    // From the left: the border, the inside, the right edge, the background; and the edges above and below.
+    assert_eq!([0, 15, 29, 35].map(|x| at(x, 20)), [[200; 3], [200; 3], [0; 3], [255; 3]]);
+    assert_eq!([10, 29].map(|y| at(0, y)), [[0; 3]; 2]);
 }
 
 /// Areas side by side that are added up have the sum of what they cover, on the background.

@@ -32,5 +32,6 @@ mod send_sync;
 mod size_hints;
 mod slivers;
 mod small_frames;
+mod together;
 mod tolerance;
 mod vertex_errors;
