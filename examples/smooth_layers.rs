@@ -116,8 +116,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Compares all pixels where pieces of one layer meet with the colour of that layer, away from what is stroked and from
-/// the borders of what is visible; returns how many.
+/// Compares the colour of each pixel at which two pieces of one layer meet with the colour of that layer. Pixels near
+/// strokes and near borders of visible parts are skipped. Returns the number of compared pixels.
 #[cfg(test)]
 fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
     use std::collections::BTreeSet;

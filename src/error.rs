@@ -171,7 +171,7 @@ pub(crate) enum Kind {
     Polygons(usize),
     /// Of all polygons together.
     CornersInAll(usize),
-    /// Of a mesh.
+    /// Of a mesh, or of arrays.
     Indices,
     /// By the budget for fragments, before the build.
     PolygonsOfBudget(usize),

@@ -122,7 +122,7 @@ pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style:
     }
 }
 
-/// Groups what has a material, if materials are named.
+/// Adds shapes inside a group that names their material, if materials are named.
 fn named(picture: &mut VectorPicture, material: &str, add: impl FnOnce(&mut VectorPicture)) {
     if material.is_empty() {
         add(picture);

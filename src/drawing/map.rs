@@ -21,7 +21,7 @@ use crate::raster::Rays;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
-/// What is visible in one view: convex cells side by side, each a part of one polygon.
+/// The visible parts of polygons in one view: convex cells side by side, each a part of one polygon.
 /// [`BspTree::visibility`] makes it.
 ///
 /// It is exact, without a tolerance of its own. Lines of the picture are planes through the eye in integers, and a
@@ -34,8 +34,8 @@ use crate::view::Camera;
 /// which corners were moved decide which polygon is in front. Edges go through the corners as moved where these
 /// were moved further, where the given ones are not convex in the picture, or where there are more than eight.
 ///
-/// Time is O(n log n) for n fragments in most scenes. Of hidden polygons, only the lines of their edges are computed;
-/// they take about 200 bytes each while the map exists. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
+/// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of
+/// the edges of hidden polygons in the frustum. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
 /// for bit.
 ///
 /// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
@@ -219,8 +219,8 @@ impl VisibilityMap<'_> {
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// The visible polygons, by their numbers, with [small](ViewOptions::least_area) ones. Computed anew at each call:
-    /// O(c log c) for c cells.
+    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] leaves none of them out. Each call
+    /// computes the list again, in O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
         for cell in self.cells() {

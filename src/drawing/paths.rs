@@ -468,7 +468,7 @@ impl VisibilityMap<'_> {
     /// scenes, are clipped: only their visible parts are drawn. Polygons whose visible area is less than
     /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons are painted over what is behind them. Those in cycles are in several paths, as in
+    /// Translucent polygons come after the polygons behind them. Translucent polygons in cycles are in several paths, as in
     /// [`Drawing::translucent`]; each visible point of one is in one path. Time and memory are proportional to the
     /// square of the number of translucent polygons that lie over one another; where all are translucent,
     /// `Drawing::translucent` takes less.

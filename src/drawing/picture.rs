@@ -340,7 +340,7 @@ impl VectorPicture {
         }
     }
 
-    /// Groups what is added by `add`, and names it in an SVG: `class`, `id`, and names that begin with `data-`.
+    /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG: `class`, `id`, and names that begin with `data-`.
     ///
     /// The attributes of a group of one shape are those of the shape. Values may be any text. Other names than these,
     /// names with characters other than small letters, digits and hyphens, and names that are given again are left out.
@@ -370,7 +370,7 @@ impl VectorPicture {
 
     /// Groups areas side by side that are added by `add`. In an SVG they have no seams between them, translucent or not.
     ///
-    /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and put the sum on what is below. It is
+    /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the picture below. It is
     /// for [regions](super::VisibilityMap::regions), each with its blended colour. Browsers support it; viewers that do
     /// not, and a PDF, paint the areas one after another.
     pub fn added_up<R>(&mut self, add: impl FnOnce(&mut Self) -> R) -> R {

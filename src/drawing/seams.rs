@@ -32,7 +32,7 @@ impl Drawing {
     /// Extends the outlines of opaque polygons under their later opaque neighbours, so that next to no background shows
     /// in the seams.
     ///
-    /// Viewers blend each path with what is below it. Along an edge of two polygons that each cover half of a pixel, a
+    /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that each cover half of a pixel, a
     /// quarter of the background shows. Printers close such gaps by *trapping* (ISO 32000-1, 14.11.6): the lower area
     /// reaches about a pixel under the upper one, which is opaque and painted later, so that the addition is not
     /// visible. `is_opaque` is called with numbers of polygons. Other polygons keep their outlines, and so do
@@ -274,7 +274,7 @@ impl SideFrame {
     }
 
     /// The range of this side along which a neighbour's side, given in local coordinates, lies: on it, or inwards by
-    /// less than a strip's width. There the neighbour's edge is blended with what is below both.
+    /// less than a strip's width. There the neighbour's edge is blended with the paths below both.
     fn along(&self, [a, b]: Segment) -> Option<[f64; 2]> {
         let [low, high] = [a[0].min(b[0]).max(0.0), a[0].max(b[0]).min(self.length)];
         if high - low <= NEAR {
@@ -388,7 +388,7 @@ mod tests {
 
     #[test]
     fn strips_are_inside_of_the_neighbour() {
-        // The side from (1, 2) to (5, 2) of what is below it, with y up.
+        // The side from (1, 2) to (5, 2) of a polygon that lies below the side, with y up.
         let frame = SideFrame::outside_of([[5.0, 2.0], [1.0, 2.0]], 1.0).unwrap();
         let strip = |outline: &[Point]| {
             let corners: Outline = outline.iter().map(|&corner| frame.local(corner)).collect();

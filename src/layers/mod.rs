@@ -119,7 +119,7 @@
 //!
 //! # Antialiasing
 //!
-//! Painters that antialias a path blend its border pixels with what is below. Where two pieces of a layer meet, both do
+//! Painters that antialias a path blend its border pixels with the pixels below. Where two pieces of a layer meet, both do
 //! so, and a seam of the background shows. To paint opaque layers without seams, for each piece:
 //!
 //! 1. Fill its outline without antialiasing.

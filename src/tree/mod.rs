@@ -1,6 +1,5 @@
 //! The finished tree.
 
-mod arrays;
 pub(crate) mod bounds;
 pub(crate) mod bsp_tree;
 pub(crate) mod culling;
@@ -16,11 +15,10 @@ mod tests;
 #[cfg(feature = "validate")]
 mod validate;
 
-pub use arrays::FragmentArrays;
 pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::{Culling, Sides};
-pub use fragment::{Fragment, Fragments, Grid};
+pub use fragment::{Fragment, FragmentArrays, Fragments, Grid};
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node, Nodes};
 pub use order::{Flow, Order, Ordered, Part};
