@@ -1,9 +1,10 @@
 //! The library's error.
 
-use std::fmt;
+use std::sync::Arc;
+use std::{fmt, io};
 
-/// Why something could not be built, written or finished: its [kind](Self::kind), and the polygon to blame if
-/// there is one.
+/// Why something could not be built, read, written or finished: its [kind](Self::kind), and the polygon to blame
+/// if there is one. Its message says what to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
@@ -97,7 +98,7 @@ impl Error {
             | Kind::OffGrid
             | Kind::Opacity(_)
             | Kind::Opacities { .. }
-            | Kind::Camera(_)
+            | Kind::Argument(_)
             | Kind::Layer
             | Kind::Tolerance(_)
             | Kind::Bounds
@@ -112,6 +113,16 @@ impl Error {
             Kind::Cancelled => ErrorKind::Cancelled,
             Kind::OverlaidTree | Kind::MeshOfOtherTree => ErrorKind::OtherTree,
             Kind::InOverlay | Kind::OfCell => ErrorKind::Unsupported,
+            Kind::File(FileFault { problem: Problem::Text(_), .. }) => ErrorKind::InvalidFile,
+            Kind::File(FileFault { problem: Problem::Io(_), .. }) => ErrorKind::Io,
+        }
+    }
+
+    /// The line of the text file to blame, counted from 1.
+    pub const fn line_of_file(&self) -> Option<usize> {
+        match &self.kind {
+            Kind::File(fault) => fault.line,
+            _ => None,
         }
     }
 }
@@ -142,15 +153,79 @@ pub enum ErrorKind {
     OtherTree,
     /// The two do not combine, such as a drawing and the tree of one cell.
     Unsupported,
+    /// A file is damaged, cut short, or not of the expected format.
+    InvalidFile,
+    /// Reading failed; [`source`](std::error::Error::source) is the reason.
+    Io,
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match &self.kind {
+            Kind::File(FileFault { problem: Problem::Io(error), .. }) => Some(&**error),
+            _ => None,
+        }
+    }
+}
+
+/// Why a file could not be read. The polygon to blame is its face.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FileFault {
+    /// Empty where the caller knows it.
+    pub(crate) name: String,
+    /// Counted from 1.
+    pub(crate) line: Option<usize>,
+    pub(crate) problem: Problem,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Problem {
+    Text(String),
+    Io(Arc<io::Error>),
+}
+
+impl PartialEq for Problem {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Text(a), Self::Text(b)) => a == b,
+            (Self::Io(a), Self::Io(b)) => a.kind() == b.kind(),
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => f.write_str(text),
+            Self::Io(error) => write!(f, "cannot be read: {error}"),
+        }
+    }
+}
+
+impl From<String> for Problem {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<&str> for Problem {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<io::Error> for Problem {
+    fn from(error: io::Error) -> Self {
+        Self::Io(Arc::new(error))
+    }
+}
 
 /// All that can go wrong, each with the numbers that its message needs.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
-    not(all(feature = "drawing", feature = "layers")),
-    expect(dead_code, reason = "some are of drawings and layers alone")
+    not(all(feature = "drawing", feature = "layers", any(feature = "save", feature = "obj"))),
+    expect(dead_code, reason = "some are of drawings, layers and files alone")
 )]
 pub(crate) enum Kind {
     // Of a polygon, line, point or layer.
@@ -164,8 +239,9 @@ pub(crate) enum Kind {
         given: usize,
         expected: usize,
     },
-    /// Its parameters, or its rays through a scene.
-    Camera(String),
+    /// Of a camera, or of a text that names something.
+    Argument(String),
+    File(FileFault),
     Layer,
     // Limits that the input, or a tree of it, exceeds.
     Polygons(usize),
@@ -229,7 +305,20 @@ impl fmt::Display for Error {
                 f,
                 "there are {given} opacities, but {expected} polygons: give one for each polygon"
             ),
-            Kind::Camera(problem) => f.write_str(problem),
+            Kind::Argument(problem) => f.write_str(problem),
+            Kind::File(FileFault { name, line, problem }) => {
+                f.write_str(name)?;
+                if let Some(line) = line {
+                    write!(f, ", line {line}")?;
+                }
+                if let Some((_, face)) = self.blamed {
+                    write!(f, ", face {face} (from 0)")?;
+                }
+                if !name.is_empty() {
+                    f.write_str(": ")?;
+                }
+                problem.fmt(f)
+            }
             Kind::Layer => write!(
                 f,
                 "the rectangle or matrix of {shape} {number} has a number that is NaN, infinite or \

@@ -101,16 +101,14 @@ pub mod verify;
 pub mod view;
 mod viewpoint;
 
-pub use build::{BuildOptions, FrameBuilder, Heuristic, ParseHeuristicError};
+pub use build::{BuildOptions, FrameBuilder, Heuristic};
 pub use error::{Error, ErrorKind};
 pub use faces::{Preparation, Tolerance};
 pub use glam;
 pub use input::{Point, Polygon};
 pub use progress::Progress;
 pub use query::{Hit, Location};
-#[cfg(feature = "save")]
-pub use save::LoadError;
-pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Part, Sides, Stats};
+pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Ordered, Part, Stats};
 pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
 /// What a heuristic of your own sees and returns: [`BuildOptions::with_chooser`].
@@ -122,12 +120,6 @@ pub mod choose {
 /// Vertex and index buffers of a tree, [`BspTree::mesh`]; all fragments as arrays, [`BspTree::arrays`].
 pub mod mesh {
     pub use crate::tree::{FragmentArrays, Mesh, MeshVertex, Triangles};
-}
-
-/// The iterators that methods of [`BspTree`], [`Node`] and [`Order`] return.
-pub mod iter {
-    pub use crate::query::{FragmentsIn, Hits};
-    pub use crate::tree::{Fragments, Nodes, Ordered};
 }
 
 /// What the project's own programs, tests and benches need of the library's insides. It may change in

@@ -100,6 +100,7 @@ pub fn for_each_painted(
     }
 }
 
+#[doc(hidden)]
 /// Makes pieces to paint of fragments, in memory that the next one uses again.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {

@@ -5,10 +5,11 @@
 //! all bytes before. In between are numbers, and lists: their length as `u64`, then the items.
 //! Another file may follow directly.
 
-use std::fmt;
 use std::io::{self, Read, Write};
 
 use crc32fast::Hasher;
+
+use crate::error::{self, Error, FileFault, Problem};
 
 /// What every file begins with.
 const MAGIC: [u8; 8] = *b"binspace";
@@ -35,7 +36,7 @@ pub(crate) struct Reader<R> {
 
 impl<R: Read> Reader<R> {
     /// Begins with a file, which must be of this kind and version.
-    pub(crate) fn new(input: R, kind: Kind) -> Result<Self, LoadError> {
+    pub(crate) fn new(input: R, kind: Kind) -> Result<Self, Error> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
             return Err(refused(
@@ -60,33 +61,30 @@ impl<R: Read> Reader<R> {
     }
 
     /// Reads some bytes of what is called `what`.
-    pub(crate) fn bytes<const N: usize>(
-        &mut self,
-        what: &'static str,
-    ) -> Result<[u8; N], LoadError> {
+    pub(crate) fn bytes<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], Error> {
         let mut bytes = [0; N];
-        self.input.read_exact(&mut bytes).map_err(|error| LoadError::of_reading(error, what))?;
+        self.input.read_exact(&mut bytes).map_err(|error| failed(error, what))?;
         self.sum.update(&bytes);
         Ok(bytes)
     }
 
-    pub(crate) fn u32(&mut self, what: &'static str) -> Result<u32, LoadError> {
+    pub(crate) fn u32(&mut self, what: &'static str) -> Result<u32, Error> {
         self.bytes(what).map(u32::from_le_bytes)
     }
 
-    pub(crate) fn u64(&mut self, what: &'static str) -> Result<u64, LoadError> {
+    pub(crate) fn u64(&mut self, what: &'static str) -> Result<u64, Error> {
         self.bytes(what).map(u64::from_le_bytes)
     }
 
-    pub(crate) fn f64(&mut self, what: &'static str) -> Result<f64, LoadError> {
+    pub(crate) fn f64(&mut self, what: &'static str) -> Result<f64, Error> {
         self.bytes(what).map(f64::from_le_bytes)
     }
 
     /// A number of things, which must not be above a limit.
-    pub(crate) fn count(&mut self, what: &'static str, limit: usize) -> Result<usize, LoadError> {
+    pub(crate) fn count(&mut self, what: &'static str, limit: usize) -> Result<usize, Error> {
         let (found, limit) = (self.u64(what)?, limit as u64);
         if found > limit {
-            return Err(LoadError::too_many(what, found, limit));
+            return Err(too_many(what, found, limit));
         }
         // It fits, as the limit did.
         Ok(found as usize)
@@ -99,7 +97,7 @@ impl<R: Read> Reader<R> {
         what: &'static str,
         limit: usize,
         item: impl FnMut(&[u8; N]) -> T,
-    ) -> Result<Vec<T>, LoadError> {
+    ) -> Result<Vec<T>, Error> {
         let len = self.count(what, limit)?;
         self.items(what, len, item)
     }
@@ -110,7 +108,7 @@ impl<R: Read> Reader<R> {
         what: &'static str,
         len: usize,
         mut item: impl FnMut(&[u8; N]) -> T,
-    ) -> Result<Vec<T>, LoadError> {
+    ) -> Result<Vec<T>, Error> {
         let mut items = Vec::new();
         let most = (CHUNK / N).max(1);
         while items.len() < len {
@@ -118,10 +116,10 @@ impl<R: Read> Reader<R> {
             // At most twice what has been read, so that a false length cannot ask for much.
             if items.capacity() - items.len() < some {
                 let room = len.min(2 * items.len() + most) - items.len();
-                items.try_reserve_exact(room).map_err(|_| LoadError::out_of_memory())?;
+                items.try_reserve_exact(room).map_err(|_| Error::out_of_memory())?;
             }
             let bytes = &mut self.chunk[..some * N];
-            self.input.read_exact(bytes).map_err(|error| LoadError::of_reading(error, what))?;
+            self.input.read_exact(bytes).map_err(|error| failed(error, what))?;
             self.sum.update(bytes);
             // A closure around it is inlined; `&mut item` in its place was called for each item.
             #[expect(clippy::redundant_closure, reason = "see above")]
@@ -131,7 +129,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Compares the checksum. What was read before may be false until then.
-    pub(crate) fn finish(mut self) -> Result<(), LoadError> {
+    pub(crate) fn finish(mut self) -> Result<(), Error> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
         if found == expected {
@@ -231,81 +229,32 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// Why a file could not be read.
-///
-/// Its message says what is wrong with the file, and what to do. After an error, nothing is known of
-/// how much was read.
-#[derive(Debug)]
-pub struct LoadError(Fault);
-
-#[derive(Debug)]
-enum Fault {
-    Io(io::Error),
-    OutOfMemory,
-    /// The file itself, and why.
-    File(String),
-}
-
 /// The error of a thing of which there are several, given its number, that is not as it must be.
-pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> LoadError {
+pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: {what} {number} {fault}"))
 }
 
-fn refused(problem: String) -> LoadError {
-    LoadError(Fault::File(problem))
+/// The error of a thing of which there is one.
+pub(crate) fn damaged(what: &'static str, fault: &'static str) -> Error {
+    refused(format!("it was not written by binspace: its {what} {fault}"))
 }
 
-impl LoadError {
-    /// Ends of data and lack of memory are told from other failures to read.
-    fn of_reading(error: io::Error, what: &'static str) -> Self {
-        match error.kind() {
-            io::ErrorKind::UnexpectedEof => refused(format!(
-                "it ends within its {what}: it is cut short, or damaged before that"
-            )),
-            io::ErrorKind::OutOfMemory => Self::out_of_memory(),
-            _ => Self(Fault::Io(error)),
-        }
-    }
-
-    pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Self {
-        refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
-    }
-
-    pub(crate) fn out_of_memory() -> Self {
-        Self(Fault::OutOfMemory)
-    }
-
-    /// The error of a thing of which there is one.
-    pub(crate) fn of(what: &'static str, fault: &'static str) -> Self {
-        refused(format!("it was not written by binspace: its {what} {fault}"))
-    }
-
-    /// Whether memory ran out. (The file itself may be right.)
-    pub const fn is_out_of_memory(&self) -> bool {
-        matches!(self.0, Fault::OutOfMemory)
-    }
-
-    /// Whether reading itself failed; then [`source`](std::error::Error::source) is the reason.
-    pub const fn is_io(&self) -> bool {
-        matches!(self.0, Fault::Io(_))
-    }
+pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Error {
+    refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
 }
 
-impl fmt::Display for LoadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Fault::Io(error) => write!(f, "cannot be read: {error}"),
-            Fault::OutOfMemory => f.write_str("out of memory"),
-            Fault::File(problem) => f.write_str(problem),
-        }
-    }
+fn refused(problem: impl Into<Problem>) -> Error {
+    let problem = problem.into();
+    error::Kind::File(FileFault { name: String::new(), line: None, problem }).error()
 }
 
-impl std::error::Error for LoadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.0 {
-            Fault::Io(error) => Some(error),
-            _ => None,
+/// Ends of data and lack of memory are told from other failures to read.
+fn failed(error: io::Error, what: &'static str) -> Error {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => {
+            refused(format!("it ends within its {what}: it is cut short, or damaged before that"))
         }
+        io::ErrorKind::OutOfMemory => Error::out_of_memory(),
+        _ => refused(error),
     }
 }

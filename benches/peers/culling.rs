@@ -4,7 +4,7 @@
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
-use binspace::{BspTree, Culling, Facing, Frustum, Sides};
+use binspace::{BspTree, Culling, Facing, Frustum};
 use binspace_evidence::culling::unhidden;
 use binspace_evidence::interior::{HEIGHT, ROOM, rooms};
 use std::time::{Duration, Instant};
@@ -80,7 +80,7 @@ const PICTURE: [u32; 2] = [320, 180];
 fn what_is_left(tree: &BspTree, camera: &Camera, side: usize) -> [String; 8] {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
-    let fronts = culling.clone().with_sides(Sides::Front);
+    let fronts = culling.clone().with_facing(Facing::Front);
     let mut lists = [vec![], vec![]];
     let mut times = [Duration::MAX; 3];
     for _ in 0..5 {
@@ -127,7 +127,7 @@ fn camera(side: usize, k: usize) -> Camera {
 fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
-    let fronts = culling.clone().with_sides(Sides::Front);
+    let fronts = culling.clone().with_facing(Facing::Front);
     let (mut order, mut seen, mut shown) = (Vec::new(), Vec::new(), Vec::new());
     let mut shortest = [Duration::MAX; 3];
     for _ in 0..(5_000_000 / tree.len()).clamp(7, 60) {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use binspace::internals::open_regular;
 use binspace::scene::Scene;
-use binspace::{BspTree, LoadError};
+use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -58,7 +58,7 @@ pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree),
 
 /// Reads a tree and its scene, with something else behind.
 pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
-    let about = |error: LoadError| Failure::about(name, error);
+    let about = |error: Error| Failure::about(name, error);
     let tree = BspTree::read(&mut input).map_err(about)?;
     let scene = Scene::read(&mut input).map_err(|error| {
         Failure::about(name, format!("behind the tree, where its scene must be: {error}"))

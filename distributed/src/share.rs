@@ -64,7 +64,7 @@ impl Share {
 
     /// Adds the polygons of a file. Numbers go by files, and then by places in them.
     fn read(&mut self, path: &Path, file: usize) -> Result<(), String> {
-        let about = |error: binspace::scene::ObjError| error.to_string();
+        let about = |error: binspace::Error| error.to_string();
         let stream = ObjStream::open(path).map_err(about)?;
         let (precision, mut number) = (stream.scene().precision(), (file as u64) << IN_FILE);
         let flow = stream.read(|corners, material| {

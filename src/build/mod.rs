@@ -14,4 +14,4 @@ mod subtree;
 
 pub use choose::{PieceSet, SplitPlane};
 pub use frames::FrameBuilder;
-pub use options::{BuildOptions, Heuristic, ParseHeuristicError};
+pub use options::{BuildOptions, Heuristic};

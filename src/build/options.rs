@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::choose::{GivenChooser, PieceSet, SplitPlane};
+use crate::error::{Error, Kind};
 use crate::faces::Tolerance;
 
 /// The options of a build; [`BspTree::build`](crate::BspTree::build) takes the defaults.
@@ -260,35 +261,11 @@ impl fmt::Display for Heuristic {
     }
 }
 
-/// The error of parsing a [`Heuristic`]: an unknown name, or an invalid parameter.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ParseHeuristicError {
-    text: String,
-    /// The parameters expected for that name; `None` if the name is unknown.
-    parameters: Option<&'static str>,
-}
-
-impl fmt::Display for ParseHeuristicError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(parameters) = self.parameters {
-            return write!(f, "invalid parameter in `{}`: expected {parameters}", self.text);
-        }
-        write!(
-            f,
-            "unknown heuristic `{}`; expected first, random(SEED), fewest-splits, balanced, \
-             weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto",
-            self.text
-        )
-    }
-}
-
-impl std::error::Error for ParseHeuristicError {}
-
 impl FromStr for Heuristic {
-    type Err = ParseHeuristicError;
+    type Err = Error;
 
     /// Parses what `Display` writes. Parameters may be left out, or follow a colon (`sampled:8`).
-    fn from_str(text: &str) -> Result<Self, ParseHeuristicError> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let name = text.split(['(', ':']).next().unwrap_or_default();
         let takes = match name {
             "first" | "fewest-splits" | "balanced" | "free-planes" | "auto" => Some("none"),
@@ -297,7 +274,18 @@ impl FromStr for Heuristic {
             "sampled" => Some("a whole number ≥ 1, as in `sampled(16)`"),
             _ => None,
         };
-        let error = || ParseHeuristicError { text: text.to_owned(), parameters: takes };
+        let error = || {
+            let problem = match takes {
+                Some(parameters) => {
+                    format!("invalid parameter in `{text}`: expected {parameters}")
+                }
+                None => format!(
+                    "unknown heuristic `{text}`; expected first, random(SEED), fewest-splits, balanced, \
+                     weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto"
+                ),
+            };
+            Kind::Argument(problem).error()
+        };
         let (name, parameters) = match text.split_once(['(', ':']) {
             Some((name, rest)) if text.contains(':') => (name, Some(rest)),
             Some((name, rest)) => (name, Some(rest.strip_suffix(')').ok_or_else(error)?)),

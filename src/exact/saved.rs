@@ -7,8 +7,9 @@ use super::faces::{Face, Frame, INNER};
 use super::lattice::{FAR_ORIGIN, LIMIT, MAX_CORNER, MAX_TOLERANCE, PowerOfTwo};
 use super::names::MAX_NAMES;
 use super::{Faces, Lattice, Plane, RoundedNormal, have_area, is_convex};
+use crate::error::Error;
 use crate::parallel_map;
-use crate::save::{LoadError, Reader, Writer, invalid, u32_at, u64_at};
+use crate::save::{Reader, Writer, damaged, invalid, too_many, u32_at, u64_at};
 
 /// Exponents of all lattices are between these: those of the smallest and of the largest numbers.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -1000..=1150;
@@ -22,7 +23,7 @@ impl Lattice {
     }
 
     /// Reads a lattice, which has to be checked.
-    pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, LoadError> {
+    pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, Error> {
         let exponent = file.u32("grid")? as i32;
         // Clamped, so that the step is a finite number. `check` refuses exponents outside of the range.
         let steps = PowerOfTwo::new(exponent.clamp(EXPONENTS.start() - 1, EXPONENTS.end() + 1));
@@ -34,7 +35,7 @@ impl Lattice {
     }
 
     /// An error unless the lattice is one that some scene could have.
-    pub(crate) fn check(&self) -> Result<(), LoadError> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let exponent = self.exponent();
         let is_possible = |axis: usize| {
             let (origin, far) = (self.origin[axis], self.far[axis]);
@@ -44,7 +45,7 @@ impl Lattice {
         if EXPONENTS.contains(&exponent) && (0..3).all(is_possible) {
             Ok(())
         } else {
-            Err(LoadError::of("grid", "is impossible"))
+            Err(damaged("grid", "is impossible"))
         }
     }
 }
@@ -76,7 +77,7 @@ impl Faces {
 
     /// Reads faces, which have to be [checked](Self::check), once the file's checksum is known to be
     /// right. Before the corners of all faces come so many of their cell.
-    pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, LoadError> {
+    pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, Error> {
         let point = |bytes: &[u8], at: usize| {
             let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);
             [0, 8, 16].map(|at| u64_at(bytes, at) as i64 as f64)
@@ -91,7 +92,7 @@ impl Faces {
             Face { start, polygon: u32_at(bytes, 0), frame: Frame(u32_at(bytes, 8)) }
         })?;
         if corners >= MAX_NAMES as u64 {
-            return Err(LoadError::too_many("corners", corners, MAX_NAMES as u64 - 1));
+            return Err(too_many("corners", corners, MAX_NAMES as u64 - 1));
         }
         let corners =
             file.items("corners", corners as usize, |bytes: &[u8; 24]| point(bytes, 0))?;
@@ -106,7 +107,7 @@ impl Faces {
         })?;
         if numbers > read.corners.len() as u64 {
             let limit = read.corners.len() as u64;
-            return Err(LoadError::too_many("corner numbers", numbers, limit));
+            return Err(too_many("corner numbers", numbers, limit));
         }
         let numbers = numbers as usize;
         read.numbers = file.items("corner numbers", numbers, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
@@ -117,18 +118,18 @@ impl Faces {
 
     /// An error unless all faces are what the exact predicates take them for: convex, with area, on
     /// their planes, within the lattice. O(corners).
-    pub(crate) fn check(&self) -> Result<(), LoadError> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         self.lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
-            return Err(LoadError::of("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or no number"));
         }
         if !Self::is_cell(self.cell()) {
-            return Err(LoadError::of("cell", "is outside the grid"));
+            return Err(damaged("cell", "is outside the grid"));
         }
         if let [low, high] = self.cell()
             && (0..3).any(|axis| low[axis] > high[axis])
         {
-            return Err(LoadError::of("cell", "ends before it begins"));
+            return Err(damaged("cell", "ends before it begins"));
         }
         let ranges = (0..self.faces.len()).step_by(FACES_A_THREAD);
         let ranges =
@@ -139,7 +140,7 @@ impl Faces {
         self.check_moved()
     }
 
-    fn check_face(&self, face: usize) -> Result<(), LoadError> {
+    fn check_face(&self, face: usize) -> Result<(), Error> {
         let range = self.corner_range(face as u32);
         let corners = &self.corners[range.clone()];
         // Before all else: what follows is computed in integers that hold these.
@@ -154,7 +155,7 @@ impl Faces {
         check_outline(corners, frame).map_err(|fault| invalid("face", face, fault))
     }
 
-    fn check_numbers(&self) -> Result<(), LoadError> {
+    fn check_numbers(&self) -> Result<(), Error> {
         let mut next = 0;
         for &(face, _) in &self.numbered {
             if face < next || face as usize >= self.faces.len() {
@@ -169,7 +170,7 @@ impl Faces {
         }
     }
 
-    fn check_moved(&self) -> Result<(), LoadError> {
+    fn check_moved(&self) -> Result<(), Error> {
         let (mut next, mut face) = (self.corners_of_cell() as u32, 0);
         for &(corner, given) in &self.moved {
             let fault = |fault| Err(invalid("moved corner", corner as usize, fault));

@@ -3,10 +3,11 @@
 use std::io::{self, Read, Write};
 
 use super::{Partition, SplitPlane};
+use crate::error::Error;
 use crate::exact::faces::EVERYWHERE;
 use crate::exact::lattice::MAX_TOLERANCE;
 use crate::exact::{LATTICE_LIMIT, Lattice};
-use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at, u64_at};
+use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
 /// The most planes: more than anyone builds trees of cells for.
@@ -49,7 +50,7 @@ impl Partition {
     ///
     /// If the data cannot be read, are no partition, of another version, cut short or damaged, or name a
     /// plane, a grid or a tolerance that cannot be; or if memory runs out.
-    pub fn read(input: impl Read) -> Result<Self, LoadError> {
+    pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let lattice = Lattice::read(&mut file)?;
         let tolerance = file.f64("tolerance")?;
@@ -60,7 +61,7 @@ impl Partition {
         file.finish()?;
         lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
-            return Err(LoadError::of("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or no number"));
         }
         let is_wrong = |plane: &SplitPlane| plane.axis > 2 || plane.at.abs() > LATTICE_LIMIT;
         if let Some(plane) = planes.iter().position(is_wrong) {
@@ -72,7 +73,7 @@ impl Partition {
     }
 
     /// An error unless each plane is within the part of the scene that it divides.
-    fn check_planes(&self) -> Result<(), LoadError> {
+    fn check_planes(&self) -> Result<(), Error> {
         let mut rest = vec![(self.root(), EVERYWHERE)];
         while let Some((subtree, part)) = rest.pop() {
             if subtree.cells.len() == 1 {

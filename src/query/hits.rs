@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 use std::iter::FusedIterator;
 
 use glam::DVec3;
@@ -15,11 +16,8 @@ use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
 /// The hits of a ray, the nearest first: [`BspTree::hits`].
-///
-/// It searches only as far along the ray as the next hit requires. Nothing is allocated unless dozens of parts
-/// of the tree or more than eight fragments are pending at once, or polygons lie in the plane of the ray.
 #[derive(Clone, Debug)]
-pub struct Hits<'t> {
+struct Hits<'t> {
     tree: &'t BspTree,
     ray: Ray,
     /// None if the ray meets nothing.
@@ -144,11 +142,15 @@ impl BspTree {
     /// Hits at the same point come in input order. All of this is exact: which polygons are hit, in which
     /// order, and from which side. So hits do not depend on how a tree was built.
     ///
+    /// The iterator searches only as far along the ray as the next hit requires. Nothing is allocated unless
+    /// dozens of parts of the tree or more than eight fragments are pending at once, or polygons lie in the
+    /// plane of the ray.
+    ///
     /// Time is proportional to the number of boxes that the ray crosses, as far as it is read; the first
     /// call makes the boxes, in O(n) time ([`bounds`](Self::bounds)). Where k fragments are met at one
     /// place, as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
     /// there after O(k log k) in the worst case, O(k) if they are met in input order.
-    pub fn hits(&self, ray: Ray) -> Hits<'_> {
+    pub fn hits(&self, ray: Ray) -> impl FusedIterator<Item = Hit<'_>> + Clone + Debug {
         Hits::new(self, ray)
     }
 }

@@ -7,7 +7,6 @@ mod region;
 mod walk;
 mod winding;
 
-pub use hits::{Hit, Hits};
+pub use hits::Hit;
 pub use locate::Location;
 pub use ray::Spot;
-pub use region::FragmentsIn;

@@ -1,5 +1,6 @@
 //! Which fragments have points in a convex region.
 
+use std::fmt::Debug;
 use std::iter::FusedIterator;
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ use crate::viewpoint::Frustum;
 
 /// The numbers of the fragments that have points in a region: [`BspTree::fragments_in`].
 #[derive(Clone, Debug)]
-pub struct FragmentsIn<'t> {
+struct FragmentsIn<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
     sides: SmallVec<[RegionPlane; 6]>,
@@ -150,7 +151,10 @@ impl BspTree {
     /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes
     /// mostly with the fragments that are found or lie at the region's sides. The first call makes the
     /// boxes, in O(n) time ([`bounds`](Self::bounds)).
-    pub fn fragments_in(&self, region: &Frustum) -> FragmentsIn<'_> {
+    pub fn fragments_in<'t>(
+        &'t self,
+        region: &Frustum,
+    ) -> impl FusedIterator<Item = u32> + Clone + Debug + use<'t> {
         FragmentsIn::new(self, region)
     }
 }

@@ -8,6 +8,8 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+use crate::error::{Error, Kind};
+
 /// The largest number of polygons of a generated scene: about 2 GB of corners.
 const MOST: u32 = 20_000_000;
 
@@ -135,14 +137,15 @@ impl fmt::Display for Builtin {
 }
 
 impl FromStr for Builtin {
-    type Err = BuiltinError;
+    type Err = Error;
 
     /// Reads a bare name; [`BuiltinSpec`] reads a name with a size.
-    fn from_str(text: &str) -> Result<Self, BuiltinError> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         Self::ALL.iter().copied().find(|scene| scene.name() == text).ok_or_else(|| {
             let names: Vec<_> = Self::ALL.iter().map(|scene| scene.name()).collect();
             let names = names.join(", ");
-            BuiltinError(format!("no built-in scene is called {text:?}; there are {names}"))
+            Kind::Argument(format!("no built-in scene is called {text:?}; there are {names}"))
+                .error()
         })
     }
 }
@@ -155,7 +158,7 @@ impl FromStr for Builtin {
 /// let spec: BuiltinSpec = "teapot:3".parse()?;
 /// assert_eq!(spec.build(0).len(), 32 * 3 * 3);
 /// assert!("teapot:0".parse::<BuiltinSpec>().is_err());
-/// # Ok::<(), binspace::scene::BuiltinError>(())
+/// # Ok::<(), binspace::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BuiltinSpec {
@@ -205,37 +208,26 @@ impl fmt::Display for BuiltinSpec {
 }
 
 impl FromStr for BuiltinSpec {
-    type Err = BuiltinError;
+    type Err = Error;
 
     /// Reads `name` or `name:size`.
-    fn from_str(text: &str) -> Result<Self, BuiltinError> {
+    fn from_str(text: &str) -> Result<Self, Error> {
         let Some((name, digits)) = text.split_once(':') else {
             return text.parse().map(|scene: Builtin| scene.into());
         };
         let scene: Builtin = name.parse()?;
         let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
             let problem = format!("the scene {scene} has one size; ask for it as `{scene}`");
-            return Err(BuiltinError(problem));
+            return Err(Kind::Argument(problem).error());
         };
         let size = digits.parse().ok().filter(|size| sizes.contains(size));
         size.map(|size| Self { scene, size: Some(size) }).ok_or_else(|| {
             let (low, high) = sizes.into_inner();
-            BuiltinError(format!(
+            let problem = format!(
                 "{digits:?} is not a size of the scene {scene}; give a whole number from {low} to \
                  {high}, such as {scene}:{default}"
-            ))
+            );
+            Kind::Argument(problem).error()
         })
     }
 }
-
-/// Why a text names no generated scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BuiltinError(String);
-
-impl fmt::Display for BuiltinError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for BuiltinError {}

@@ -19,13 +19,13 @@ pub(crate) mod obj;
 mod saved;
 mod teapot;
 
-pub use builtin::{Builtin, BuiltinError, BuiltinSpec};
+pub use builtin::{Builtin, BuiltinSpec};
 pub use cornell::cornell_box;
 pub use generated::{
     chain, city, crossing, layers, newell_bars, random_triangles, sphere, terrain,
 };
 #[cfg(feature = "obj")]
-pub use obj::{ObjError, ObjReport, ObjStream};
+pub use obj::{ObjReport, ObjStream};
 pub use teapot::teapot;
 
 use glam::{DVec2, DVec3};

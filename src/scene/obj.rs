@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 use glam::{DVec2, DVec3};
 
 use super::{Attributes, Scene};
-use statements::{Place, Problem, Statement, index, read};
+use crate::error::{Error, FileFault, Kind, Problem};
+use statements::{Statement, index, read};
 
 impl Scene {
     /// Reads a Wavefront OBJ file and the material libraries it names.
@@ -57,7 +58,7 @@ impl Scene {
     /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has
     /// a coordinate that is malformed or not finite, or a face that names a corner which is not
     /// there, or that has more than 2²² corners. The error names the line and face.
-    pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), ObjError> {
+    pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), Error> {
         let path = path.as_ref();
         load(&path.display().to_string(), open(path), beside(path))
     }
@@ -75,7 +76,7 @@ impl Scene {
         name: &str,
         bytes: &[u8],
         library: impl FnMut(&Path) -> Option<Vec<u8>>,
-    ) -> Result<(Self, ObjReport), ObjError> {
+    ) -> Result<(Self, ObjReport), Error> {
         load(name, Ok(bytes), library)
     }
 }
@@ -90,7 +91,7 @@ fn load(
     name: &str,
     input: io::Result<impl Read>,
     library: impl FnMut(&Path) -> Option<Vec<u8>>,
-) -> Result<(Scene, ObjReport), ObjError> {
+) -> Result<(Scene, ObjReport), Error> {
     let (mut cleaned, mut materials, mut lines) = (String::new(), Vec::new(), Vec::new());
     let mut given = Given::default();
     let (mut contents, _) = read(name, input, |statement, words| {
@@ -130,7 +131,7 @@ fn load(
     let options = tobj::LoadOptions::default();
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (mut models, _) = tobj::load_obj_buf(&mut cleaned.as_bytes(), &options, no_library)
-        .map_err(|error| ObjError::of_file(name, format!("tobj cannot read it: {error}")))?;
+        .map_err(|error| of_file(name, format!("tobj cannot read it: {error}")))?;
     let mesh = models.pop().map(|model| model.mesh).unwrap_or_default();
     let (points, _) = mesh.positions.as_chunks::<3>();
     let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
@@ -143,7 +144,7 @@ fn load(
         contents.report.degenerate_faces += usize::from(is_degenerate(polygon));
     }
     if corners.next().is_some() || scene.corners.len() != given.corners.len() {
-        return Err(ObjError::of_file(name, "tobj has not read all corners"));
+        return Err(of_file(name, "tobj has not read all corners"));
     }
     scene.lines = lines;
     (scene.attributes, contents.report.skipped_attributes) = given.finish();
@@ -237,7 +238,7 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
 ///     ControlFlow::<()>::Continue(())
 /// })?;
 /// assert_eq!(number, file.polygons());
-/// # Ok::<(), binspace::scene::ObjError>(())
+/// # Ok::<(), binspace::Error>(())
 /// ```
 #[derive(Debug)]
 pub struct ObjStream {
@@ -255,7 +256,7 @@ impl ObjStream {
     /// # Errors
     ///
     /// As for [`Scene::read_obj`].
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, ObjError> {
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let name = path.display().to_string();
         let (mut vertices, mut is_used) = (Vec::new(), Vec::new());
@@ -316,7 +317,7 @@ impl ObjStream {
     pub fn read<B>(
         &self,
         mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,
-    ) -> Result<ControlFlow<B>, ObjError> {
+    ) -> Result<ControlFlow<B>, Error> {
         let name = self.path.display().to_string();
         let mut polygon = Vec::new();
         let (contents, flow) = read(&name, open_regular(&self.path), |statement, _| {
@@ -335,7 +336,7 @@ impl ObjStream {
             ControlFlow::Continue(()) if contents.report.faces == self.polygons() => {
                 Ok(ControlFlow::Continue(()))
             }
-            _ => Err(ObjError::of_file(&name, "it has changed since it was opened")),
+            _ => Err(of_file(&name, "it has changed since it was opened")),
         }
     }
 }
@@ -379,49 +380,9 @@ fn beside(path: &Path) -> impl FnMut(&Path) -> Option<Vec<u8>> {
     }
 }
 
-/// Why an OBJ file cannot be read. The message names the file, the line and the face where they are
-/// known, and says what to do.
-#[derive(Debug)]
-pub struct ObjError {
-    file: String,
-    place: Place,
-    problem: Problem,
-}
-
-impl ObjError {
-    fn of_file(file: &str, problem: impl Into<Problem>) -> Self {
-        Self { file: file.to_owned(), place: Place::default(), problem: problem.into() }
-    }
-
-    /// The line at fault, counted from 1.
-    pub fn line(&self) -> Option<usize> {
-        self.place.line
-    }
-
-    /// The face at fault: the number of its `f` line among the `f` lines, counted from 0.
-    pub fn face(&self) -> Option<usize> {
-        self.place.face
-    }
-}
-
-impl fmt::Display for ObjError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
-        if let Some(line) = self.place.line {
-            write!(f, ", line {line}")?;
-        }
-        if let Some(face) = self.place.face {
-            write!(f, ", face {face} (from 0)")?;
-        }
-        let cannot = if self.problem.is::<io::Error>() { "cannot be read: " } else { "" };
-        write!(f, ": {cannot}{}", self.problem)
-    }
-}
-
-impl std::error::Error for ObjError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        self.problem.downcast_ref::<io::Error>().map(|error| error as _)
-    }
+/// The error of a whole file.
+fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
+    Kind::File(FileFault { name: name.to_owned(), line: None, problem: problem.into() }).error()
 }
 
 /// What was read from an OBJ file, and what was left out.

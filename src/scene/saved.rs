@@ -5,7 +5,8 @@ use std::io::{self, Read, Write};
 use glam::{DVec2, DVec3};
 
 use super::{Attributes, Material, Scene};
-use crate::save::{Kind, LoadError, Reader, Writer, u32_at, u64_at};
+use crate::error::Error;
+use crate::save::{Kind, Reader, Writer, damaged, too_many, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"scen", version: 1 };
 
@@ -89,7 +90,7 @@ impl Scene {
     ///
     /// If the data cannot be read, are no scene, of another version, cut short or damaged, or lists
     /// contradict each other; or if memory runs out. The message says which.
-    pub fn read(input: impl Read) -> Result<Self, LoadError> {
+    pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let name = read_name(&mut file)?;
         let [x, y, z, precision] = f64s(&file.bytes::<32>("up and precision")?);
@@ -97,7 +98,7 @@ impl Scene {
         let has_view = file.u32("view")? != 0;
         let [a, b, c, d, e, f] = f64s(&file.bytes::<48>("view")?);
         scene.view = has_view.then_some((DVec3::new(a, b, c), DVec3::new(d, e, f)));
-        let material = |file: &mut Reader<_>| -> Result<(Vec<u8>, [f32; 4]), LoadError> {
+        let material = |file: &mut Reader<_>| -> Result<(Vec<u8>, [f32; 4]), Error> {
             Ok((read_name(file)?, f32s(&file.bytes::<16>("materials")?)))
         };
         let count = file.count("materials", MOST)?;
@@ -110,7 +111,7 @@ impl Scene {
             (corners as usize, u32_at(bytes, 4))
         })?;
         if corners > MOST as u64 {
-            return Err(LoadError::too_many("corners", corners, MOST as u64));
+            return Err(too_many("corners", corners, MOST as u64));
         }
         (scene.ends, scene.material_of) = polygons.into_iter().unzip();
         scene.corners = file.items("corners", corners as usize, |bytes: &[u8; 24]| {
@@ -132,8 +133,7 @@ impl Scene {
             })?,
         };
         file.finish()?;
-        let name_of =
-            |bytes| String::from_utf8(bytes).map_err(|_| LoadError::of("name", "is no text"));
+        let name_of = |bytes| String::from_utf8(bytes).map_err(|_| damaged("name", "is no text"));
         scene.name = name_of(name)?;
         for (name, [red, green, blue, opacity]) in materials {
             let color = [red, green, blue];
@@ -142,12 +142,12 @@ impl Scene {
         let Attributes { uvs, normals, colors } = &scene.attributes;
         let is_wrong = |len: usize, of: usize| len != 0 && len != of;
         if is_wrong(scene.lines.len(), scene.len()) {
-            return Err(LoadError::of("lines", "are more or fewer than its polygons"));
+            return Err(damaged("lines", "are more or fewer than its polygons"));
         }
         let of_corners = [uvs.len(), normals.len(), colors.len()];
         if of_corners.into_iter().any(|len| is_wrong(len, scene.corners.len())) {
             let what = "texture coordinates, normals or colours";
-            return Err(LoadError::of(what, "are more or fewer than its corners"));
+            return Err(damaged(what, "are more or fewer than its corners"));
         }
         Ok(scene)
     }
@@ -160,7 +160,7 @@ fn write_name(file: &mut Writer<impl Write>, name: &str) -> io::Result<()> {
     file.list(name.bytes(), |file, byte| file.put([byte]))
 }
 
-fn read_name(file: &mut Reader<impl Read>) -> Result<Vec<u8>, LoadError> {
+fn read_name(file: &mut Reader<impl Read>) -> Result<Vec<u8>, Error> {
     file.list("bytes of a name", LONGEST, |&[byte]: &[u8; 1]| byte)
 }
 

@@ -12,18 +12,18 @@ use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
 use crate::exact::{Plane, PlaneId};
-use crate::viewpoint::{Frustum, Viewpoint};
+use crate::viewpoint::{Facing, Frustum, Viewpoint};
 
 /// What an order leaves out: [`Order::culled`](crate::Order::culled).
 ///
 /// ```
 /// use binspace::glam::DVec3;
-/// use binspace::{BspTree, Culling, Frustum, Sides, Viewpoint};
+/// use binspace::{BspTree, Culling, Facing, Frustum, Viewpoint};
 ///
 /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
 /// let tree = BspTree::build((0..100).map(|k| square(f64::from(k))))?;
 /// let below_ten = Frustum::new([(DVec3::NEG_Z, -10.0)]);
-/// let culling = Culling::NONE.with_frustum(below_ten).with_sides(Sides::Front);
+/// let culling = Culling::NONE.with_frustum(below_ten).with_facing(Facing::Front);
 /// let order = tree.order(Viewpoint::eye([0.5, 0.5, 5.5])).culled(&culling);
 /// // The eye sees the fronts of those below it.
 /// assert!(order.into_iter().map(|fragment| fragment.polygon()).eq([0, 1, 2, 3, 4, 5]));
@@ -32,24 +32,13 @@ use crate::viewpoint::{Frustum, Viewpoint};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Culling {
     pub(crate) frustum: Frustum,
-    pub(crate) sides: Sides,
-}
-
-/// From which sides polygons are drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Sides {
-    /// From both.
-    #[default]
-    Both,
-    /// From the front only: back-face culling.
-    Front,
-    /// From the back only.
-    Back,
+    /// The side that is drawn; both if `None`.
+    pub(crate) facing: Option<Facing>,
 }
 
 impl Culling {
     /// Nothing is left out.
-    pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, sides: Sides::Both };
+    pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
     /// Leaves out the fragments outside of a frustum: those whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind
     /// one of its planes. At most 32 planes are used. For speed it goes by boxes:
@@ -62,21 +51,11 @@ impl Culling {
         Self { frustum, ..self }
     }
 
-    /// Leaves out the fragments that show the other side to the viewpoint, or are seen edge-on. This is
-    /// exact, as [`Fragment::facing`](crate::Fragment::facing) is.
+    /// Leaves out the fragments whose [`facing`](crate::Fragment::facing) is another; [`Facing::Front`] is
+    /// back-face culling. This is exact.
     #[must_use]
-    pub fn with_sides(self, sides: Sides) -> Self {
-        Self { sides, ..self }
-    }
-}
-
-impl Sides {
-    fn drawn(self) -> Option<Ordering> {
-        match self {
-            Self::Both => None,
-            Self::Front => Some(Ordering::Greater),
-            Self::Back => Some(Ordering::Less),
-        }
+    pub fn with_facing(self, facing: Facing) -> Self {
+        Self { facing: Some(facing), ..self }
     }
 }
 
@@ -125,7 +104,11 @@ impl<'t> Cull<'t> {
             view,
             marks: Marks::new(bounds, &planes),
             planes,
-            side: culling.sides.drawn(),
+            side: culling.facing.map(|facing| match facing {
+                Facing::Front => Ordering::Greater,
+                Facing::Back => Ordering::Less,
+                Facing::EdgeOn => Ordering::Equal,
+            }),
         }
     }
 
@@ -241,7 +224,12 @@ impl<'t> Cull<'t> {
     fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
-        let mut shown = fragments & if side.is_gt() { fronts } else { backs };
+        let sure = match side {
+            Ordering::Greater => fronts,
+            Ordering::Less => backs,
+            Ordering::Equal => 0,
+        };
+        let mut shown = fragments & sure;
         for bit in bits((fragments & !(fronts | backs)).into()) {
             let face = self.tree.records[run.start as usize + bit].face;
             let facing = self.tree.faces.plane(PlaneId::face(face)).facing(self.view.eye());

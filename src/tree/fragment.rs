@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 use std::fmt;
 use std::iter::FusedIterator;
-use std::ops::Range;
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -230,42 +229,13 @@ impl fmt::Debug for Fragment<'_> {
     }
 }
 
-/// All fragments of a tree in the order of their numbers: [`BspTree::fragments`].
-#[derive(Clone, Debug)]
-pub struct Fragments<'t> {
-    tree: &'t BspTree,
-    range: Range<u32>,
-}
-
-impl<'t> Iterator for Fragments<'t> {
-    type Item = Fragment<'t>;
-
-    fn next(&mut self) -> Option<Fragment<'t>> {
-        self.range.next().map(|index| self.tree.fragment(index))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.range.size_hint()
-    }
-
-    fn nth(&mut self, n: usize) -> Option<Fragment<'t>> {
-        self.range.nth(n).map(|index| self.tree.fragment(index))
-    }
-}
-
-impl DoubleEndedIterator for Fragments<'_> {
-    fn next_back(&mut self) -> Option<Self::Item> {
-        self.range.next_back().map(|index| self.tree.fragment(index))
-    }
-}
-
-impl ExactSizeIterator for Fragments<'_> {}
-impl FusedIterator for Fragments<'_> {}
-
 impl BspTree {
     /// All fragments, in the order of their numbers.
-    pub fn fragments(&self) -> Fragments<'_> {
-        Fragments { tree: self, range: 0..self.len() as u32 }
+    pub fn fragments(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Fragment<'_>> + ExactSizeIterator + FusedIterator + Clone
+    {
+        (0..self.len() as u32).map(|index| self.fragment(index))
     }
 }
 

@@ -17,8 +17,8 @@ mod validate;
 
 pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
-pub use culling::{Culling, Sides};
-pub use fragment::{Fragment, FragmentArrays, Fragments, Grid};
+pub use culling::Culling;
+pub use fragment::{Fragment, FragmentArrays, Grid};
 pub use mesh::{Mesh, MeshVertex, Triangles};
-pub use node::{Child, Node, Nodes};
+pub use node::{Child, Node};
 pub use order::{Flow, Order, Ordered, Part};

@@ -184,7 +184,7 @@ impl fmt::Debug for Node<'_> {
 
 /// The nodes of a tree, depth first: [`BspTree::nodes`].
 #[derive(Clone, Debug)]
-pub struct Nodes<'t> {
+struct Nodes<'t> {
     tree: &'t BspTree,
     walk: Walk,
     left: usize,
@@ -242,7 +242,9 @@ impl BspTree {
 
     /// All nodes, depth first, those in front of each before those behind it: to draw, measure or
     /// check a tree. O(nodes) for all of them.
-    pub fn nodes(&self) -> Nodes<'_> {
+    pub fn nodes(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone {
         Nodes { tree: self, walk: Walk::new(self), left: self.nodes.len() }
     }
 }

@@ -12,10 +12,11 @@ use super::node::{MOST_FRAGMENTS, NodeRecord, Visit, Walk, finish, make_room};
 use super::order::eye::Planes;
 use super::order::layout::OrderLayout;
 use super::parts::{Parts, RawChild, RawNode};
+use crate::error::Error;
 use crate::exact::{Faces, MAX_NAMES, PlaneId};
 use crate::faces::Preparation;
 use crate::parallel_map;
-use crate::save::{Kind, LoadError, Reader, Writer, invalid, u32_at};
+use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at};
 
 const KIND: Kind = Kind { name: *b"tree", version: 3 };
 /// Set in the flags of a tree for one view.
@@ -112,7 +113,7 @@ impl BspTree {
     ///
     /// If the data cannot be read, are no tree, of another version, cut short, damaged, or of no tree
     /// that the library could have built; or if memory runs out. The message says which.
-    pub fn read(input: impl Read) -> Result<Self, LoadError> {
+    pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
         let faces = Faces::read(&mut file, if flags & OF_CELL > 0 { 2 } else { 0 })?;
@@ -122,7 +123,7 @@ impl BspTree {
         file.finish()?;
         // Only now is it known that nothing is damaged: what is wrong from here on was written so.
         if flags > FOR_ONE_VIEW + OF_CELL {
-            return Err(LoadError::of("flags", "are unknown"));
+            return Err(damaged("flags", "are unknown"));
         }
         // Faces and nodes need nothing of each other. Of two faults, the same is found first on any
         // number of threads.
@@ -132,7 +133,7 @@ impl BspTree {
             let nodes = read_nodes(&nodes, listed.len(), &faces)?;
             let layout = || OrderLayout::new(&nodes, listed.len() as u32);
             let layout = (!for_one_view).then(layout).transpose();
-            Ok((layout.map_err(|_| LoadError::out_of_memory())?, nodes))
+            Ok((layout.map_err(|_| Error::out_of_memory())?, nodes))
         };
         let is_worth_it = listed.len() > WORTH_A_THREAD;
         let checked = parallel_map::beside(is_worth_it, || laid_out = lay_out(), || faces.check());
@@ -141,7 +142,7 @@ impl BspTree {
         let (layout, nodes) = laid_out?;
         let parts = replay::replay(&faces, &nodes, &listed, for_one_view)?;
         let mut planes = Planes::default();
-        planes.fill(&faces, &nodes).map_err(|_| LoadError::out_of_memory())?;
+        planes.fill(&faces, &nodes).map_err(|_| Error::out_of_memory())?;
         let Parts { records, vertices, positions, cuts, .. } = parts;
         let generation = next_generation();
         Ok(Self {
@@ -207,7 +208,7 @@ fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,
     faces: &Faces,
-) -> Result<Vec<NodeRecord>, LoadError> {
+) -> Result<Vec<NodeRecord>, Error> {
     // How many nodes and fragments are still to come. Where there are faces, there is a root.
     let (mut to_come, mut left) = (usize::from(!faces.is_empty()), fragments);
     for (index, bits) in bits.iter().enumerate() {
@@ -230,16 +231,16 @@ fn read_nodes(
         left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than there are"))?;
     }
     if to_come > 0 || left > 0 {
-        return Err(LoadError::of("nodes", "are not those of its fragments"));
+        return Err(damaged("nodes", "are not those of its fragments"));
     }
     let (mut sizes, mut nodes) = (Vec::new(), Vec::new());
-    make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| LoadError::out_of_memory())?;
+    make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| Error::out_of_memory())?;
     finish(bits.iter().map(raw), &mut sizes, &mut nodes);
     Ok(nodes)
 }
 
 /// What became of the polygons, but for how many there were, and the polygons that were dropped.
-fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), LoadError> {
+fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), Error> {
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_NAMES, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
     let mut found = Preparation { dropped: dropped.len(), ..Preparation::default() };
@@ -253,11 +254,7 @@ fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u3
 }
 
 /// Counts the polygons: each has faces, or was dropped.
-fn check_preparation(
-    found: &mut Preparation,
-    dropped: &[u32],
-    faces: &Faces,
-) -> Result<(), LoadError> {
+fn check_preparation(found: &mut Preparation, dropped: &[u32], faces: &Faces) -> Result<(), Error> {
     let mut dropped = dropped.iter().copied().peekable();
     let (mut polygons, mut face) = (0, 0);
     loop {
@@ -281,7 +278,7 @@ fn check_preparation(
     if counts.into_iter().any(|count| count > polygons)
         || ![found.flattened_by, found.bent_by].into_iter().all(is_length)
     {
-        return Err(LoadError::of("counts of polygons", "are impossible"));
+        return Err(damaged("counts of polygons", "are impossible"));
     }
     Ok(())
 }

@@ -2,7 +2,6 @@
 //! other: the only module that knows both the tree and the judge.
 
 use crate::Error;
-use std::fmt;
 
 use crate::paint::{Pieces, paint_list};
 use crate::raster::{
@@ -33,7 +32,7 @@ pub struct Verification {
     /// once or not at all. Such faults would show in transparent faces.
     pub miscounted: usize,
     /// Whether each order lists every fragment once, and is the same in all its forms.
-    pub orders: Result<(), OrderFault>,
+    pub orders: Result<(), String>,
 }
 
 impl Verification {
@@ -150,21 +149,6 @@ const FORMS: [&str; 4] = ["write_into", "order", "front_to_back", "front_to_back
 /// Where the forms of front-to-back orders begin among these.
 const FIRST_NEAR: usize = 2;
 
-/// What is wrong with an order; see [`check_orders`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OrderFault {
-    form: &'static str,
-    fault: String,
-}
-
-impl fmt::Display for OrderFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.form, self.fault)
-    }
-}
-
-impl std::error::Error for OrderFault {}
-
 /// Checks that the orders of a viewpoint list every fragment once, are the same as a list of
 /// numbers and by iterator, and that front to back is the reverse of back to front.
 ///
@@ -174,7 +158,7 @@ impl std::error::Error for OrderFault {}
 /// # Errors
 ///
 /// The first fault found, if there is one.
-pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), OrderFault> {
+pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), String> {
     Orders::of(tree, viewpoint).check(tree.len())
 }
 
@@ -200,10 +184,10 @@ impl Orders {
     }
 
     /// Checks that each form lists each of `fragments` fragments once, and that all forms agree.
-    fn check(&self, fragments: usize) -> Result<(), OrderFault> {
+    fn check(&self, fragments: usize) -> Result<(), String> {
         let forms = || FORMS.into_iter().zip(&self.0).enumerate();
         for (_, (form, list)) in forms() {
-            each_once(list, fragments).map_err(|fault| OrderFault { form, fault })?;
+            each_once(list, fragments).map_err(|fault| format!("{form} {fault}"))?;
         }
         let [first, ..] = &self.0;
         for (i, (form, list)) in forms() {
@@ -211,7 +195,7 @@ impl Orders {
                 |place| if i < FIRST_NEAR { first[place] } else { first[fragments - 1 - place] };
             if let Some(place) = (0..fragments).find(|&place| list[place] != expected(place)) {
                 let fault = format!("contradicts {} at place {place} of the order", FORMS[0]);
-                return Err(OrderFault { form, fault });
+                return Err(format!("{form} {fault}"));
             }
         }
         Ok(())

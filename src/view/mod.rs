@@ -369,7 +369,7 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
 
 /// The error of a problem.
 pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, Error> {
-    Err(Kind::Camera(problem.into()).error())
+    Err(Kind::Argument(problem.into()).error())
 }
 
 #[cfg(test)]

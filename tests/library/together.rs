@@ -2,7 +2,7 @@
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::partition::Extent;
-use binspace::{Culling, ErrorKind, Ray, Sides};
+use binspace::{Culling, ErrorKind, Facing, Ray};
 use testkit::prelude::*;
 use testkit::shapes::rectangle;
 
@@ -19,7 +19,7 @@ fn squares() -> Vec<Vec<DVec3>> {
 
 /// All but drawings, of which the kind of the error is returned.
 fn use_all(tree: &BspTree) -> Option<ErrorKind> {
-    let culling = Culling::NONE.with_sides(Sides::Front);
+    let culling = Culling::NONE.with_facing(Facing::Front);
     let mut order = Vec::new();
     tree.order(ABOVE).culled(&culling).write_into(&mut order);
     assert_eq!(order.len(), tree.len());
@@ -63,7 +63,7 @@ fn trees_and_overlays() {
         .with_polygons([rectangle([0.5, 0.5], [1.5, 2.5], 1.5)])
         .with_lines([[DVec3::new(0.0, 1.0, 1.7), DVec3::new(2.0, 1.0, 1.7)]]);
     overlay.replace_with(&tree, shapes).expect("in the grid");
-    let culling = Culling::NONE.with_sides(Sides::Front);
+    let culling = Culling::NONE.with_facing(Facing::Front);
     let order = overlay.order(&tree, ABOVE).expect("its tree").culled(&culling);
     assert!(order.into_iter().count() > tree.len());
     let map = tree.visibility(&camera(), &ViewOptions::DEFAULT).expect("memory");

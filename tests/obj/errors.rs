@@ -8,7 +8,7 @@ use testkit::prelude::*;
 fn refused(text: impl AsRef<[u8]>) -> (Option<usize>, Option<usize>, String) {
     match read(text) {
         Ok((scene, _)) => panic!("accepted with {} polygons", scene.len()),
-        Err(error) => (error.line(), error.face(), error.to_string()),
+        Err(error) => (error.line_of_file(), error.polygon(), error.to_string()),
     }
 }
 

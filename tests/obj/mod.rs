@@ -13,12 +13,12 @@ mod precision;
 mod real_scenes;
 mod stream;
 
-use binspace::scene::{ObjError, ObjReport};
+use binspace::scene::ObjReport;
 use std::fs;
 use std::path::{Path, PathBuf};
 use testkit::prelude::*;
 
-fn read(text: impl AsRef<[u8]>) -> Result<(Scene, ObjReport), ObjError> {
+fn read(text: impl AsRef<[u8]>) -> Result<(Scene, ObjReport), binspace::Error> {
     Scene::from_obj("test.obj", text.as_ref(), |_| None)
 }
 

@@ -1,12 +1,12 @@
 //! Bytes, words and damaged files: anything is read or refused, and nothing panics.
 
 use crate::obj::{read, with_corners};
-use binspace::scene::{ObjError, ObjReport};
+use binspace::scene::ObjReport;
 use proptest::prelude::*;
 use testkit::prelude::*;
 
 /// What a scene read from anything must satisfy.
-fn check(result: Result<(Scene, ObjReport), ObjError>) {
+fn check(result: Result<(Scene, ObjReport), binspace::Error>) {
     match result {
         Ok((scene, report)) => {
             assert_eq!(scene.len(), report.faces);

@@ -1,7 +1,7 @@
 //! Culled orders of a tree and an overlay, against the vertices of what is kept and left out.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
-use binspace::{Culling, Facing, Frustum, Sides};
+use binspace::{Culling, Facing, Frustum};
 use testkit::prelude::*;
 
 /// The points that decide whether a shape is in a frustum, and the side that it shows.
@@ -29,10 +29,10 @@ fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
         let mut overlay = Overlay::new(&tree);
         let shapes = Shapes::NONE.with_polygons(&movers).with_lines(&threads).with_points(points);
         overlay.replace_with(&tree, shapes).expect("on the grid");
-        for (viewpoint, sides) in [
-            (Viewpoint::Eye(place()), Sides::Both),
-            (Viewpoint::Eye(high * 2.0), Sides::Front),
-            (Viewpoint::direction([0.3, -0.2, -1.0]), Sides::Back),
+        for (viewpoint, drawn) in [
+            (Viewpoint::Eye(place()), None),
+            (Viewpoint::Eye(high * 2.0), Some(Facing::Front)),
+            (Viewpoint::direction([0.3, -0.2, -1.0]), Some(Facing::Back)),
         ] {
             let planes: Vec<(DVec3, f64)> = (0..3)
                 .map(|_| {
@@ -40,8 +40,10 @@ fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
                     (normal, normal.dot(place()))
                 })
                 .collect();
-            let culling =
-                Culling::NONE.with_frustum(Frustum::new(planes.clone())).with_sides(sides);
+            let mut culling = Culling::NONE.with_frustum(Frustum::new(planes.clone()));
+            if let Some(drawn) = drawn {
+                culling = culling.with_facing(drawn);
+            }
             let order = overlay.order(&tree, viewpoint).expect("its own tree").culled(&culling);
             let mut left = Vec::new();
             order.write_into(&mut left);
@@ -54,11 +56,7 @@ fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
             for shape in overlay.order(&tree, viewpoint).expect("its own tree") {
                 let is_kept = left.next_if_eq(&shape.index()).is_some();
                 let (points, facing) = looked_at(shape, viewpoint);
-                let is_turned = match (sides, facing) {
-                    (Sides::Both, _) | (_, None) => false,
-                    (Sides::Front, Some(facing)) => facing != Facing::Front,
-                    (Sides::Back, Some(facing)) => facing != Facing::Back,
-                };
+                let is_turned = drawn.zip(facing).is_some_and(|(drawn, facing)| drawn != facing);
                 let furthest = points.iter().copied().reduce(DVec3::max).expect("a point");
                 let nearest = points.iter().copied().reduce(DVec3::min).expect("a point");
                 let reach = planes.iter().map(|&(normal, offset)| {

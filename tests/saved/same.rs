@@ -149,7 +149,7 @@ fn errors_of_readers_and_writers_are_passed_on() {
         }
     }
     let error = BspTree::read(Broken).unwrap_err();
-    assert!(error.is_io() && error.source().is_some(), "{error}");
+    assert!(error.kind() == binspace::ErrorKind::Io && error.source().is_some(), "{error}");
     assert_eq!(error.to_string(), "cannot be read: the disk is gone");
     let tree = BspTree::build(scene::chain(2).polygons()).unwrap();
     assert_eq!(tree.write(Broken).unwrap_err().to_string(), "the disk is full");

@@ -4,7 +4,7 @@ use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
 use binspace::paint::paint_tree;
 use binspace::view;
-use binspace::{Culling, Facing, Flow, Frustum, Part, Sides};
+use binspace::{Culling, Facing, Flow, Frustum, Part};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::rational::Plane;
@@ -62,8 +62,8 @@ fn a_culled_walk_skips_subtrees() {
     let corner = Frustum::from_box([low, low + (high - low) * dvec3(0.1, 0.1, 1.0)]);
     let few = subtrees(above, &Culling::NONE.with_frustum(corner));
     assert!(few.0 * 4 < all.0 && few.1 > 10, "{few:?} of {all:?}");
-    assert_eq!(subtrees(above, &Culling::NONE.with_sides(Sides::Front)), all);
-    assert_eq!(subtrees(above, &Culling::NONE.with_sides(Sides::Back)), (0, 0));
+    assert_eq!(subtrees(above, &Culling::NONE.with_facing(Facing::Front)), all);
+    assert_eq!(subtrees(above, &Culling::NONE.with_facing(Facing::Back)), (0, 0));
 }
 
 /// Whether a fragment's box reaches over a plane of the region, exactly, and by how much at most it
@@ -151,7 +151,7 @@ fn what_is_left_is_what_a_look_at_every_box_leaves() {
 #[test]
 fn sides_are_those_that_rationals_say() {
     let mut dice = Dice(22);
-    let [mut fronts, mut backs, mut whole] = [0; 3];
+    let [mut fronts, mut backs, mut edge_on, mut whole] = [0; 4];
     for tree in trees().into_iter().filter(|tree| !tree.is_empty()) {
         let faces = tree.faces();
         let planes: Vec<Plane> =
@@ -172,16 +172,17 @@ fn sides_are_those_that_rationals_say() {
             let sides: Vec<Ordering> = planes.iter().map(|plane| view.side(plane)).collect();
             let whole_order = order(&tree, view.viewpoint);
             for (shown, side, count) in [
-                (Sides::Front, Ordering::Greater, &mut fronts),
-                (Sides::Back, Ordering::Less, &mut backs),
+                (Facing::Front, Ordering::Greater, &mut fronts),
+                (Facing::Back, Ordering::Less, &mut backs),
+                (Facing::EdgeOn, Ordering::Equal, &mut edge_on),
             ] {
-                let culling = Culling::NONE.with_sides(shown);
+                let culling = Culling::NONE.with_facing(shown);
                 let found = culled(&tree, view.viewpoint, &culling);
                 let shown = whole_order.iter().filter(|&&f| side == sides[f as usize]);
                 assert!(found.iter().eq(shown), "{tree:?} {view:?}");
                 *count += found.len();
             }
-            let culling = Culling::NONE.with_sides(Sides::Both);
+            let culling = Culling::NONE.with_frustum(Frustum::EVERYWHERE);
             assert_eq!(culled(&tree, view.viewpoint, &culling), whole_order);
             for node in tree.nodes() {
                 if let Some(side) = node.facing_all(view.viewpoint) {
@@ -191,7 +192,7 @@ fn sides_are_those_that_rationals_say() {
             }
         }
     }
-    enough!(fronts > 5000, backs > 5000, whole > 500; "{fronts} {backs} {whole}");
+    enough!(fronts > 5000, backs > 5000, edge_on > 100, whole > 500; "{fronts} {backs} {edge_on} {whole}");
 }
 
 /// A convex body: points on a sphere's lattice of circles, moved, turned and stretched.
@@ -227,8 +228,8 @@ proptest! {
             let viewpoint = camera.viewpoint();
             let whole = paint_tree(&tree, viewpoint, &rays);
             let inside = tree.fragments().all(|f| f.facing(viewpoint) == Facing::Back);
-            let shown = if inside { Sides::Back } else { Sides::Front };
-            let mut found = culled(&tree, viewpoint, &Culling::NONE.with_sides(shown));
+            let shown = if inside { Facing::Back } else { Facing::Front };
+            let mut found = culled(&tree, viewpoint, &Culling::NONE.with_facing(shown));
             prop_assert!(found.len() < tree.len() || inside);
             let ordered = paint_order(&tree, &found, &rays);
             // None covers another.
@@ -455,8 +456,8 @@ fn one_side_of_a_plane_of_both_is_drawn() {
             square
         };
         let tree = BspTree::build((0..count).map(square)).unwrap();
-        for (sides, is_turned) in [(Sides::Front, false), (Sides::Back, true)] {
-            let culling = Culling::NONE.with_sides(sides);
+        for (sides, is_turned) in [(Facing::Front, false), (Facing::Back, true)] {
+            let culling = Culling::NONE.with_facing(sides);
             let found = culled(&tree, Viewpoint::eye([5.0, 3.0, 2.0]), &culling);
             assert!(
                 found.into_iter().eq((0..count).filter(|k| k.is_multiple_of(3) == is_turned)),

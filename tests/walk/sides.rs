@@ -1,7 +1,7 @@
 //! Back faces for eyes so far away, and so nearly in the polygons' planes, that rounded normals show the
 //! wrong side.
 
-use binspace::{Culling, Sides};
+use binspace::{Culling, Facing};
 use testkit::prelude::*;
 use testkit::rational::Plane;
 use testkit::views::View;
@@ -35,10 +35,11 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
             let world = way + normal * above;
             let view = View::eye(faces, DVec3::from(faces.lattice().to_lattice(world)));
             let sides: Vec<Ordering> = planes.iter().map(|plane| view.side(plane)).collect();
-            for (shown, side) in [(Sides::Front, Ordering::Greater), (Sides::Back, Ordering::Less)]
+            for (shown, side) in
+                [(Facing::Front, Ordering::Greater), (Facing::Back, Ordering::Less)]
             {
                 let mut found = Vec::new();
-                let culling = Culling::NONE.with_sides(shown);
+                let culling = Culling::NONE.with_facing(shown);
                 tree.order(view.viewpoint).culled(&culling).write_into(&mut found);
                 found.sort_unstable();
                 let all = 0..tree.len() as u32;

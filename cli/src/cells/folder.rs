@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use binspace::internals::open_regular;
 use binspace::partition::Partition;
 use binspace::scene::Scene;
-use binspace::{BspTree, LoadError};
+use binspace::{BspTree, Error};
 
 use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;
@@ -173,7 +173,7 @@ impl Folder {
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         let mut input = open(&path.join(PARTITION))?;
         let name = path.join(PARTITION).display().to_string();
-        let about = |error: LoadError| Failure::about(&name, error);
+        let about = |error: Error| Failure::about(&name, error);
         let partition = Partition::read(&mut input).map_err(about)?;
         let bounds = Scene::read(&mut input).map_err(about)?;
         let is_box = bounds.len() == 1 && bounds.polygon(0).len() == 2;

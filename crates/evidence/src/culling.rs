@@ -8,7 +8,7 @@ use binspace::occlusion::CoverageMask;
 use binspace::paint::paint_order;
 use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::Camera;
-use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part, Sides};
+use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part};
 
 /// What a step leaves.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
     tree.bounds();
     let viewpoint = camera.viewpoint();
     let in_view = Culling::NONE.with_frustum(camera.frustum());
-    let fronts = in_view.clone().with_sides(Sides::Front);
+    let fronts = in_view.clone().with_facing(Facing::Front);
     let step = |name, find: &dyn Fn(&mut Vec<u32>)| {
         let (mut left, begin) = (Vec::new(), Instant::now());
         find(&mut left);

@@ -8,7 +8,7 @@ use binspace::mesh::Mesh;
 use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::verify::{verify, verify_fronts};
 use binspace::{
-    BspTree, BuildOptions, Culling, Flow, Frustum, Node, Part, Ray, Sides, Viewpoint, view,
+    BspTree, BuildOptions, Culling, Facing, Flow, Frustum, Node, Part, Ray, Viewpoint, view,
 };
 
 /// A tree's file.
@@ -90,8 +90,8 @@ fn use_walks(tree: &BspTree) -> Verdict {
         let mut order = Vec::new();
         tree.back_to_front_into(viewpoint, &mut order);
         ensure(walked == order, || "a walk has another order".into())?;
-        for sides in [Sides::Both, Sides::Front, Sides::Back] {
-            let culling = Culling::NONE.with_frustum(slab.clone()).with_sides(sides);
+        for facing in [Facing::Front, Facing::Back, Facing::EdgeOn] {
+            let culling = Culling::NONE.with_frustum(slab.clone()).with_facing(facing);
             tree.order(viewpoint).culled(&culling).write_into(&mut order);
             ensure(order.len() <= tree.len(), || "more than all is left".into())?;
         }

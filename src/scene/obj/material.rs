@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::path::{Component, Path};
 
 use super::ObjReport;
-use super::statements::{Lines, Problem, behind_keyword, decode, text, words};
+use super::statements::{Lines, behind_keyword, decode, text, words};
+use crate::error::Problem;
 use crate::scene::Material;
 
 /// Materials by the bytes of their names, in the order of a library.

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::error::Error;
 use std::io::{self, BufReader, Bytes, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -10,15 +9,13 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::decimals::Decimals;
-use super::{ObjError, ObjReport, material};
+use super::{ObjReport, material};
+use crate::error::{Error, FileFault, Kind, Problem};
 use crate::input::MAX_CORNERS;
 use crate::scene::{Material, Scene};
 
 /// How many bytes are read at once.
 const CHUNK: usize = 1 << 18;
-
-/// Why a line, or a file, is refused.
-pub(super) type Problem = Box<dyn Error + Send + Sync>;
 
 /// A line that says something of polygons or their corners.
 pub(super) enum Statement<'a> {
@@ -65,7 +62,7 @@ pub(super) fn read<B>(
     name: &str,
     input: io::Result<impl Read>,
     mut visit: impl FnMut(Statement<'_>, &mut dyn Iterator<Item = &str>) -> ControlFlow<B>,
-) -> Result<(Contents, ControlFlow<B>), ObjError> {
+) -> Result<(Contents, ControlFlow<B>), Error> {
     let (mut contents, mut place) = (Contents::default(), Place::default());
     let read = || -> Result<ControlFlow<B>, Problem> {
         let mut lines = Lines::new(input?);
@@ -107,7 +104,13 @@ pub(super) fn read<B>(
     };
     match read() {
         Ok(flow) => Ok((contents, flow)),
-        Err(problem) => Err(ObjError { file: name.to_owned(), place, problem }),
+        Err(problem) => {
+            let kind = Kind::File(FileFault { name: name.to_owned(), line: place.line, problem });
+            Err(match place.face {
+                Some(face) => kind.of_polygon(face),
+                None => kind.error(),
+            })
+        }
     }
 }
 

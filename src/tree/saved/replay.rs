@@ -7,9 +7,10 @@
 use std::mem::{replace, take};
 use std::ops::Range;
 
+use crate::error::Error;
 use crate::exact::{Clipper, Faces, PreparedPlane, Side, Vertex, split};
 use crate::parallel_map;
-use crate::save::{LoadError, invalid};
+use crate::save::invalid;
 use crate::tree::node::{NodeRecord, Ranges};
 use crate::tree::parts::{Parts, Record};
 
@@ -105,7 +106,7 @@ pub(super) fn replay(
     nodes: &[NodeRecord],
     listed: &[u32],
     keeps_positions: bool,
-) -> Result<Parts, LoadError> {
+) -> Result<Parts, Error> {
     let replay = Replay { faces, nodes, keeps_positions };
     let jobs = match listed.len() {
         len if len > WORTH_A_THREAD => len / MOST_JOBS..len / JOBS,
@@ -128,7 +129,7 @@ pub(super) fn replay(
 }
 
 /// Joins the parts of a tree.
-fn join(mut parts: Vec<Parts>) -> Result<Parts, LoadError> {
+fn join(mut parts: Vec<Parts>) -> Result<Parts, Error> {
     if parts.len() == 1 {
         return Ok(parts.remove(0));
     }
@@ -148,8 +149,8 @@ fn join(mut parts: Vec<Parts>) -> Result<Parts, LoadError> {
     Ok(whole)
 }
 
-fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), LoadError> {
-    list.try_reserve(more).map_err(|_| LoadError::out_of_memory())
+fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), Error> {
+    list.try_reserve(more).map_err(|_| Error::out_of_memory())
 }
 
 struct Replay<'a> {
@@ -160,7 +161,7 @@ struct Replay<'a> {
 
 impl Replay<'_> {
     /// All faces, or what of them is in their cell.
-    fn root(&self, fragments: u32) -> Result<Job, LoadError> {
+    fn root(&self, fragments: u32) -> Result<Job, Error> {
         let mut clipper = Clipper::new(self.faces);
         let mut pieces = Vec::new();
         reserve(&mut pieces, self.faces.len())?;
@@ -175,7 +176,7 @@ impl Replay<'_> {
 
     /// Splits the pieces of a subtree. Subtrees with numbers of fragments in `jobs` are handed over, each
     /// with the fragments before it; what comes after the last of them is returned beside.
-    fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), LoadError> {
+    fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), Error> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
         let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
         // In a list each node has one node below, such as those of layers that were peeled off: most
@@ -288,11 +289,7 @@ impl Replay<'_> {
     }
 
     /// Appends pieces to the output.
-    fn store(
-        &self,
-        parts: &mut Parts,
-        pieces: impl Iterator<Item = Piece>,
-    ) -> Result<(), LoadError> {
+    fn store(&self, parts: &mut Parts, pieces: impl Iterator<Item = Piece>) -> Result<(), Error> {
         for Piece { face, vertices, .. } in pieces {
             reserve(&mut parts.records, 1)?;
             parts.records.push(Record { face, vertices: parts.vertices.len() as u32 });

@@ -181,7 +181,7 @@ fn save_writes_a_tree_and_reads_it() {
     };
     assert_eq!(order(&again), order(&tree));
     file[40] ^= 1;
-    let error: binspace::LoadError = BspTree::read(&file[..]).unwrap_err();
+    let error: binspace::Error = BspTree::read(&file[..]).unwrap_err();
     assert!(error.to_string().contains("damaged"));
 }
 

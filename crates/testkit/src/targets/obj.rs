@@ -169,7 +169,7 @@ impl Known {
                 let bad = self.refused.is_some() || ahead || self.faces.is_empty();
                 assert!(bad, "{error}: {:?}", self.text);
                 if self.refused.is_some() {
-                    assert_eq!(error.line(), self.refused, "{error}: {:?}", self.text);
+                    assert_eq!(error.line_of_file(), self.refused, "{error}: {:?}", self.text);
                 }
             }
         }
