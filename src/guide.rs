@@ -61,6 +61,6 @@ pages! {
     verification
     /// Measured figures, and known limits.
     speed
-    /// The program `binspace`, its pages and its lecture.
+    /// The program `binspace` and its pages; the lecture of `binspace-lab`.
     program
 }

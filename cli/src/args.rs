@@ -3,11 +3,9 @@
 mod common;
 mod pictures;
 
-use std::ffi::OsString;
 use std::path::PathBuf;
 
 use binspace::glam::DVec3;
-use binspace_evidence::Family;
 use clap::{Args, Parser, Subcommand};
 
 use crate::cull::CullArgs;
@@ -17,40 +15,39 @@ use crate::values::{self, Heuristics};
 pub(crate) use common::{BuildArgs, LimitArgs, SceneArgs, UpArgs};
 pub(crate) use pictures::{DrawArgs, DrawFormat, Format, KindArgs, RenderArgs};
 
-/// Exact back-to-front orders of polygons from one BSP tree.
-///
-/// Without a command, builds trees of built-in scenes with every heuristic, paints their fragments
-/// in order, compares every pixel with a depth buffer, and writes the pictures.
+/// Exact back-to-front orders of polygons from one BSP tree
 #[derive(Debug, Parser)]
-#[command(name = "binspace", version, args_conflicts_with_subcommands = true)]
-#[command(max_term_width = 100, after_help = examples::PROGRAM)]
+#[command(name = "binspace", version, max_term_width = 100, after_help = examples::PROGRAM)]
 pub(crate) struct Cli {
     #[command(subcommand)]
-    pub(crate) command: Option<Command>,
-    #[command(flatten)]
-    pub(crate) tour: TourArgs,
+    pub(crate) command: Command,
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    Build(BuildFileArgs),
+    Demo(DemoArgs),
     Order(OrderArgs),
     Verify(VerifyArgs),
     Stats(StatsArgs),
     Render(RenderArgs),
     Draw(DrawArgs),
     Page(PageArgs),
-    Report(ReportArgs),
-    Lecture(LectureArgs),
+    Build(BuildFileArgs),
     /// List the built-in scenes
     Scenes,
 }
 
+/// Draw built-in scenes, and compare every pixel with a depth buffer
+///
+/// Builds trees of built-in scenes with every heuristic, paints their fragments in order, compares
+/// every pixel with a depth buffer, and writes the pictures. The exit status is 1 if any pixel is
+/// wrong.
 #[derive(Args, Debug)]
-pub(crate) struct TourArgs {
+#[command(after_help = examples::DEMO)]
+pub(crate) struct DemoArgs {
     /// Folder to write the pictures into; created if it does not exist
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    pub(crate) out: PathBuf,
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    pub(crate) output: PathBuf,
     /// Views of each scene to compare, around it and inside it
     #[arg(long, value_name = "N", default_value_t = 6)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -168,18 +165,6 @@ pub(crate) struct StatsArgs {
     pub(crate) json: bool,
 }
 
-/// Show what a course on visibility teaches, measured and judged, as one page
-///
-/// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
-/// network. All figures come from the run, which takes less than half a minute on two processors.
-#[derive(Args, Debug)]
-#[command(after_help = examples::LECTURE)]
-pub(crate) struct LectureArgs {
-    /// Folder to write index.html into; created if it does not exist
-    #[arg(short, long, value_name = "DIR", default_value = "lecture")]
-    pub(crate) output: PathBuf,
-}
-
 /// Write a page that stands alone, in which people turn the scene
 ///
 /// The page has the tree, and paints its fragments in the tree's order, which is that of the library for every
@@ -199,40 +184,6 @@ pub(crate) struct PageArgs {
     pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
-}
-
-/// Measure every way to decide visibility: speed against error
-///
-/// Trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and depth
-/// buffers paint families of scenes that grow harder step by step, and the scenes that you name.
-/// Each pixel, vertex and piece is compared with exact truth. Writes report.md, plots as SVG, and
-/// the figures as CSV; errors.csv is the same for the same seed on any machine. If the command is
-/// interrupted, the results so far are kept. The exit status is 1 if the exact tree is wrong
-/// anywhere, or is too large to be built.
-#[derive(Args, Debug)]
-#[command(after_help = examples::REPORT)]
-pub(crate) struct ReportArgs {
-    /// OBJ files, - for one on standard input, or built-in scenes to measure as well
-    #[arg(value_name = "SCENE")]
-    pub(crate) scenes: Vec<OsString>,
-    /// Folder to write into; created if it does not exist
-    #[arg(short, long, value_name = "DIR", default_value = "report")]
-    pub(crate) output: PathBuf,
-    /// Fewer steps and smaller pictures: about a tenth of the time
-    #[arg(long)]
-    pub(crate) quick: bool,
-    /// Seed of the families' scenes and of the random views
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub(crate) seed: u64,
-    /// Only this family, without growth; may be repeated
-    ///
-    /// One of angle, gap, offset, scale, sliver, nesting, lattice, boxes, cycle, penetration and
-    /// depth-range.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) family: Vec<Family>,
-    /// Size of the pictures in pixels [default: 640x480; 160x120 if quick]
-    #[arg(long, value_name = "WxH", value_parser = values::size)]
-    pub(crate) size: Option<[u32; 2]>,
 }
 
 #[cfg(test)]

@@ -122,7 +122,7 @@ fn bounds(scene: &Scene) -> [DVec3; 2] {
 }
 
 /// A failure to make a camera for a scene.
-pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
+pub fn about(scene: &Scene, error: &Error) -> Failure {
     let [low, high] = bounds(scene);
     let furthest = low.abs().max(high.abs()).max_element();
     if furthest < TOO_LARGE {

@@ -5,11 +5,11 @@ use binspace::scene::Scene;
 use clap::ValueEnum;
 
 /// The background colour.
-pub(crate) const BACKGROUND: [u8; 3] = [255, 255, 255];
+pub const BACKGROUND: [u8; 3] = [255, 255, 255];
 
 /// Where the colours of polygons come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Colouring {
+pub enum Colouring {
     /// From their materials; grey without one
     #[default]
     Material,
@@ -19,7 +19,7 @@ pub(crate) enum Colouring {
 
 /// The colours of a scene's polygons.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Colours<'a> {
+pub struct Colours<'a> {
     scene: &'a Scene,
     by: Colouring,
     /// The numbers of its polygons in a scene that it is a part of.
@@ -27,17 +27,18 @@ pub(crate) struct Colours<'a> {
 }
 
 impl<'a> Colours<'a> {
-    pub(crate) fn new(scene: &'a Scene, by: Colouring) -> Self {
+    /// Those of a scene.
+    pub fn new(scene: &'a Scene, by: Colouring) -> Self {
         Self { scene, by, numbers: None }
     }
 
     /// The same for a part of a scene, in which its polygons have these numbers.
-    pub(crate) fn numbered(self, numbers: &'a [usize]) -> Self {
+    pub fn numbered(self, numbers: &'a [usize]) -> Self {
         Self { numbers: Some(numbers), ..self }
     }
 
     /// Red, green and blue.
-    pub(crate) fn rgb(&self, polygon: usize) -> [u8; 3] {
+    pub fn rgb(&self, polygon: usize) -> [u8; 3] {
         match self.by {
             Colouring::Material => {
                 let colour = self.scene.material(polygon).color;
@@ -50,12 +51,12 @@ impl<'a> Colours<'a> {
     }
 
     /// Whether anything shows through a polygon.
-    pub(crate) fn are_translucent(&self) -> bool {
+    pub fn are_translucent(&self) -> bool {
         self.scene.materials().iter().any(|material| material.opacity < 1.0)
     }
 
     /// From 0, invisible, to 1, opaque.
-    pub(crate) fn opacity(&self, polygon: usize) -> f32 {
+    pub fn opacity(&self, polygon: usize) -> f32 {
         self.scene.material(polygon).opacity
     }
 }

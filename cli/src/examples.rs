@@ -2,7 +2,7 @@
 
 pub(crate) const PROGRAM: &str = "\
 Examples:
-  binspace                                   the built-in scenes, judged; pictures in out/
+  binspace demo                              the built-in scenes, judged; pictures in out/
   binspace order scene.obj --eye=0,2,10      fragments in paint order, as JSON lines
   binspace verify teapot --views 20          every pixel against a depth buffer
   binspace stats city:100000 --heuristic all how the heuristics compare
@@ -10,13 +10,16 @@ Examples:
   binspace draw scene.obj -o scene.svg       a drawing of it, one path a polygon
   binspace draw part.obj -o part.pdf --lines its visible edges
   binspace page scene.obj -o scene.html      a page to turn it in a browser
-  binspace report --quick                    every method, its speed against its error
-  binspace lecture -o lecture                what a course teaches, as a page
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
   binspace build big.obj --cells 16 -o big   a scene larger than memory, cell by cell
 
 Exit status: 0 done; 1 an image differs from the depth buffer's; 2 an error: bad usage
 or input, output that cannot be written, too little memory.";
+
+pub(crate) const DEMO: &str = "\
+Examples:
+  binspace demo
+  binspace demo --views 2 --size 320x240 -o pictures";
 
 pub(crate) const BUILD: &str = "\
 Examples:
@@ -87,15 +90,3 @@ Examples:
   binspace page rooms.obj -o rooms.html --up z --cull back
   binspace page random:500 -o random.html --heuristic fewest-splits
   binspace page scene.bsp -o - > scene.html";
-
-pub(crate) const REPORT: &str = "\
-Examples:
-  binspace report
-  binspace report --quick -o quick
-  binspace report scene.obj teapot:16 --seed 7
-  binspace report --family gap --family sliver --size 640x480";
-
-pub(crate) const LECTURE: &str = "\
-Examples:
-  binspace lecture
-  binspace lecture -o course && xdg-open course/index.html";

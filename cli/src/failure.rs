@@ -5,7 +5,7 @@ use std::io;
 
 /// Why a command stopped before its end.
 #[derive(Debug)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// Bad usage or input, in words for the user.
     Message(String),
     /// A wrong command line; the message has already been printed.
@@ -16,12 +16,12 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// A failure that names what it is about first.
-    pub(crate) fn about(subject: impl Display, problem: impl Display) -> Self {
+    pub fn about(subject: impl Display, problem: impl Display) -> Self {
         Self::Message(format!("{subject}: {problem}"))
     }
 
     /// A failure of writing to standard output.
-    pub(crate) fn of_output(error: &io::Error) -> Self {
+    pub fn of_output(error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             _ => Self::about("standard output", error),

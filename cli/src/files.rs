@@ -21,7 +21,7 @@ pub(crate) enum Output {
 
 /// A file that replaces an existing one only when it is complete.
 #[derive(Debug)]
-pub(crate) struct NewFile {
+pub struct NewFile {
     writer: BufWriter<File>,
     target: PathBuf,
     place: Place,
@@ -37,7 +37,7 @@ enum Place {
 }
 
 /// What stands for standard input and standard output in place of a file's name.
-pub(crate) const STANDARD: &str = "-";
+pub const STANDARD: &str = "-";
 
 impl Output {
     /// Output to a file, or to standard output without a name or for the name `-`.
@@ -106,7 +106,7 @@ impl Write for Counted<'_> {
 
 impl NewFile {
     /// Prepares to write a file, and fails now if that is not possible.
-    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+    pub fn create(path: &Path) -> Result<Self, Failure> {
         Self::try_create(path).map_err(|error| unwritable(path, error))
     }
 
@@ -135,7 +135,7 @@ impl NewFile {
     }
 
     /// Writes with `write`, and puts the file in its place.
-    pub(crate) fn write(
+    pub fn write(
         self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
@@ -175,7 +175,7 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
 }
 
 /// Makes a folder, and those above it, unless it is there.
-pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+pub fn make_folder(path: &Path) -> Result<(), Failure> {
     if path == Path::new(STANDARD) {
         let problem = "it cannot hold several files: name a folder (./- if it is called so)";
         return Err(Failure::about("standard output", problem));

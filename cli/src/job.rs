@@ -17,7 +17,7 @@ use crate::units::count;
 /// The largest number of faces that a note names.
 const NAMED: usize = 3;
 /// The message for a scene of which no face is left.
-pub(crate) const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
+pub const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
 
 /// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name
 /// everything that was left out.
@@ -53,7 +53,7 @@ pub(crate) struct Made {
 /// The same, with how it was made.
 pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure> {
     let mut begin = Instant::now();
-    let Loaded { scene, tree, stored_name } = scene_arg::load(scene)?;
+    let Loaded { scene, tree, stored_name } = scene_arg::load(&scene.name, scene.seed)?;
     let heuristic = build.heuristic.unwrap_or_default();
     let options = build.limits.options(heuristic);
     let is_built = tree.is_none();
@@ -94,13 +94,13 @@ pub(crate) fn refuse_options(
 }
 
 /// A failure to build a scene's tree. It names the program's options, not those of the library.
-pub(crate) fn about(scene: &Scene, error: &Error) -> Failure {
+pub fn about(scene: &Scene, error: &Error) -> Failure {
     let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
     Failure::about(scene.name(), problem)
 }
 
 /// Notes which faces were dropped, triangulated, or given more than once.
-pub(crate) fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
+pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     note_found(scene, prepared.dropped(found.polygons), found);
     let duplicates = prepared.duplicates();
     if duplicates > 0 {

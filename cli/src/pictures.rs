@@ -32,7 +32,7 @@ pub(crate) enum Kind {
 
 /// What is bright where depths are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Bright {
+pub enum Bright {
     /// The nearer, the brighter
     Near,
     /// The further, the brighter
@@ -41,7 +41,7 @@ pub(crate) enum Bright {
 
 impl Bright {
     /// The greys of what is nearest and of what is furthest; both differ from nothing, which is black.
-    pub(crate) fn greys(self) -> [u8; 2] {
+    pub fn greys(self) -> [u8; 2] {
         match self {
             Self::Near => [255, 40],
             Self::Far => [40, 255],

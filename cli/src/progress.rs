@@ -14,25 +14,25 @@ const PATIENCE: Duration = Duration::from_secs(1);
 ///
 /// Nothing is written where standard error is not a terminal.
 #[derive(Debug)]
-pub(crate) struct Progress {
+pub struct Progress {
     bar: ProgressBar,
     alarm: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Progress {
     /// A phase of unknown length.
-    pub(crate) fn spinner(message: impl Into<String>) -> Self {
+    pub fn spinner(message: impl Into<String>) -> Self {
         Self::start(ProgressBar::no_length(), "{spinner} {msg} {elapsed}", message.into())
     }
 
     /// A phase with a known number of steps.
-    pub(crate) fn steps(message: impl Into<String>, steps: u64) -> Self {
+    pub fn steps(message: impl Into<String>, steps: u64) -> Self {
         let template = "{spinner} {msg} {pos}/{len} {bar:30} {elapsed}";
         Self::start(ProgressBar::new(steps), template, message.into())
     }
 
     /// A phase that reports the share of its work done.
-    pub(crate) fn share(message: impl Into<String>) -> Self {
+    pub fn share(message: impl Into<String>) -> Self {
         Self::start(
             ProgressBar::new(0),
             "{spinner} {msg} {percent}% {bar:30} {elapsed}",
@@ -62,12 +62,12 @@ impl Progress {
     }
 
     /// One step more is done.
-    pub(crate) fn step(&self) {
+    pub fn step(&self) {
         self.bar.inc(1);
     }
 
     /// Sets the work done and the total.
-    pub(crate) fn set(&self, done: usize, total: usize) {
+    pub fn set(&self, done: usize, total: usize) {
         // Setting a new length redraws at once each time, so it is set only if it changes.
         if self.bar.length() != Some(total as u64) {
             self.bar.set_length(total as u64);
@@ -76,7 +76,7 @@ impl Progress {
     }
 
     /// Hides the progress while `write` writes to the terminal.
-    pub(crate) fn suspend<T>(&self, write: impl FnOnce() -> T) -> T {
+    pub fn suspend<T>(&self, write: impl FnOnce() -> T) -> T {
         self.bar.suspend(write)
     }
 }

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use binspace::BspTree;
 use binspace::scene::{Builtin, BuiltinSpec, Scene};
 
-use crate::args::SceneArgs;
 use crate::failure::Failure;
 use crate::files::STANDARD;
 use crate::memory;
@@ -17,8 +16,9 @@ use crate::terminal::note;
 
 /// A scene, called what the user calls it, and its tree if that came with it.
 #[derive(Debug)]
-pub(crate) struct Loaded {
-    pub(crate) scene: Scene,
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
     pub(crate) tree: Option<BspTree>,
     /// The scene's name in a file of `binspace build`.
     pub(crate) stored_name: String,
@@ -52,15 +52,16 @@ pub(crate) enum Source {
     Builtin(BuiltinSpec),
 }
 
-/// Reads or generates the scene that the user asks for, and notes what was left out.
-pub(crate) fn load(args: &SceneArgs) -> Result<Loaded, Failure> {
-    let name = args.name.to_string_lossy();
-    match source(&args.name)? {
+/// Reads or generates the scene that the user asks for, and notes what was left out. The seed is that of
+/// built-in scenes that are random.
+pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
+    let name = asked.to_string_lossy();
+    match source(asked)? {
         Source::StandardInput => standard_input::scene(),
         Source::Builtin(spec) => {
             memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
-            Ok(spec.build(args.seed).into())
+            Ok(spec.build(seed).into())
         }
         Source::File(path) if path.is_dir() => {
             let problem = "cannot be read: it is a folder; `render`, `order` and `stats` take those \

@@ -8,31 +8,31 @@ use anstyle::{AnsiColor, Style};
 use crate::failure::Failure;
 
 /// The style of good verdicts.
-pub(crate) const GOOD: Style = AnsiColor::Green.on_default().bold();
+pub const GOOD: Style = AnsiColor::Green.on_default().bold();
 /// The style of bad verdicts.
-pub(crate) const BAD: Style = AnsiColor::Red.on_default().bold();
+pub const BAD: Style = AnsiColor::Red.on_default().bold();
 /// The style of headings.
-pub(crate) const HEAD: Style = Style::new().bold();
+pub const HEAD: Style = Style::new().bold();
 
 /// Writes a line to standard output, in colour only where that is a terminal.
-pub(crate) fn say(line: impl Display) -> Result<(), Failure> {
+pub fn say(line: impl Display) -> Result<(), Failure> {
     let mut out = anstream::stdout().lock();
     let written = writeln!(out, "{line}").and_then(|()| out.flush());
     written.map_err(|error| Failure::of_output(&error))
 }
 
 /// A text in a style.
-pub(crate) fn styled(style: Style, text: impl Display) -> String {
+pub fn styled(style: Style, text: impl Display) -> String {
     format!("{style}{text}{style:#}")
 }
 
 /// Prints why the program stops.
-pub(crate) fn error(message: &str) {
+pub fn error(message: &str) {
     to_stderr(BAD, "error:", message);
 }
 
 /// Prints a note that does not stop the program.
-pub(crate) fn note(message: &str) {
+pub fn note(message: &str) {
     to_stderr(AnsiColor::Cyan.on_default().bold(), "note:", message);
 }
 

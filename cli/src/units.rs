@@ -1,7 +1,7 @@
 //! Figures for people.
 
 /// A length of time with three digits and a unit.
-pub(crate) fn time(seconds: f64) -> String {
+pub fn time(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 0.9995 => (s, "s"),
         s if s >= 0.9995e-3 => (s * 1e3, "ms"),
@@ -12,7 +12,7 @@ pub(crate) fn time(seconds: f64) -> String {
 }
 
 /// A number of bytes with three digits and a unit.
-pub(crate) fn bytes(bytes: usize) -> String {
+pub fn bytes(bytes: usize) -> String {
     match bytes as f64 {
         b if b >= 999.5e6 => format!("{} GB", three_digits(b / 1e9)),
         b if b >= 999.5e3 => format!("{} MB", three_digits(b / 1e6)),
@@ -21,7 +21,7 @@ pub(crate) fn bytes(bytes: usize) -> String {
 }
 
 /// A number with three digits, or all those before the point.
-pub(crate) fn three_digits(value: f64) -> String {
+pub fn three_digits(value: f64) -> String {
     let decimals = match value {
         v if v >= 99.95 => 0,
         v if v >= 9.995 => 1,
@@ -31,7 +31,7 @@ pub(crate) fn three_digits(value: f64) -> String {
 }
 
 /// A count with its noun, in the singular where it is one.
-pub(crate) fn count(number: usize, noun: &str) -> String {
+pub fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
 }
 

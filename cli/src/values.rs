@@ -37,7 +37,7 @@ pub(crate) fn up(text: &str) -> Result<DVec3, String> {
 }
 
 /// A picture's size: `640x480`.
-pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+pub fn size(text: &str) -> Result<[u32; 2], String> {
     let number = |part: &str| part.trim().parse::<u32>().ok().filter(|&n| n > 0);
     let sides = text.split_once(['x', 'X', '×']);
     let Some((Some(width), Some(height))) = sides.map(|(w, h)| (number(w), number(h))) else {

@@ -31,7 +31,9 @@ impl Polygons {
                 let problem = "it is read twice with `--cells`: name a file";
                 Err(Failure::about("standard input", problem))
             }
-            Source::Builtin(_) => Ok(Self::Built(Box::new(scene_arg::load(args)?.scene))),
+            Source::Builtin(_) => {
+                Ok(Self::Built(Box::new(scene_arg::load(&args.name, args.seed)?.scene)))
+            }
             Source::File(path) if path.is_dir() || crate::saved_file::is_saved(&path) => {
                 let problem = "its tree is built already: give the scene that it was built of";
                 Err(Failure::about(name, problem))

@@ -1,6 +1,6 @@
 //! `binspace build`: a tree in a file.
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::BuildFileArgs;
 use crate::failure::Failure;
 use crate::files::Output;

@@ -12,7 +12,7 @@ use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 use serde::Serialize;
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
 use crate::colours::Colours;

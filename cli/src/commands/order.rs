@@ -7,7 +7,7 @@ use binspace::scene::Scene;
 use binspace::{BspTree, Fragment, Viewpoint};
 use serde::Serialize;
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::OrderArgs;
 use crate::failure::Failure;
 use crate::files::Output;

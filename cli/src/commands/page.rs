@@ -1,6 +1,6 @@
 //! `binspace page`: a scene as a page of its own, to be turned in a browser.
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::PageArgs;
 use crate::backs::note_backs;
 use crate::cull::Cull;

@@ -3,8 +3,8 @@
 use binspace::scene::Scene;
 use binspace::verify::Verification;
 
-use super::Outcome;
 use super::verify::unseen_faults;
+use crate::Outcome;
 use crate::args::{Format, RenderArgs};
 use crate::backs::note_backs;
 use crate::colours::Colours;

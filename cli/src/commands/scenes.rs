@@ -2,7 +2,7 @@
 
 use binspace::scene::Builtin;
 
-use super::Outcome;
+use crate::Outcome;
 use crate::failure::Failure;
 use crate::terminal::{HEAD, say, styled};
 

@@ -7,7 +7,7 @@ use binspace::scene::Scene;
 use binspace::{BspTree, ErrorKind, Heuristic, Preparation, Stats};
 use serde::Serialize;
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::StatsArgs;
 use crate::cells::folder::Folder;
 use crate::failure::Failure;
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     if let Some(path) = cells::folder::named(&args.scene.name) {
         return of_cells(args, path);
     }
-    let Loaded { scene, tree, .. } = scene_arg::load(&args.scene)?;
+    let Loaded { scene, tree, .. } = scene_arg::load(&args.scene.name, args.scene.seed)?;
     if let Some(tree) = tree {
         return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
     }

@@ -5,7 +5,7 @@ use binspace::raster::Comparison;
 use binspace::verify::{Verification, verify, verify_fronts};
 use binspace::view::{Camera, Projection};
 
-use super::Outcome;
+use crate::Outcome;
 use crate::args::VerifyArgs;
 use crate::cull::Cull;
 use crate::failure::Failure;
@@ -142,7 +142,7 @@ mod tests {
     fn parse(command: &str) -> Command {
         // As a shell does with these quotes.
         let words = command.split_whitespace().map(|word| word.replace('\'', ""));
-        Cli::try_parse_from(words).unwrap().command.unwrap()
+        Cli::try_parse_from(words).unwrap().command
     }
 
     #[test]
@@ -180,7 +180,7 @@ mod tests {
         let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7 \
                        --cull back";
         let Command::Verify(args) = parse(command) else { panic!("another command") };
-        let scene = crate::scene_arg::load(&args.scene).unwrap().scene;
+        let scene = crate::scene_arg::load(&args.scene.name, args.scene.seed).unwrap().scene;
         let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
         for view in views {
             let Command::Render(again) = parse(&reproduce(&args, &view)) else {

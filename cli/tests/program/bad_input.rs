@@ -78,7 +78,7 @@ fn usage_errors_say_what_is_wrong() {
         ("stats teapot:1", "from 2 to 790"),
         ("stats newell:5", "one size"),
         ("paint s.obj", "unrecognized subcommand"),
-        ("--out x stats newell", "cannot be used with"),
+        ("--views 3", "unexpected argument"),
     ] {
         let message = folder.run(command).refused();
         assert!(message.contains(problem), "{command}: {message}");

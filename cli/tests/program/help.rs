@@ -3,13 +3,26 @@ use crate::run::Folder;
 #[test]
 fn help_has_examples_and_fits() {
     let folder = Folder::new("help");
-    for command in ["", "build", "order", "verify", "stats", "render", "draw", "page", "report"] {
+    for command in ["", "demo", "order", "verify", "stats", "render", "draw", "page", "build"] {
         let help = folder.run(&format!("{command} --help")).good();
         assert!(help.contains("Examples:\n  binspace"), "{help}");
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
     }
     let version = folder.run("--version").good();
     assert_eq!(version, format!("binspace {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+/// What somebody sees who has just installed the program.
+#[test]
+fn without_arguments_help_is_printed() {
+    let folder = Folder::new("help_alone");
+    let run = folder.run("");
+    assert_eq!(run.err, "");
+    let help = run.good();
+    assert_eq!(help.trim_end(), folder.run("-h").good().trim_end());
+    let commands = help.split("Commands:\n").nth(1).unwrap();
+    assert!(commands.trim_start().starts_with("demo "), "{help}");
+    assert!(folder.files().is_empty());
 }
 
 #[test]

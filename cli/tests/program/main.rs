@@ -3,6 +3,7 @@
 mod bad_input;
 mod cells;
 mod cull;
+mod demo;
 mod draw;
 mod draw_ink;
 mod draw_lines;
@@ -13,7 +14,6 @@ mod draw_seams;
 mod draw_translucent;
 mod help;
 mod in_browser;
-mod lecture;
 #[cfg(unix)]
 mod not_regular;
 mod notes;
@@ -24,12 +24,12 @@ mod pipes;
 mod png_picture;
 mod real_scenes;
 mod render;
-mod report;
-mod report_names;
 mod run;
 mod samples;
 mod saved;
 mod stats;
 mod svg_picture;
-mod tour;
 mod verify;
+
+/// The program that [`run`] runs.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_binspace");

@@ -62,7 +62,6 @@ fn a_pipe_in_place_of_a_scene_is_refused() {
         let mut commands = ["order SCENE --eye=1,2,3", "stats SCENE", "verify SCENE"].to_vec();
         commands.extend(["render SCENE -o p.png", "draw SCENE -o p.svg", "page SCENE -o p.html"]);
         commands.extend(["build SCENE -o t.bsp", "build SCENE --cells 2 -o d"]);
-        commands.push("report SCENE --quick --family cycle --size 8x6 -o r");
         for command in commands {
             let message = refused_soon(&folder, &command.replace("SCENE", name));
             assert!(message.contains(name), "{command}: {message}");

@@ -170,6 +170,7 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
         "--help",
         "-h",
         "--version",
+        "",
         "help",
         "help order",
         "order --help",
@@ -178,8 +179,7 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
         "stats s.obj",
         "stats s.obj --json",
         "verify s.obj --size 8x6 --views 1",
-        "report --quick --family gap --size 8x6",
-        "--size 8x6 --views 1",
+        "demo --size 8x6 --views 1",
     ] {
         let output = folder.command(command).stdout(full()).output().unwrap();
         let message = String::from_utf8_lossy(&output.stderr);

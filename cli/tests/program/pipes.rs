@@ -24,10 +24,6 @@ fn a_scene_on_standard_input_is_that_of_the_file() {
     }
     let stats = Run::new(&folder.pipe("stats -", CROSSING)).good();
     assert!(stats.starts_with("standard input: 3 polygons"), "{stats}");
-    let report = "report - --quick --family cycle --size 8x6 -o r";
-    Run::new(&folder.pipe(report, CROSSING)).good();
-    let report = fs::read_to_string(folder.path("r/report.md")).unwrap();
-    assert!(report.contains("standard input"), "{report}");
     // A file of that name has a folder.
     fs::write(folder.path("-"), CROSSING).unwrap();
     assert!(folder.run("order ./- --eye=3,2,6").good().lines().count() > 3);
@@ -67,9 +63,7 @@ fn bad_scenes_on_standard_input_are_refused() {
         ("order - --eye=0,0,1", "v 0 0 nan\nf 1 1 1\n", "standard input, line 1"),
         ("render - -o p.png", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "standard input: nothing"),
         ("stats -", "f 1 2 3\n", "standard input, line 1, face 0"),
-        ("report - - -o r", CROSSING, "standard input: it can be read only once"),
-        ("report -o -", "", "standard output: it cannot hold several files"),
-        ("--out -", "", "standard output: it cannot hold several files"),
+        ("demo -o -", "", "standard output: it cannot hold several files"),
     ] {
         let message = Run::new(&folder.pipe(command, text)).refused();
         assert!(message.contains(problem), "{command}: {message}");

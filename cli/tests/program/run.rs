@@ -43,7 +43,7 @@ impl Folder {
 
     /// The program, about to run in this folder.
     pub(crate) fn command(&self, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_binspace"));
+        let mut command = Command::new(crate::PROGRAM);
         command.current_dir(&self.0).args(arguments.split_whitespace());
         command.env_remove("CLICOLOR_FORCE");
         command

@@ -79,7 +79,6 @@ fn stats_tell_of_a_tree_from_a_file() {
         table.contains("from a file") && table.lines().all(|line| line.chars().count() <= 80),
         "{table}"
     );
-    folder.run("report s.bsp --quick --family cycle --size 8x6 -o r").good();
 }
 
 #[test]

@@ -1,0 +1,90 @@
+//! The command line.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use binspace_cli::values;
+use binspace_evidence::Family;
+use clap::{Args, Parser, Subcommand};
+
+/// What a course on visibility teaches, and every way to decide visibility, measured and judged
+#[derive(Debug, Parser)]
+#[command(name = "binspace-lab", version, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Lecture(LectureArgs),
+    Report(ReportArgs),
+}
+
+/// Show what a course on visibility teaches, measured and judged, as one page
+///
+/// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
+/// network. All figures come from the run, which takes less than half a minute on two processors.
+#[derive(Args, Debug)]
+#[command(after_help = LECTURE)]
+pub(crate) struct LectureArgs {
+    /// Folder to write index.html into; created if it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "lecture")]
+    pub(crate) output: PathBuf,
+}
+
+/// Measure every way to decide visibility: speed against error
+///
+/// Trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and depth
+/// buffers paint families of scenes that grow harder step by step, and the scenes that you name.
+/// Each pixel, vertex and piece is compared with exact truth. Writes report.md, plots as SVG, and
+/// the figures as CSV; errors.csv is the same for the same seed on any machine. If the command is
+/// interrupted, the results so far are kept. The exit status is 1 if the exact tree is wrong
+/// anywhere, or is too large to be built.
+#[derive(Args, Debug)]
+#[command(after_help = REPORT)]
+pub(crate) struct ReportArgs {
+    /// OBJ files, - for one on standard input, or built-in scenes to measure as well
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<OsString>,
+    /// Folder to write into; created if it does not exist
+    #[arg(short, long, value_name = "DIR", default_value = "report")]
+    pub(crate) output: PathBuf,
+    /// Fewer steps and smaller pictures: about a tenth of the time
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Seed of the families' scenes and of the random views
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Only this family, without growth; may be repeated
+    ///
+    /// One of angle, gap, offset, scale, sliver, nesting, lattice, boxes, cycle, penetration and
+    /// depth-range.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) family: Vec<Family>,
+    /// Size of the pictures in pixels [default: 640x480; 160x120 if quick]
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub(crate) size: Option<[u32; 2]>,
+}
+
+const LECTURE: &str = "\
+Examples:
+  binspace-lab lecture
+  binspace-lab lecture -o course && xdg-open course/index.html";
+
+const REPORT: &str = "\
+Examples:
+  binspace-lab report
+  binspace-lab report --quick -o quick
+  binspace-lab report scene.obj teapot:16 --seed 7
+  binspace-lab report --family gap --family sliver --size 640x480";
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,23 @@
+//! The program `binspace-lab`: what a course on visibility teaches, and every way to decide
+//! visibility, measured and judged.
+
+mod args;
+mod chart;
+mod lecture;
+mod report;
+
+use std::process::ExitCode;
+
+use binspace_cli::failure::Failure;
+use binspace_cli::{Outcome, program};
+
+use args::{Cli, Command};
+
+fn main() -> ExitCode {
+    program(|cli: &Cli| -> Result<Outcome, Failure> {
+        match &cli.command {
+            Command::Lecture(args) => lecture::run(args),
+            Command::Report(args) => report::run(args),
+        }
+    })
+}
