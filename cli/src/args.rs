@@ -87,8 +87,8 @@ pub(crate) struct BuildFileArgs {
 
 /// Write a scene's fragments in paint order, one JSON object per line
 ///
-/// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the polygon of
-/// the i-th `f` line of the file, counted from 0, in the file's coordinates. Back to front: no
+/// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the i-th
+/// polygon of the file, counted from 0 (in OBJ files, of the i-th `f` line), in the file's coordinates. Back to front: no
 /// fragment hides a later one. With several eyes, the whole order of the first comes first, and
 /// each line begins with `"eye": k`, the number of its eye, counted from 0.
 #[derive(Args, Debug)]

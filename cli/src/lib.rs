@@ -15,6 +15,7 @@ mod examples;
 pub mod failure;
 pub mod files;
 mod format;
+mod formats;
 mod framing;
 mod ink;
 pub mod job;

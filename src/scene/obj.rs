@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use glam::{DVec2, DVec3};
 
 use super::{Attributes, Scene};
+pub use decimals::Decimals;
 use statements::{Place, Problem, Statement, index, read};
 
 impl Scene {
