@@ -16,12 +16,15 @@ use gltf::mesh::Mode;
 use gltf::scene::Transform;
 use gltf::{Accessor, Document, Gltf, Material, Primitive, Semantic};
 
-use super::mesh::{Mesh, Precision, mean};
+use super::mesh::{Colour, Mesh, Precision, mean};
 use crate::failure::Failure;
 use crate::memory;
+use crate::units::count;
 
 /// The bytes before the chunks of a binary file.
 const HEADER: usize = 12;
+/// The problem with files of the first version.
+const FIRST: &str = "it is glTF 1.0; glTF 2.0 is read";
 /// Extensions that change where triangles are, so that a file that requires another is still understood.
 const GEOMETRIC: [&str; 4] = [
     "KHR_draco_mesh_compression",
@@ -87,11 +90,15 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
     if is_binary && length.is_none_or(|length| (length as usize) < HEADER) {
         return Err("its header is cut short".into());
     }
+    if is_binary && is_first_version(bytes) {
+        return Err(FIRST.into());
+    }
     if is_binary && length.is_some_and(|length| length as usize > bytes.len()) {
         return Err("cut short: it says that it is longer".into());
     }
     let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let gltf = Gltf::from_slice_without_validation(json).map_err(|error| match error {
+        _ if is_first_version(bytes) => FIRST.into(),
         gltf::Error::Deserialize(error) => format!("in its JSON: {error}"),
         error => error.to_string(),
     })?;
@@ -122,6 +129,15 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
         }
     });
     invalid.map_or(Ok(gltf), Err)
+}
+
+/// Whether a file is of the first version, in which lists are objects.
+fn is_first_version(bytes: &[u8]) -> bool {
+    if let Some(rest) = bytes.strip_prefix(b"glTF") {
+        return rest.starts_with(&[1, 0, 0, 0]);
+    }
+    let json: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+    json.is_some_and(|json| json["accessors"].is_object())
 }
 
 /// The bytes of all buffers.
@@ -306,7 +322,7 @@ impl<'a> Part<'a> {
     }
 
     /// The colour of a face, given those of its corners.
-    fn face_colour(&self, corners: [Option<[f64; 4]>; 3]) -> Option<[f32; 4]> {
+    fn face_colour(&self, corners: [Option<[f64; 4]>; 3]) -> Option<Colour> {
         let of_corners = mean(corners.into_iter().map(|c| c.map(|c| c.map(|c| c as f32))));
         if of_corners.is_none() && !self.has_material {
             return None;
@@ -422,11 +438,11 @@ impl LeftOut {
 
     fn said(&self) -> Vec<String> {
         let parts = [
-            (self.without_faces, "primitives of points or lines skipped"),
-            (self.textures, "primitives with textures, drawn in their base colour"),
-            (self.rest_poses, "moved by skins or morph targets, drawn at rest"),
+            (self.without_faces, "primitive", " of points or lines skipped"),
+            (self.textures, "primitive", " with a texture, drawn in its base colour"),
+            (self.rest_poses, "instance", " that skins or morph targets move, drawn at rest"),
         ];
-        let found = parts.into_iter().filter(|(count, _)| *count > 0);
-        found.map(|(count, what)| format!("{count} {what}")).collect()
+        let found = parts.into_iter().filter(|part| part.0 > 0);
+        found.map(|(number, what, how)| format!("{}{how}", count(number, what))).collect()
     }
 }

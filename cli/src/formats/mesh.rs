@@ -9,6 +9,9 @@ use binspace::scene::{Material, Scene};
 /// No material: the polygon shows in the default colour.
 const PLAIN: u32 = u32::MAX;
 
+/// Red, green and blue in sRGB, and opacity, from 0 to 1.
+pub(crate) type Colour = [f32; 4];
+
 /// A scene to which a reader adds faces.
 pub(crate) struct Mesh {
     scene: Scene,
@@ -21,17 +24,17 @@ impl Mesh {
         Self { scene: Scene::new(name, up), materials: HashMap::new() }
     }
 
-    /// Adds a face. Its colour is red, green, blue in sRGB and opacity, from 0 to 1.
+    /// Adds a face.
     pub(crate) fn face(
         &mut self,
         corners: impl IntoIterator<Item = DVec3>,
-        colour: Option<[f32; 4]>,
+        colour: Option<Colour>,
     ) {
         let material = colour.map_or(PLAIN, |colour| self.material(colour));
         self.scene.push(corners, material);
     }
 
-    fn material(&mut self, colour: [f32; 4]) -> u32 {
+    fn material(&mut self, colour: Colour) -> u32 {
         // `as` takes NaN as 0.
         let key = colour.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
         *self.materials.entry(key).or_insert_with(|| {
@@ -77,7 +80,7 @@ impl Precision {
 }
 
 /// The mean of colours, if all are there.
-pub(crate) fn mean(colours: impl Iterator<Item = Option<[f32; 4]>>) -> Option<[f32; 4]> {
+pub(crate) fn mean(colours: impl Iterator<Item = Option<Colour>>) -> Option<Colour> {
     let (mut sum, mut count) = ([0.0; 4], 0.0);
     for colour in colours {
         let colour = colour?;

@@ -63,6 +63,8 @@ impl Kind {
             Self::Mesh(MeshKind::Off)
         } else if gltf::is_gltf(beginning) {
             Self::Mesh(MeshKind::Gltf)
+        } else if length == 0 {
+            Self::Other("an empty file")
         } else if let Some(name) = other::name(beginning, length) {
             Self::Other(name)
         } else if is_named_stl && beginning.contains(&0) {

@@ -3,7 +3,7 @@
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 
-use super::mesh::{Mesh, Precision, mean};
+use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
 /// What stands in each vertex line, as the first word of a file says: `OFF` behind these letters.
@@ -85,7 +85,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
 }
 
 /// The corners and the colour in a line.
-fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<[f32; 4]>), String> {
+fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>), String> {
     let mut words = line.words();
     let count: Option<usize> = words.next().and_then(|word| word.parse().ok());
     let count = count.ok_or("expected the number of its corners")?;
@@ -102,7 +102,7 @@ fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<[f32; 4]>
 }
 
 /// A colour of three or four numbers: whole ones up to 255, others up to 1.
-fn colour(words: &[&str]) -> Option<[f32; 4]> {
+fn colour(words: &[&str]) -> Option<Colour> {
     let numbers: Vec<f32> = words.iter().map_while(|word| word.parse().ok()).collect();
     let &[r, g, b, ref rest @ ..] = &numbers[..] else { return None };
     let is_whole = words.iter().all(|word| word.bytes().all(|byte| byte.is_ascii_digit()));

@@ -7,13 +7,16 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::mesh::{Mesh, Precision, mean};
+use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
 /// Whether a file begins as one of these.
 pub(crate) fn is_ply(beginning: &[u8]) -> bool {
     beginning.strip_prefix(b"ply").is_some_and(|rest| rest.trim_ascii_start().len() < rest.len())
 }
+
+const NO_POSITION: &str = "it has no x, y and z";
+const NOT_FINITE: &str = "a coordinate is not a finite number";
 
 /// A vertex or a face: what is known of it.
 #[derive(Default)]
@@ -145,7 +148,7 @@ impl Element {
         Ok(element)
     }
 
-    fn colour(&self) -> Option<[f32; 4]> {
+    fn colour(&self) -> Option<Colour> {
         let [r, g, b, opacity] = self.colour;
         Some([r?, g?, b?, opacity.unwrap_or(1.0)])
     }
@@ -173,6 +176,66 @@ fn short(error: &ParseError) -> String {
     text.lines().next().unwrap_or_default().trim_end_matches('.').chars().take(120).collect()
 }
 
+/// What a file has. Faces may stand before the vertices, so their corners are known only at the end.
+#[derive(Default)]
+struct Contents {
+    vertices: Vec<Vertex>,
+    /// Of all faces.
+    corners: Vec<f64>,
+    /// Where the corners of each face end, and its colour.
+    faces: Vec<(usize, Option<Colour>)>,
+}
+
+struct Vertex {
+    position: DVec3,
+    colour: Option<Colour>,
+}
+
+impl Contents {
+    /// Adds an element. Vertices and faces count.
+    fn add(
+        &mut self,
+        kind: &str,
+        element: Element,
+        precision: &mut Precision,
+    ) -> Result<(), &'static str> {
+        let colour = element.colour();
+        if kind == "vertex" {
+            let mut coordinate = |axis: usize| {
+                let Number(value, is_single) = element.position[axis].ok_or(NO_POSITION)?;
+                let value = if is_single { precision.single(value as f32) } else { Some(value) };
+                value.filter(|value| value.is_finite()).ok_or(NOT_FINITE)
+            };
+            let position = DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
+            self.vertices.push(Vertex { position, colour });
+        } else if kind == "face" {
+            self.corners.extend(element.corners.ok_or("it has no corners")?);
+            self.faces.push((self.corners.len(), colour));
+        }
+        Ok(())
+    }
+
+    fn into_mesh(self, name: &str) -> Result<Mesh, String> {
+        let mut mesh = Mesh::new(name, DVec3::Z);
+        let mut start = 0;
+        for (number, (end, colour)) in self.faces.into_iter().enumerate() {
+            let mut face = Vec::with_capacity(end - start);
+            for &corner in &self.corners[start..end] {
+                let is_index = corner >= 0.0 && corner.fract() == 0.0;
+                let vertex = self.vertices.get(corner as usize).filter(|_| is_index);
+                face.push(vertex.ok_or_else(|| {
+                    let count = self.vertices.len();
+                    format!("face {number} (from 0): {corner} is not one of {count} vertices")
+                })?);
+            }
+            start = end;
+            let colour = colour.or_else(|| mean(face.iter().map(|vertex| vertex.colour)));
+            mesh.face(face.iter().map(|vertex| vertex.position), colour);
+        }
+        Ok(mesh)
+    }
+}
+
 /// Reads a file.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let parser = Parser::<Element>::new();
@@ -182,9 +245,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let mut rest = reader.into_inner();
     let mut lines = Lines::new(rest);
     let mut precision = Precision::default();
-    let mut vertices: Vec<(DVec3, Option<[f32; 4]>)> = Vec::new();
-    // Faces may stand before the vertices: all corners, and where each face ends.
-    let (mut corners, mut faces): (Vec<f64>, Vec<(usize, Option<[f32; 4]>)>) = (vec![], vec![]);
+    let mut contents = Contents::default();
     for definition in header.elements.values() {
         let (kind, count) = (&definition.name, definition.count);
         // A last line may lack its end.
@@ -194,11 +255,11 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
             return Err(format!("it says that it has {count} of `{kind}`, more than fit into it"));
         }
         for number in 0..count {
-            let about = |problem: &str| format!("{kind} {number} (from 0): {problem}");
-            let read = match header.encoding {
+            let what = format!("{kind} {number} (from 0)");
+            let about = |problem: &str| format!("{what}: {problem}");
+            let element = match header.encoding {
                 Encoding::Ascii => {
                     let line = lines.next().ok_or_else(|| about("cut short"))?;
-                    let what = format!("{kind} {number} (from 0)");
                     Element::of_line(line, definition, &mut precision)
                         .map_err(|problem| line.about(&what, &problem))
                 }
@@ -209,49 +270,13 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
                     .read_little_endian_element(&mut rest, definition)
                     .map_err(|error| about(&short(&error))),
             };
-            let element = read?;
-            match &kind[..] {
-                "vertex" => {
-                    let mut coordinate = |axis: usize| match element.position[axis] {
-                        None => Err(about("it has no x, y and z")),
-                        Some(Number(value, true)) => precision
-                            .single(value as f32)
-                            .ok_or_else(|| about("a coordinate is not a finite number")),
-                        Some(Number(value, false)) if value.is_finite() => Ok(value),
-                        Some(_) => Err(about("a coordinate is not a finite number")),
-                    };
-                    let position = DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
-                    vertices.push((position, element.colour()));
-                }
-                "face" => {
-                    let colour = element.colour();
-                    corners.extend(element.corners.ok_or_else(|| about("it has no corners"))?);
-                    faces.push((corners.len(), colour));
-                }
-                _ => {}
-            }
+            contents.add(kind, element?, &mut precision).map_err(about)?;
         }
     }
-    if faces.is_empty() {
-        let problem = if vertices.is_empty() { "it is empty" } else { "it is a cloud of points" };
+    if contents.faces.is_empty() {
+        let has_points = !contents.vertices.is_empty();
+        let problem = if has_points { "it is a cloud of points" } else { "it is empty" };
         return Err(format!("no faces: {problem}"));
     }
-    let mut mesh = Mesh::new(name, DVec3::Z);
-    let mut start = 0;
-    for (number, (end, colour)) in faces.into_iter().enumerate() {
-        let corners = &corners[start..end];
-        start = end;
-        let known = |&corner: &f64| {
-            let vertex =
-                vertices.get(corner as usize).filter(|_| corner >= 0.0 && corner.fract() == 0.0);
-            vertex.ok_or_else(|| {
-                let count = vertices.len();
-                format!("face {number} (from 0): {corner} is not one of {count} vertices")
-            })
-        };
-        let of_face = corners.iter().map(known).collect::<Result<Vec<_>, _>>()?;
-        let colour = colour.or_else(|| mean(of_face.iter().map(|vertex| vertex.1)));
-        mesh.face(of_face.iter().map(|vertex| vertex.0), colour);
-    }
-    Ok(mesh.finish(precision.unit()))
+    Ok(contents.into_mesh(name)?.finish(precision.unit()))
 }

@@ -59,11 +59,10 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
 /// Reads a file of text, with all its solids.
 pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Z), Precision::default());
-    let mut lines = Lines::new(bytes);
     // Corners of the facet; `None` outside of one.
     let mut facet: Option<Vec<DVec3>> = None;
     let mut number = 0;
-    while let Some(line) = lines.next() {
+    for line in Lines::new(bytes) {
         let about = |problem: &str| line.about(&format!("facet {number} (from 0)"), problem);
         let mut words = line.words();
         let word = words.next().unwrap_or_default().to_ascii_lowercase();

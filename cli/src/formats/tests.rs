@@ -339,6 +339,8 @@ fn what_is_wrong_is_named() {
         ),
         (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "it says that it has 9 corners"),
         (MeshKind::Gltf, cut(glb(), 1), "cut short: it says that it is longer"),
+        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "it is glTF 1.0; glTF 2.0 is read"),
+        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "it is glTF 1.0"),
         (MeshKind::Gltf, glb()[..10].to_vec(), "its header is cut short"),
         (
             MeshKind::Gltf,
@@ -446,7 +448,8 @@ fn files_of_other_programs_are_named() {
     ] {
         assert!(matches!(kind(beginning), Kind::Other(found) if found.contains(name)), "{name}");
     }
-    for text in ["", "# a comment\nv 1 2 3\n", "solids\n", "plywood\n", "OFFICE 3\n", "v 0 0 0"] {
+    assert_eq!(kind(b""), Kind::Other("an empty file"));
+    for text in ["# a comment\nv 1 2 3\n", "solids\n", "plywood\n", "OFFICE 3\n", "v 0 0 0"] {
         assert_eq!(kind(text.as_bytes()), Kind::Obj, "{text}");
     }
 }
