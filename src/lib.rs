@@ -141,7 +141,7 @@ pub mod internals {
     #[cfg(feature = "scene")]
     pub use crate::scene::generated::{cuboid, unit_circle};
     #[cfg(feature = "obj")]
-    pub use crate::scene::obj::open_regular;
+    pub use crate::scene::obj::{Decimals, open_regular};
 }
 
 /// The README's examples are tested as they stand.

@@ -6,7 +6,7 @@ mod pictures;
 use std::path::PathBuf;
 
 use binspace::glam::DVec3;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::cull::CullArgs;
 use crate::examples;
@@ -32,6 +32,7 @@ pub(crate) enum Command {
     Render(RenderArgs),
     Draw(DrawArgs),
     Page(PageArgs),
+    Export(ExportArgs),
     Build(BuildFileArgs),
     /// List the built-in scenes
     Scenes,
@@ -87,8 +88,8 @@ pub(crate) struct BuildFileArgs {
 
 /// Write a scene's fragments in paint order, one JSON object per line
 ///
-/// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the polygon of
-/// the i-th `f` line of the file, counted from 0, in the file's coordinates. Back to front: no
+/// Each line is `{"polygon": i, "vertices": [[x, y, z], …]}`: a convex fragment of the i-th
+/// polygon of the file, counted from 0 (in OBJ files, of the i-th `f` line), in the file's coordinates. Back to front: no
 /// fragment hides a later one. With several eyes, the whole order of the first comes first, and
 /// each line begins with `"eye": k`, the number of its eye, counted from 0.
 #[derive(Args, Debug)]
@@ -184,6 +185,42 @@ pub(crate) struct PageArgs {
     pub(crate) cull: CullArgs,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
+}
+
+/// Write a tree's fragments as triangles, for other programs
+///
+/// Where a cut ends on the edge of a neighbour, that has a vertex too (the mesh is welded), so closed
+/// bodies stay closed. Each triangle keeps the colour of its polygon, and its number: OBJ files have a
+/// group `polygon_7`, PLY files a property `polygon` of faces, GLB files an attribute `_POLYGON` of
+/// vertices. GLB files have coordinates of 32 bits; the others have all digits.
+#[derive(Args, Debug)]
+#[command(after_help = examples::EXPORT)]
+pub(crate) struct ExportArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// File to write, complete or not at all, such as scene.ply; - for standard output. The materials
+    /// of scene.obj go into scene.mtl
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Format of the file [default: as it is named]
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<ExportFormat>,
+    /// Sort the triangles back to front for this eye
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
+    pub(crate) order: Option<DVec3>,
+    /// Leave out the vertices that keep closed bodies closed
+    #[arg(long)]
+    pub(crate) unwelded: bool,
+    #[command(flatten)]
+    pub(crate) build: BuildArgs,
+}
+
+/// A format of `binspace export`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExportFormat {
+    Obj,
+    Ply,
+    Glb,
 }
 
 #[cfg(test)]

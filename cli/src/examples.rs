@@ -10,6 +10,7 @@ Examples:
   binspace draw scene.obj -o scene.svg       a drawing of it, one path a polygon
   binspace draw part.obj -o part.pdf --lines its visible edges
   binspace page scene.obj -o scene.html      a page to turn it in a browser
+  binspace export scene.obj -o scene.glb     its fragments for other programs
   binspace build scene.obj -o scene.bsp      a tree to be used again, in place of the scene
   binspace build big.obj --cells 16 -o big   a scene larger than memory, cell by cell
 
@@ -83,6 +84,12 @@ Examples:
   binspace draw room.obj -o room.svg --cull back --ids
   binspace draw scene.obj -o scene.svg --min-size 0.5 --json
   binspace draw - -o - < scene.obj | gzip > scene.svgz";
+
+pub(crate) const EXPORT: &str = "\
+Examples:
+  binspace export scene.obj -o scene.ply
+  binspace export glass.glb -o sorted.glb --order=9,-4,3
+  binspace export random:200 -o - --format ply > pieces.ply";
 
 pub(crate) const PAGE: &str = "\
 Examples:

@@ -15,6 +15,7 @@ mod examples;
 pub mod failure;
 pub mod files;
 mod format;
+mod formats;
 mod framing;
 mod ink;
 pub mod job;
@@ -97,6 +98,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Command::Render(args) => commands::render::run(args),
         Command::Draw(args) => commands::draw::run(args),
         Command::Page(args) => commands::page::run(args),
+        Command::Export(args) => commands::export::run(args),
         Command::Build(args) => commands::build::run(args),
         Command::Scenes => commands::scenes::run(),
     }

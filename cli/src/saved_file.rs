@@ -19,19 +19,6 @@ pub(crate) fn write(mut out: &mut dyn Write, scene: &Scene, tree: &BspTree) -> i
     scene.write(&mut out)
 }
 
-/// Whether a file is one of these, by its name or else by how it begins.
-pub(crate) fn is_saved(path: &Path) -> bool {
-    let is_named = path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("bsp"));
-    // Only of regular files the beginning can be read twice.
-    let begins = || {
-        path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-        let mut bytes = [0; BEGINNING.len()];
-        std::fs::File::open(path).ok()?.read_exact(&mut bytes).ok()?;
-        Some(bytes == BEGINNING)
-    };
-    is_named || begins() == Some(true)
-}
-
 /// Reads a file by its name.
 pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     let name = path.display().to_string();

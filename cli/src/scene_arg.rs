@@ -1,13 +1,17 @@
 //! Loads a scene by its name on the command line: a file, standard input or a built-in scene.
 
 use std::ffi::OsStr;
+use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use binspace::BspTree;
+use binspace::internals::open_regular;
 use binspace::scene::{Builtin, BuiltinSpec, Scene};
 
 use crate::failure::Failure;
 use crate::files::STANDARD;
+use crate::formats::{self, Kind, MeshKind};
 use crate::memory;
 use crate::progress::Progress;
 use crate::saved_file;
@@ -44,6 +48,9 @@ fn stored_name(scene: &Scene) -> String {
     name.map_or_else(|| scene.name().into(), OsStr::to_string_lossy).into_owned()
 }
 
+/// How names of files end.
+const ENDINGS: [&str; 7] = ["obj", "bsp", "stl", "ply", "off", "glb", "gltf"];
+
 /// The scene that a name means.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Source {
@@ -68,26 +75,63 @@ pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
                            of `binspace build --cells`, all else the scene that it was built of";
             Err(Failure::about(name, problem))
         }
-        Source::File(path) if saved_file::is_saved(&path) => {
-            Ok(Loaded::saved(&name, saved_file::open(&path)?))
-        }
-        Source::File(path) => {
-            if let Ok(file) = path.metadata() {
-                memory::check_file(&name, file.len())?;
-            }
-            let progress = Progress::spinner(format!("reading {name}"));
-            let (scene, mut report) =
-                Scene::read_obj(&path).map_err(|error| Failure::Message(error.to_string()))?;
-            drop(progress);
-            memory::check(&name, scene.len())?;
-            // They are among the faces without area, which are named once the tree is built.
-            report.degenerate_faces = 0;
-            if !report.is_clean() {
-                note(&format!("{name}: {report}"));
-            }
-            Ok(scene.into())
-        }
+        Source::File(path) => match kind(&path) {
+            (Kind::Saved, _) => Ok(Loaded::saved(&name, saved_file::open(&path)?)),
+            (Kind::Other(kind), _) => Err(formats::refused(&name, kind)),
+            (Kind::Mesh(kind), _) => Ok(mesh(kind, &path)?.into()),
+            (Kind::Obj, beginning) => Ok(obj(&path, &beginning)?.into()),
+        },
     }
+}
+
+/// The kind of a file, and how it begins. What is not a regular file can be read only once, and is
+/// taken for an OBJ file.
+pub(crate) fn kind(path: &Path) -> (Kind, Vec<u8>) {
+    if path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("bsp")) {
+        return (Kind::Saved, Vec::new());
+    }
+    let beginning = || {
+        let length = path.metadata().ok().filter(fs::Metadata::is_file)?.len();
+        let mut bytes = Vec::new();
+        let file = fs::File::open(path).ok()?;
+        file.take(formats::BEGINNING as u64).read_to_end(&mut bytes).ok()?;
+        Some((Kind::of(&bytes, length, path), bytes))
+    };
+    beginning().unwrap_or((Kind::Obj, Vec::new()))
+}
+
+/// Reads a file that is neither an OBJ file nor one of `binspace build`.
+fn mesh(kind: MeshKind, path: &Path) -> Result<Scene, Failure> {
+    let name = path.display().to_string();
+    let unreadable = |error| Failure::about(&name, format!("cannot be read: {error}"));
+    let mut file = open_regular(path).map_err(unreadable)?;
+    memory::check_file(&name, file.metadata().map_err(unreadable)?.len())?;
+    let progress = Progress::spinner(format!("reading {name}"));
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(unreadable)?;
+    let scene = kind.read(&name, &bytes, path.parent())?;
+    drop(progress);
+    memory::check(&name, scene.len())?;
+    Ok(scene)
+}
+
+fn obj(path: &Path, beginning: &[u8]) -> Result<Scene, Failure> {
+    let name = path.display().to_string();
+    if let Ok(file) = path.metadata() {
+        memory::check_file(&name, file.len())?;
+    }
+    let progress = Progress::spinner(format!("reading {name}"));
+    let read = Scene::read_obj(path);
+    let (scene, mut report) =
+        read.map_err(|error| formats::not_obj(&name, beginning, error.to_string()))?;
+    drop(progress);
+    memory::check(&name, scene.len())?;
+    // They are among the faces without area, which are named once the tree is built.
+    report.degenerate_faces = 0;
+    if !report.is_clean() {
+        note(&format!("{name}: {report}"));
+    }
+    Ok(scene)
 }
 
 pub(crate) fn source(name: &OsStr) -> Result<Source, Failure> {
@@ -98,7 +142,7 @@ pub(crate) fn source(name: &OsStr) -> Result<Source, Failure> {
     let file = || Ok(Source::File(path.to_owned()));
     let is_named = path
         .extension()
-        .is_some_and(|ext| ["obj", "bsp"].iter().any(|known| ext.eq_ignore_ascii_case(known)));
+        .is_some_and(|ext| ENDINGS.iter().any(|known| ext.eq_ignore_ascii_case(known)));
     let Some(text) = name.to_str().filter(|_| !is_named) else {
         return file();
     };

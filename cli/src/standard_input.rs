@@ -1,10 +1,12 @@
 //! A scene on standard input.
 
 use std::io::{self, IsTerminal, Read};
+use std::path::Path;
 
 use binspace::scene::Scene;
 
 use crate::failure::Failure;
+use crate::formats::{self, Kind};
 use crate::memory;
 use crate::progress::Progress;
 use crate::saved_file;
@@ -16,18 +18,26 @@ const NAME: &str = "standard input";
 /// How many bytes are asked for at a time.
 const CHUNK: usize = 1 << 20;
 
-/// Reads an OBJ file, or one of `binspace build`, from standard input, and notes what was left out.
+/// Reads a file of any kind from standard input, and notes what was left out.
 pub(crate) fn scene() -> Result<Loaded, Failure> {
     if io::stdin().is_terminal() {
-        note("reading an OBJ file from the terminal, up to an end of file (Ctrl-D)");
+        note("reading a scene from the terminal, up to an end of file (Ctrl-D)");
     }
     let progress = Progress::spinner(format!("reading {NAME}"));
     let bytes = bytes()?;
-    if bytes.starts_with(saved_file::BEGINNING) {
-        return Ok(Loaded::saved(NAME, saved_file::read(NAME, &bytes[..])?));
+    let beginning = &bytes[..bytes.len().min(formats::BEGINNING)];
+    match Kind::of(beginning, bytes.len() as u64, Path::new("")) {
+        Kind::Saved => return Ok(Loaded::saved(NAME, saved_file::read(NAME, &bytes[..])?)),
+        Kind::Other(kind) => return Err(formats::refused(NAME, kind)),
+        Kind::Mesh(kind) => {
+            let scene = kind.read(NAME, &bytes, None)?;
+            memory::check(NAME, scene.len())?;
+            return Ok(scene.into());
+        }
+        Kind::Obj => {}
     }
     let (scene, mut report) = Scene::from_obj(NAME, &bytes, |_| None)
-        .map_err(|error| Failure::Message(error.to_string()))?;
+        .map_err(|error| formats::not_obj(NAME, beginning, error.to_string()))?;
     drop(progress);
     memory::check(NAME, scene.len())?;
     let mut libraries = std::mem::take(&mut report.missing_libraries);

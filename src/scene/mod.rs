@@ -169,6 +169,12 @@ impl Scene {
         self
     }
 
+    /// Sets the length that [`precision`](Self::precision) returns, of 0 or more.
+    #[must_use]
+    pub fn with_precision(self, precision: f64) -> Self {
+        Self { precision, ..self }
+    }
+
     /// Gives it another name.
     #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
@@ -211,7 +217,7 @@ impl Scene {
     /// How far corners may be off the planes that they were meant to be on, a length: of a scene
     /// from an OBJ file, four units in the last decimal that its coordinates need. (Corners off by half a
     /// unit each way put one off the plane of three others by three and a half, in a parallelogram.) 0 in
-    /// generated scenes.
+    /// generated scenes, unless [`with_precision`](Self::with_precision) sets it.
     pub fn precision(&self) -> f64 {
         self.precision
     }

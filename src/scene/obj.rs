@@ -14,6 +14,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Attributes, Scene};
 use crate::error::{Error, FileFault, Kind, Problem};
+pub use decimals::Decimals;
 use statements::{Statement, index, read};
 
 impl Scene {

@@ -10,11 +10,12 @@ use crate::values;
 
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
-    /// An OBJ file, a file of `binspace build`, - for either on standard input, or a built-in scene
-    /// such as sphere:100000; for render, order and stats also a folder of `binspace build --cells`
+    /// A file (OBJ, STL, PLY, OFF, glTF or of `binspace build`), - for one on standard input, or a built-in
+    /// scene such as sphere:100000; for render, order and stats also a folder of `binspace build --cells`
     ///
-    /// A name that ends in .obj or .bsp or contains a path separator is a file. Any other is a built-in
-    /// scene, with an optional size after a colon, or, if there is none of that name, a file.
+    /// A name that ends as such files do (.obj, .stl, .bsp …) or contains a path separator is a file. Any
+    /// other is a built-in scene, with an optional size after a colon, or, if there is none of that name,
+    /// a file. The kind of a file is found out from what is in it.
     /// `binspace scenes` lists the built-in scenes.
     #[arg(value_name = "SCENE")]
     pub(crate) name: OsString,
@@ -25,7 +26,8 @@ pub(crate) struct SceneArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct UpArgs {
-    /// Direction that points up: x, y, z, or X,Y,Z [default: the scene's up; y for files]
+    /// Direction that points up: x, y, z, or X,Y,Z [default: the scene's up; of files y, but z for
+    /// STL, PLY and OFF]
     #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
     pub(crate) up: Option<DVec3>,
 }
@@ -43,8 +45,8 @@ pub(crate) struct BuildArgs {
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct LimitArgs {
     /// Coplanar tolerance, a length: points this near to a plane count as on it, and layers up to
-    /// twice as far apart may be exchanged [default: four units in the last decimal that an OBJ file's
-    /// coordinates need, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
+    /// twice as far apart may be exchanged [default: four units in the last decimal that a file's
+    /// coordinates need, or four steps of binary ones, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
     /// bounding box; at most 1/256 of the extent is used]
     #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,

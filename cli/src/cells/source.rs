@@ -1,7 +1,8 @@
 //! Where the polygons of a scene come from that need not fit into memory.
 
-use std::io;
+use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::{io, ptr};
 
 use binspace::glam::DVec3;
 use binspace::partition::Extent;
@@ -9,17 +10,21 @@ use binspace::scene::{ObjStream, Scene};
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
+use crate::formats::{self, Kind};
 use crate::progress::Progress;
 use crate::scene_arg::{self, Source};
 use crate::terminal::note;
 
+/// The problem with a tree in place of a scene.
+const BUILT: &str = "its tree is built already: give the scene that it was built of";
 /// So many corners choose the planes between cells, at most. More: memory; fewer: cells differ in size.
 const SAMPLES: usize = 1 << 20;
 
 /// Polygons that are read one after the other.
 pub(crate) enum Polygons {
     File(Box<ObjStream>),
-    Built(Box<Scene>),
+    /// A scene that is in memory: a built-in one, or one from a file other than OBJ.
+    Whole(Box<Scene>),
 }
 
 impl Polygons {
@@ -32,16 +37,22 @@ impl Polygons {
                 Err(Failure::about("standard input", problem))
             }
             Source::Builtin(_) => {
-                Ok(Self::Built(Box::new(scene_arg::load(&args.name, args.seed)?.scene)))
+                Ok(Self::Whole(Box::new(scene_arg::load(&args.name, args.seed)?.scene)))
             }
-            Source::File(path) if path.is_dir() || crate::saved_file::is_saved(&path) => {
-                let problem = "its tree is built already: give the scene that it was built of";
-                Err(Failure::about(name, problem))
-            }
+            Source::File(path) if path.is_dir() => Err(Failure::about(name, BUILT)),
             Source::File(path) => {
+                let (kind, beginning) = scene_arg::kind(&path);
+                match kind {
+                    Kind::Obj => {}
+                    Kind::Saved => return Err(Failure::about(name, BUILT)),
+                    _ => {
+                        let scene = scene_arg::load(&args.name, args.seed)?.scene;
+                        return Ok(Self::Whole(Box::new(scene)));
+                    }
+                }
                 let _progress = Progress::spinner(format!("reading {name}"));
-                let file =
-                    ObjStream::open(&path).map_err(|error| Failure::Message(error.to_string()))?;
+                let file = ObjStream::open(&path)
+                    .map_err(|error| formats::not_obj(&name, &beginning, error.to_string()))?;
                 if !file.report().is_clean() {
                     note(&format!("{name}: {}", file.report()));
                 }
@@ -54,7 +65,7 @@ impl Polygons {
     pub(crate) fn scene(&self) -> Scene {
         match self {
             Self::File(file) => file.scene().clone(),
-            Self::Built(scene) => {
+            Self::Whole(scene) => {
                 let mut empty = Scene::new(scene.name(), scene.up());
                 if let Some((eye, target)) = scene.suggested_view() {
                     empty = empty.with_view(eye, target);
@@ -70,7 +81,7 @@ impl Polygons {
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::File(file) => file.polygons(),
-            Self::Built(scene) => scene.len(),
+            Self::Whole(scene) => scene.len(),
         }
     }
 
@@ -78,7 +89,7 @@ impl Polygons {
     pub(crate) fn extent_and_samples(&self) -> (Extent, Vec<DVec3>) {
         match self {
             Self::File(file) => extent_and_samples(file.corners(), file.scene().precision()),
-            Self::Built(scene) => {
+            Self::Whole(scene) => {
                 let corners = scene.polygons().flat_map(|polygon| polygon.into_iter().copied());
                 extent_and_samples(corners, scene.precision())
             }
@@ -108,19 +119,15 @@ impl Polygons {
                     ControlFlow::Break(error) => Err(unwritable(error)),
                 }
             }
-            Self::Built(scene) => {
-                let known = |number: usize| {
-                    let material = scene.material(number);
-                    scene.materials().iter().position(|other| std::ptr::eq(other, material))
-                };
+            Self::Whole(scene) => {
+                let numbers = scene.materials().iter().zip(0..);
+                let numbers: HashMap<_, u32> =
+                    numbers.map(|(material, number)| (ptr::from_ref(material), number)).collect();
+                let known = |number: usize| numbers.get(&ptr::from_ref(scene.material(number)));
                 let mut polygons = scene.polygons().enumerate();
                 polygons
                     .try_for_each(|(number, polygon)| {
-                        visit(
-                            number,
-                            polygon.points(),
-                            known(number).map_or(u32::MAX, |m| m as u32),
-                        )
+                        visit(number, polygon.points(), known(number).copied().unwrap_or(u32::MAX))
                     })
                     .map_err(unwritable)
             }

@@ -3,6 +3,7 @@
 pub(crate) mod build;
 pub(crate) mod demo;
 pub(crate) mod draw;
+pub(crate) mod export;
 pub(crate) mod order;
 pub(crate) mod page;
 pub(crate) mod render;

@@ -3,7 +3,9 @@ use crate::run::Folder;
 #[test]
 fn help_has_examples_and_fits() {
     let folder = Folder::new("help");
-    for command in ["", "demo", "order", "verify", "stats", "render", "draw", "page", "build"] {
+    for command in
+        ["", "demo", "order", "verify", "stats", "render", "draw", "page", "export", "build"]
+    {
         let help = folder.run(&format!("{command} --help")).good();
         assert!(help.contains("Examples:\n  binspace"), "{help}");
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");

@@ -12,6 +12,8 @@ mod draw_png;
 mod draw_refused;
 mod draw_seams;
 mod draw_translucent;
+mod export;
+mod formats;
 mod help;
 mod in_browser;
 #[cfg(unix)]

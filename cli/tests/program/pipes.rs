@@ -59,7 +59,7 @@ fn material_libraries_beside_standard_input_are_not_read_and_that_is_said() {
 fn bad_scenes_on_standard_input_are_refused() {
     let folder = Folder::new("pipes_bad");
     for (command, text, problem) in [
-        ("order - --eye=0,0,1", "", "standard input: no faces"),
+        ("order - --eye=0,0,1", "", "standard input: this is an empty file"),
         ("order - --eye=0,0,1", "v 0 0 nan\nf 1 1 1\n", "standard input, line 1"),
         ("render - -o p.png", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "standard input: nothing"),
         ("stats -", "f 1 2 3\n", "standard input, line 1, face 0"),

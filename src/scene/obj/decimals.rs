@@ -31,7 +31,7 @@ const DIGITS_OF_STRAYS: i32 = 3;
 /// off there do no harm, as the longest numbers decide. Only numbers far longer than nearly all
 /// others do not: see [`Digits::without_noise`] and [`Decimals::counted`].
 #[derive(Debug, Default)]
-pub(super) struct Decimals {
+pub struct Decimals {
     numbers: usize,
     /// How many numbers have such digits; zeros have none.
     seen: BTreeMap<Digits, usize>,
@@ -95,7 +95,7 @@ impl Digits {
 
 impl Decimals {
     /// Notes a number, which is finite, as it is written and as it is read.
-    pub(super) fn see(&mut self, number: &str, value: f64) {
+    pub fn see(&mut self, number: &str, value: f64) {
         self.numbers += 1;
         self.largest = self.largest.max(value.abs());
         let Some(digits) = Digits::of(number) else { return };
@@ -113,7 +113,7 @@ impl Decimals {
 
     /// One unit in the last decimal of the largest numbers; 0 if no number was seen. Of numbers that were
     /// `f32`, and are written with more digits than these have, a step of the largest.
-    pub(super) fn unit(&self) -> f64 {
+    pub fn unit(&self) -> f64 {
         let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
         let step = if is_f32 { f64::from(f32::EPSILON) * self.largest } else { 0.0 };
         step.max(self.decimal())

@@ -1,0 +1,448 @@
+//! glTF 2.0 files: triangles of meshes in a tree of nodes, with their base colours. Up is y.
+
+use std::io;
+use std::path::{Component, Path};
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use binspace::glam::{DMat4, DQuat, DVec3, Vec4};
+use binspace::internals::open_regular;
+use binspace::scene::Scene;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::buffer::Source;
+use gltf::json::validation::{Checked, Error as Invalid, Validate};
+use gltf::material::AlphaMode;
+use gltf::mesh::Mode;
+use gltf::scene::Transform;
+use gltf::{Accessor, Document, Gltf, Material, Primitive, Semantic};
+
+use super::mesh::{Colour, Mesh, Precision, mean};
+use crate::failure::Failure;
+use crate::memory;
+use crate::units::count;
+
+/// The bytes before the chunks of a binary file.
+const HEADER: usize = 12;
+/// The problem with files of the first version.
+const FIRST: &str = "it is glTF 1.0; glTF 2.0 is read";
+/// Extensions that change where triangles are, so that a file that requires another is still understood.
+const GEOMETRIC: [&str; 4] = [
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
+];
+
+/// Whether a file begins as one of these.
+pub(crate) fn is_gltf(beginning: &[u8]) -> bool {
+    let text = beginning.strip_prefix(b"\xef\xbb\xbf").unwrap_or(beginning).trim_ascii_start();
+    let names = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
+    beginning.starts_with(b"glTF") || text.starts_with(b"{") && names(b"\"asset\"")
+}
+
+/// What was read, and what was left out.
+pub(crate) struct Read {
+    pub(crate) scene: Scene,
+    pub(crate) left_out: Vec<String>,
+}
+
+/// Reads a file. Its buffers, if they are files of their own, are in `folder`.
+pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Read, Failure> {
+    let about = |problem: String| Failure::about(name, problem);
+    let gltf = parsed(bytes).map_err(about)?;
+    let buffers = buffers(name, &gltf, folder)?;
+    let instances = instances(&gltf.document).map_err(about)?;
+    let mut triangles = 0_usize;
+    let mut left_out = LeftOut::default();
+    let mut parts = Vec::new();
+    for (node, matrix) in &instances {
+        let Some(mesh) = node.mesh() else { continue };
+        for primitive in mesh.primitives() {
+            let place = format!("mesh {}, primitive {} (from 0)", mesh.index(), primitive.index());
+            let about = |problem| Failure::about(name, format!("{place}: {problem}"));
+            let part = Part::of(&primitive, &buffers).map_err(about)?;
+            left_out.note(&primitive, part.is_none());
+            if let Some(part) = part {
+                triangles = triangles.saturating_add(part.triangles());
+                parts.push((part, *matrix, place));
+            }
+        }
+        left_out.rest_poses += usize::from(node.skin().is_some());
+    }
+    // Meshes may be in many places, so there may be far more triangles than bytes.
+    memory::check(name, triangles)?;
+    let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Y), Precision::default());
+    for (part, matrix, place) in &parts {
+        part.add_to(&mut mesh, *matrix, &mut precision)
+            .map_err(|problem| Failure::about(name, format!("{place}: {problem}")))?;
+    }
+    if triangles == 0 {
+        return Err(Failure::about(name, "no triangles in its scene"));
+    }
+    Ok(Read { scene: mesh.finish(precision.unit()), left_out: left_out.said() })
+}
+
+/// The document, in which indices lead somewhere.
+fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
+    let is_binary = bytes.starts_with(b"glTF");
+    // The crate subtracts the length of the header from this.
+    let length = bytes.get(8..HEADER).map(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]));
+    if is_binary && length.is_none_or(|length| (length as usize) < HEADER) {
+        return Err("its header is cut short".into());
+    }
+    if is_binary && is_first_version(bytes) {
+        return Err(FIRST.into());
+    }
+    if is_binary && length.is_some_and(|length| length as usize > bytes.len()) {
+        return Err("cut short: it says that it is longer".into());
+    }
+    let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let gltf = Gltf::from_slice_without_validation(json).map_err(|error| match error {
+        _ if is_first_version(bytes) => FIRST.into(),
+        gltf::Error::Deserialize(error) => format!("in its JSON: {error}"),
+        error => error.to_string(),
+    })?;
+    let root = gltf.as_json();
+    if let Some(name) = root.extensions_required.iter().find(|name| GEOMETRIC.contains(&&name[..]))
+    {
+        return Err(format!("it needs the extension {name}, which is not supported"));
+    }
+    // The crate takes for granted that these lead somewhere.
+    let positions = Checked::Valid(Semantic::Positions);
+    for (number, mesh) in root.meshes.iter().enumerate() {
+        let mut accessors = mesh.primitives.iter().filter_map(|p| p.attributes.get(&positions));
+        if accessors.any(|accessor| accessor.value() >= root.accessors.len()) {
+            return Err(format!("mesh {number} (from 0): it has positions in no accessor"));
+        }
+    }
+    let mut invalid = None;
+    root.validate(root, gltf::json::Path::new, &mut |path, error| {
+        let path = path().to_string();
+        // Extensions for looks, and the bounds of positions, are not used.
+        let is_unused = match error {
+            Invalid::Unsupported => true,
+            Invalid::Missing => path.ends_with(".min") || path.ends_with(".max"),
+            _ => false,
+        };
+        if !is_unused && invalid.is_none() {
+            invalid = Some(format!("`{path}`: {}", error.to_string().to_lowercase()));
+        }
+    });
+    invalid.map_or(Ok(gltf), Err)
+}
+
+/// Whether a file is of the first version, in which lists are objects.
+fn is_first_version(bytes: &[u8]) -> bool {
+    if let Some(rest) = bytes.strip_prefix(b"glTF") {
+        return rest.starts_with(&[1, 0, 0, 0]);
+    }
+    let json: Option<serde_json::Value> = serde_json::from_slice(bytes).ok();
+    json.is_some_and(|json| json["accessors"].is_object())
+}
+
+/// The bytes of all buffers.
+fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Vec<u8>>, Failure> {
+    let mut all = Vec::new();
+    for buffer in gltf.buffers() {
+        let about = |problem: String| {
+            Failure::about(name, format!("buffer {} (from 0): {problem}", buffer.index()))
+        };
+        let bytes = match buffer.source() {
+            Source::Bin => gltf.blob.clone().ok_or_else(|| about("it has no bytes".into()))?,
+            Source::Uri(uri) => match uri.strip_prefix("data:") {
+                Some(data) => {
+                    let text = data.split_once(";base64,").map(|(_, text)| text);
+                    let bytes = text.and_then(|text| STANDARD.decode(text).ok());
+                    bytes.ok_or_else(|| about("its data are not in base64".into()))?
+                }
+                None => {
+                    beside(uri, folder).map_err(|problem| about(format!("{uri}: {problem}")))?
+                }
+            },
+        };
+        if bytes.len() < buffer.length() {
+            let (says, has) = (buffer.length(), bytes.len());
+            return Err(about(format!("it says that it has {says} bytes, and has {has}")));
+        }
+        all.push(bytes);
+    }
+    Ok(all)
+}
+
+/// A file in a folder, or in a folder in that.
+fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+    let path = urlencoding::decode(uri).map_err(|error| error.to_string())?;
+    let path = Path::new(&*path);
+    if !path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err("it is outside of the file's folder, and is not read".into());
+    }
+    let folder = folder.ok_or("standard input has no folder: name the file")?;
+    let read = || {
+        let mut file = open_regular(&folder.join(path))?;
+        let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
+        let mut bytes = Vec::new();
+        bytes.try_reserve_exact(length).map_err(|_| io::ErrorKind::OutOfMemory)?;
+        io::Read::read_to_end(&mut file, &mut bytes)?;
+        Ok(bytes)
+    };
+    read().map_err(|error: io::Error| format!("cannot be read: {error}"))
+}
+
+/// The nodes of the scene, with where they are. A node that is not in one place alone is an error: it
+/// might have itself as an ancestor.
+fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
+    let mut is_child = vec![false; document.nodes().len()];
+    document
+        .nodes()
+        .flat_map(|node| node.children())
+        .for_each(|node| is_child[node.index()] = true);
+    let scene = document.default_scene().or_else(|| document.scenes().next());
+    let roots: Vec<_> = match scene {
+        Some(scene) => scene.nodes().collect(),
+        None => document.nodes().filter(|node| !is_child[node.index()]).collect(),
+    };
+    let mut is_placed = vec![false; is_child.len()];
+    let (mut placed, mut stack) = (Vec::new(), Vec::new());
+    stack.extend(roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY)));
+    while let Some((node, parent)) = stack.pop() {
+        if std::mem::replace(&mut is_placed[node.index()], true) {
+            return Err(format!("node {} (from 0): it is in two places", node.index()));
+        }
+        let matrix = parent * local(&node.transform());
+        if !matrix.is_finite() {
+            return Err(format!("node {} (from 0): its matrix is not finite", node.index()));
+        }
+        let first = stack.len();
+        stack.extend(node.children().map(|child| (child, matrix)));
+        stack[first..].reverse();
+        placed.push((node, matrix));
+    }
+    Ok(placed)
+}
+
+fn local(transform: &Transform) -> DMat4 {
+    match *transform {
+        Transform::Matrix { matrix } => {
+            DMat4::from_cols_array_2d(&matrix.map(|c| c.map(f64::from)))
+        }
+        Transform::Decomposed { translation, rotation, scale } => {
+            // Four rounded numbers are not quite of length 1.
+            let rotation = DQuat::from_array(rotation.map(f64::from)).normalize();
+            let [scale, translation] = [scale, translation].map(|v| DVec3::from(v.map(f64::from)));
+            DMat4::from_scale_rotation_translation(scale, rotation, translation)
+        }
+    }
+}
+
+/// The triangles of a primitive.
+struct Part<'a> {
+    positions: Values<'a>,
+    indices: Option<Values<'a>>,
+    colours: Option<Values<'a>>,
+    mode: Mode,
+    /// Linear red, green and blue, and opacity.
+    colour: [f32; 4],
+    /// Whether opacities count.
+    is_blended: bool,
+    has_material: bool,
+}
+
+impl<'a> Part<'a> {
+    /// `None` if it has points or lines.
+    fn of(primitive: &Primitive<'_>, buffers: &'a [Vec<u8>]) -> Result<Option<Self>, String> {
+        let mode = primitive.mode();
+        if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+            return Ok(None);
+        }
+        let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
+        if (positions.data_type(), positions.dimensions()) != (DataType::F32, Dimensions::Vec3) {
+            return Err("its positions are not three numbers of 32 bits".into());
+        }
+        let values = |accessor| Values::of(&accessor, buffers);
+        let material = primitive.material();
+        let mut colour = material.pbr_metallic_roughness().base_color_factor();
+        let is_blended = material.alpha_mode() == AlphaMode::Blend;
+        colour[3] = opacity(&material, colour[3]);
+        Ok(Some(Self {
+            positions: values(positions)?,
+            indices: primitive.indices().map(values).transpose()?,
+            colours: primitive.get(&Semantic::Colors(0)).map(values).transpose()?,
+            mode,
+            colour,
+            is_blended,
+            has_material: material.index().is_some(),
+        }))
+    }
+
+    fn corners(&self) -> usize {
+        self.indices.as_ref().map_or(self.positions.count, |indices| indices.count)
+    }
+
+    fn triangles(&self) -> usize {
+        match self.mode {
+            Mode::Triangles => self.corners() / 3,
+            _ => self.corners().saturating_sub(2),
+        }
+    }
+
+    fn add_to(&self, mesh: &mut Mesh, matrix: DMat4, seen: &mut Precision) -> Result<(), String> {
+        // A mirrored triangle has its corners the other way round.
+        let is_mirrored = matrix.determinant() < 0.0;
+        for number in 0..self.triangles() {
+            let mut corners = match self.mode {
+                Mode::Triangles => [3 * number, 3 * number + 1, 3 * number + 2],
+                Mode::TriangleStrip => [number, number + 1 + number % 2, number + 2 - number % 2],
+                _ => [number + 1, number + 2, 0],
+            };
+            if is_mirrored {
+                corners.swap(1, 2);
+            }
+            let about = |problem| format!("triangle {number} (from 0): {problem}");
+            let mut points = [DVec3::ZERO; 3];
+            let mut colours = [None; 3];
+            for (corner, (point, colour)) in
+                corners.into_iter().zip(points.iter_mut().zip(&mut colours))
+            {
+                let vertex = match &self.indices {
+                    Some(indices) => indices.get(corner).map_or(usize::MAX, |n| n[0] as usize),
+                    None => corner,
+                };
+                let position = self.positions.get(vertex).ok_or_else(|| {
+                    about(format!("{vertex} is not one of {} vertices", self.positions.count))
+                })?;
+                *point = matrix.transform_point3(DVec3::from_slice(&position[..3]));
+                if !point.to_array().iter().all(|&c| seen.single(c as f32).is_some()) {
+                    return Err(about("a coordinate is not a finite number".into()));
+                }
+                *colour = self.colours.as_ref().and_then(|colours| colours.get(vertex));
+            }
+            mesh.face(points, self.face_colour(colours));
+        }
+        Ok(())
+    }
+
+    /// The colour of a face, given those of its corners.
+    fn face_colour(&self, corners: [Option<[f64; 4]>; 3]) -> Option<Colour> {
+        let of_corners = mean(corners.into_iter().map(|c| c.map(|c| c.map(|c| c as f32))));
+        if of_corners.is_none() && !self.has_material {
+            return None;
+        }
+        let mut times = of_corners.unwrap_or([1.0; 4]);
+        if !self.is_blended {
+            times[3] = 1.0;
+        }
+        let [r, g, b, opacity] = (Vec4::from(self.colour) * Vec4::from(times)).to_array();
+        let [r, g, b] = [r, g, b].map(encoded);
+        Some([r, g, b, opacity])
+    }
+}
+
+fn opacity(material: &Material<'_>, opacity: f32) -> f32 {
+    match material.alpha_mode() {
+        AlphaMode::Opaque => 1.0,
+        AlphaMode::Mask => f32::from(opacity >= material.alpha_cutoff().unwrap_or(0.5)),
+        AlphaMode::Blend => opacity,
+    }
+}
+
+/// The sRGB value of an amount of light (IEC 61966-2-1).
+fn encoded(light: f32) -> f32 {
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The values of an accessor, decoded when they are asked for.
+struct Values<'a> {
+    /// From the first on.
+    bytes: &'a [u8],
+    stride: usize,
+    count: usize,
+    dimensions: usize,
+    data_type: DataType,
+}
+
+impl<'a> Values<'a> {
+    fn of(accessor: &Accessor<'_>, buffers: &'a [Vec<u8>]) -> Result<Self, String> {
+        let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
+        if accessor.sparse().is_some() {
+            return Err(about("it is sparse, which is not supported".into()));
+        }
+        let view = accessor.view().ok_or_else(|| about("it has no buffer view".into()))?;
+        let (count, size) = (accessor.count(), accessor.size());
+        let stride = view.stride().unwrap_or(size).max(size);
+        let start = view.offset().checked_add(accessor.offset());
+        let end = view.offset().checked_add(view.length());
+        let buffer = &buffers[view.buffer().index()];
+        let bytes = start.zip(end).and_then(|(start, end)| buffer.get(start..end));
+        let needed =
+            count.checked_sub(1).map(|last| last.saturating_mul(stride).saturating_add(size));
+        match bytes {
+            Some(bytes) if needed.unwrap_or(0) <= bytes.len() => {
+                let data_type = accessor.data_type();
+                let dimensions = accessor.dimensions().multiplicity();
+                Ok(Self { bytes, stride, count, dimensions, data_type })
+            }
+            _ => Err(about(format!("its {count} values do not fit into its buffer"))),
+        }
+    }
+
+    /// A value, its first four numbers; missing ones are 1, as opacities are. Whole numbers of colours are
+    /// shares of the largest.
+    fn get(&self, index: usize) -> Option<[f64; 4]> {
+        if index >= self.count {
+            return None;
+        }
+        let value = &self.bytes[index * self.stride..];
+        let mut numbers = [1.0; 4];
+        let size = self.data_type.size();
+        for (number, bytes) in
+            numbers.iter_mut().zip(value.chunks_exact(size)).take(self.dimensions)
+        {
+            let full = if self.dimensions > 1 { self.full() } else { 1.0 };
+            *number = match (self.data_type, bytes) {
+                (DataType::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+                (DataType::U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+                (DataType::U16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
+                (DataType::U8, &[a]) => f64::from(a),
+                // Signed numbers are neither indices nor colours.
+                _ => return None,
+            } / full;
+        }
+        Some(numbers)
+    }
+
+    fn full(&self) -> f64 {
+        match self.data_type {
+            DataType::U8 => 255.0,
+            DataType::U16 => 65_535.0,
+            _ => 1.0,
+        }
+    }
+}
+
+/// What is in a file besides triangles and base colours.
+#[derive(Default)]
+struct LeftOut {
+    without_faces: usize,
+    textures: usize,
+    rest_poses: usize,
+}
+
+impl LeftOut {
+    fn note(&mut self, primitive: &Primitive<'_>, has_no_faces: bool) {
+        let material = primitive.material();
+        let texture = material.pbr_metallic_roughness().base_color_texture();
+        self.without_faces += usize::from(has_no_faces);
+        self.textures += usize::from(texture.is_some());
+        self.rest_poses += usize::from(primitive.morph_targets().len() > 0);
+    }
+
+    fn said(&self) -> Vec<String> {
+        let parts = [
+            (self.without_faces, "primitive", " of points or lines skipped"),
+            (self.textures, "primitive", " with a texture, drawn in its base colour"),
+            (self.rest_poses, "instance", " that skins or morph targets move, drawn at rest"),
+        ];
+        let found = parts.into_iter().filter(|part| part.0 > 0);
+        found.map(|(number, what, how)| format!("{}{how}", count(number, what))).collect()
+    }
+}

@@ -1,0 +1,123 @@
+//! The files of scenes besides OBJ, and which kind of file something is.
+
+mod gltf;
+mod mesh;
+mod off;
+mod other;
+mod ply;
+mod stl;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use std::path::Path;
+
+use binspace::scene::Scene;
+
+use crate::failure::Failure;
+use crate::saved_file;
+use crate::terminal::note;
+
+/// So much of a file tells its kind. Smaller: the first line of an OBJ file may be behind a long comment.
+pub(crate) const BEGINNING: usize = 1 << 16;
+/// What is read.
+const READ: &str =
+    "binspace reads OBJ, STL, PLY, OFF and glTF 2.0 files, and those of `binspace build`";
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// One of `binspace build`.
+    Saved,
+    /// Whatever is nothing else.
+    Obj,
+    Mesh(MeshKind),
+    /// A file that is not read, by its name.
+    Other(&'static str),
+}
+
+/// A file that this module reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum MeshKind {
+    Stl,
+    BinaryStl,
+    Ply,
+    Off,
+    Gltf,
+}
+
+impl Kind {
+    /// The kind of a file of `length` bytes, by how it begins; its name counts for binary STL files
+    /// alone, of which nothing but their length is certain.
+    pub(crate) fn of(beginning: &[u8], length: u64, name: &Path) -> Self {
+        let is_named_stl = name.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("stl"));
+        if beginning.starts_with(saved_file::BEGINNING) {
+            Self::Saved
+        } else if stl::is_binary(beginning, length) {
+            Self::Mesh(MeshKind::BinaryStl)
+        } else if stl::is_text(beginning) {
+            Self::Mesh(MeshKind::Stl)
+        } else if ply::is_ply(beginning) {
+            Self::Mesh(MeshKind::Ply)
+        } else if off::is_off(beginning) {
+            Self::Mesh(MeshKind::Off)
+        } else if gltf::is_gltf(beginning) {
+            Self::Mesh(MeshKind::Gltf)
+        } else if length == 0 {
+            Self::Other("an empty file")
+        } else if let Some(name) = other::name(beginning, length) {
+            Self::Other(name)
+        } else if is_named_stl && beginning.contains(&0) {
+            Self::Mesh(MeshKind::BinaryStl)
+        } else {
+            Self::Obj
+        }
+    }
+}
+
+impl MeshKind {
+    /// Reads a file, and notes what was left out. Files that belong to it are in `folder`.
+    pub(crate) fn read(
+        self,
+        name: &str,
+        bytes: &[u8],
+        folder: Option<&Path>,
+    ) -> Result<Scene, Failure> {
+        let read = match self {
+            Self::Stl => stl::text(name, bytes),
+            Self::BinaryStl => stl::binary(name, bytes),
+            Self::Ply => ply::read(name, bytes),
+            Self::Off => off::read(name, bytes),
+            Self::Gltf => {
+                let gltf::Read { scene, left_out } = gltf::read(name, bytes, folder)?;
+                if !left_out.is_empty() {
+                    note(&format!("{name}: {}", left_out.join("; ")));
+                }
+                return Ok(scene);
+            }
+        };
+        let scene = read.map_err(|problem| Failure::about(name, problem))?;
+        if scene.is_empty() {
+            return Err(Failure::about(name, "no faces: it is empty"));
+        }
+        Ok(scene)
+    }
+}
+
+/// The error for a file that is not read.
+pub(crate) fn refused(name: &str, kind: &str) -> Failure {
+    Failure::about(name, format!("this is {kind}; {READ}"))
+}
+
+/// The error of an OBJ file, or that it is none.
+pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure {
+    // Each other byte of Latin letters is 0.
+    let some = beginning.get(2..).unwrap_or_default();
+    let some = &some[..some.len().min(64)];
+    let is_utf_16 = |start: usize| some.iter().skip(start).step_by(2).all(|&byte| byte == 0);
+    if some.len() < 2 || is_utf_16(0) || is_utf_16(1) || other::is_like_obj(beginning) {
+        return Failure::Message(problem);
+    }
+    let what = if beginning.contains(&0) { "binary file" } else { "text" };
+    Failure::about(name, format!("this {what} is of no known kind; {READ}"))
+}

@@ -1,0 +1,86 @@
+//! Files that are not read, by how they begin, so that messages can name them.
+
+/// What begins with these bytes.
+const BEGINNINGS: [(&[u8], &str); 26] = [
+    (b"ISO-10303-21", "a STEP file"),
+    (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
+    (b"\x1f\x8b", "compressed by gzip: unpack it (`gunzip -c FILE | binspace … -`)"),
+    (b"BZh", "compressed by bzip2: unpack it (`bunzip2 -c FILE | binspace … -`)"),
+    (b"\xfd7zXZ\0", "compressed by xz: unpack it (`xz -dc FILE | binspace … -`)"),
+    (b"\x28\xb5\x2f\xfd", "compressed by Zstandard: unpack it (`zstd -dc FILE | binspace … -`)"),
+    (b"Kaydara FBX", "an FBX file"),
+    (b"; FBX", "an FBX file"),
+    (b"BLENDER", "a Blender file"),
+    (b"3D Geometry File Format", "a Rhino file"),
+    (b"PXR-USDC", "a USD file"),
+    (b"#usda", "a USD file"),
+    (b"#VRML", "a VRML file"),
+    (b"#X3D", "an X3D file"),
+    (b"xof ", "a DirectX file"),
+    (b"AC10", "a DWG file"),
+    (b"DBRep_DrawableShape", "a BREP file"),
+    (b"LASF", "a LAS cloud of points"),
+    (b"# .PCD", "a PCD cloud of points"),
+    (b"%PDF", "a PDF file"),
+    (b"%!PS", "a PostScript file"),
+    (b"\x89PNG", "a PNG picture"),
+    (b"\xff\xd8\xff", "a JPEG picture"),
+    (b"GIF8", "a GIF picture"),
+    (b"\xd0\xcf\x11\xe0", "an OLE file, as SolidWorks and 3ds Max write"),
+    (b"\x7fELF", "a program"),
+];
+
+/// What XML with such an element, in small letters, is. The first that is found counts.
+const ELEMENTS: [(&[u8], &str); 5] = [
+    (b"<collada", "a COLLADA file"),
+    (b"<x3d", "an X3D file"),
+    (b"<svg", "an SVG picture"),
+    (b"<amf", "an AMF file"),
+    (b"<html", "a page of HTML, perhaps in place of a download"),
+];
+
+/// The first words of lines of OBJ files.
+const OBJ: [&[u8]; 14] = [
+    b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"g", b"o", b"s", b"mtllib", b"usemtl", b"call",
+    b"curv",
+];
+
+/// What a file of `length` bytes is that is not read, if that is known.
+pub(crate) fn name(beginning: &[u8], length: u64) -> Option<&'static str> {
+    let begins = |&(bytes, _): &(&[u8], &str)| beginning.starts_with(bytes);
+    if let Some((_, name)) = BEGINNINGS.iter().find(|entry| begins(entry)) {
+        return Some(name);
+    }
+    // A chunk with the length of the file.
+    if beginning.starts_with(b"MM")
+        && beginning.get(2..6).is_some_and(|n| {
+            n.iter().rev().fold(0, |sum, &byte| sum << 8 | u64::from(byte)) == length
+        })
+    {
+        return Some("a 3DS file");
+    }
+    let text = beginning.strip_prefix(b"\xef\xbb\xbf").unwrap_or(beginning).trim_ascii_start();
+    if text.starts_with(b"<") {
+        let text = text.to_ascii_lowercase();
+        let has = |element: &[u8]| text.windows(element.len()).any(|part| part == element);
+        let known = ELEMENTS.iter().find(|(element, _)| has(element));
+        return Some(known.map_or("an XML file", |(_, name)| name));
+    }
+    if text.starts_with(b"{") {
+        return Some("a JSON file, but not a glTF file, as it has no `asset`");
+    }
+    let mut lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    if lines.next() == Some(b"0") && lines.next() == Some(b"SECTION") {
+        return Some("a DXF file");
+    }
+    // The first section of lines of 80 letters.
+    (beginning.get(72..80) == Some(b"S      1")).then_some("an IGES file")
+}
+
+/// Whether a line begins as those of OBJ files do.
+pub(crate) fn is_like_obj(beginning: &[u8]) -> bool {
+    let mut lines = beginning.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii_start);
+    lines.any(|line| {
+        line.split(u8::is_ascii_whitespace).next().is_some_and(|word| OBJ.contains(&word))
+    })
+}

@@ -1,0 +1,455 @@
+//! Files written here, read again; and the same files damaged.
+
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use binspace::glam::DVec3;
+use binspace::internals::SplitMix64;
+use binspace::scene::Scene;
+
+use super::{Kind, MeshKind};
+use crate::failure::Failure;
+
+/// Vertices of a tetrahedron, its faces, and a colour of each.
+const VERTICES: [[f32; 3]; 4] =
+    [[0.1, 0.2, 0.3], [4.5, 0.25, -1.0], [1.5, 3.75, 0.125], [1.0, 1.0, 5.5]];
+const FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+const COLOURS: [[u8; 4]; 4] =
+    [[255, 0, 0, 255], [0, 255, 0, 255], [0, 51, 255, 255], [255, 255, 0, 102]];
+
+fn joined(words: impl IntoIterator<Item = impl ToString>) -> String {
+    words.into_iter().map(|word| word.to_string()).collect::<Vec<_>>().join(" ")
+}
+
+fn little(numbers: impl IntoIterator<Item = f32>) -> Vec<u8> {
+    numbers.into_iter().flat_map(f32::to_le_bytes).collect()
+}
+
+/// In two solids, the first of which has one face.
+fn stl_text() -> Vec<u8> {
+    let mut text = "solid\n".to_owned();
+    for (number, face) in FACES.iter().enumerate() {
+        text += "  facet normal 0 0 0\n    outer loop\n";
+        for &corner in face {
+            text += &format!("      vertex {}\n", joined(VERTICES[corner]));
+        }
+        text += "    endloop\n  endfacet\n";
+        if number == 0 {
+            text += "endsolid\nsolid second # with a name\n";
+        }
+    }
+    (text + "endsolid second\n").into()
+}
+
+/// With a header that begins as text does.
+fn stl_binary() -> Vec<u8> {
+    let mut bytes = b"solid".to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend(4u32.to_le_bytes());
+    for face in FACES {
+        bytes.extend(little([0.0; 3]));
+        face.iter().for_each(|&corner| bytes.extend(little(VERTICES[corner])));
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
+
+/// With an element that is unknown, faces before vertices, and colours of faces.
+fn ply(format: &str) -> Vec<u8> {
+    let header = format!(
+        "ply\nformat {format} 1.0\ncomment by hand\nelement extra 2\nproperty list uchar short numbers\n\
+         element face 4\nproperty list uchar int vertex_indices\nproperty uchar red\n\
+         property uchar green\nproperty uchar blue\nproperty uchar alpha\n\
+         element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n\
+         end_header\n"
+    );
+    let mut bytes = header.into_bytes();
+    let (is_text, is_big) = (format == "ascii", format == "binary_big_endian");
+    if is_text {
+        let mut text = "2 7 -8\n0\n".to_owned();
+        for (face, colour) in FACES.iter().zip(COLOURS) {
+            text += &format!("3 {} {}\n", joined(face), joined(colour));
+        }
+        VERTICES.iter().for_each(|&vertex| text += &format!("{} .5\n", joined(vertex)));
+        bytes.extend(text.bytes());
+        return bytes;
+    }
+    let mut push = |mut number: Vec<u8>| {
+        // Numbers are given in little-endian order.
+        if is_big {
+            number.reverse();
+        }
+        bytes.extend(number);
+    };
+    push(vec![2]);
+    push(7i16.to_le_bytes().into());
+    push((-8i16).to_le_bytes().into());
+    push(vec![0]);
+    for (face, colour) in FACES.iter().zip(COLOURS) {
+        push(vec![3]);
+        face.iter().for_each(|&corner| push((corner as i32).to_le_bytes().into()));
+        colour.iter().for_each(|&channel| push(vec![channel]));
+    }
+    for vertex in VERTICES {
+        vertex.iter().chain(&[0.5]).for_each(|number| push(number.to_le_bytes().into()));
+    }
+    bytes
+}
+
+fn off() -> Vec<u8> {
+    let mut text = "OFF # a comment\n\n4 4 6\n".to_owned();
+    VERTICES.iter().for_each(|&vertex| text += &format!("{}\n", joined(vertex)));
+    for (face, [r, g, b, opacity]) in FACES.iter().zip(COLOURS) {
+        // Whole numbers, or shares.
+        let colour = if opacity == 255 {
+            joined([r, g, b])
+        } else {
+            joined([r, g, b, opacity].map(|channel| format!("{:?}", f32::from(channel) / 255.0)))
+        };
+        text += &format!("3 {} {colour}\n", joined(face));
+    }
+    text.into()
+}
+
+/// Light of an sRGB byte, as the colours above need it.
+fn light(byte: u8) -> f64 {
+    let value = f64::from(byte) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The JSON and the buffer: a mesh of a primitive for each face, twice: once in place, once mirrored,
+/// turned and moved.
+fn gltf_parts(uri: &str) -> (String, Vec<u8>) {
+    let mut buffer = little(VERTICES.into_iter().flatten());
+    FACES.iter().flatten().for_each(|&corner| buffer.extend((corner as u16).to_le_bytes()));
+    let (mut materials, mut primitives, mut accessors) = (vec![], vec![], vec![]);
+    accessors.push(
+        r#"{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,-1],"max":[5,4,6]}"#
+            .to_owned(),
+    );
+    for (number, [r, g, b, opacity]) in COLOURS.into_iter().enumerate() {
+        let mode = if opacity < 255 { ",\"alphaMode\":\"BLEND\"" } else { "" };
+        materials.push(format!(
+            r#"{{"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},{}]}}{mode}}}"#,
+            light(r),
+            light(g),
+            light(b),
+            f64::from(opacity) / 255.0
+        ));
+        accessors.push(format!(
+            r#"{{"bufferView":1,"byteOffset":{},"componentType":5123,"count":3,"type":"SCALAR"}}"#,
+            6 * number
+        ));
+        primitives.push(format!(
+            r#"{{"attributes":{{"POSITION":0}},"indices":{},"material":{number}}}"#,
+            number + 1
+        ));
+    }
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],
+        "nodes":[{{"mesh":0}},{{"translation":[10,0,0],"children":[2]}},
+        {{"mesh":0,"rotation":[0,0.70710678,0,0.70710678],"scale":[-2,2,2]}}],
+        "meshes":[{{"primitives":[{}]}}],"materials":[{}],"accessors":[{}],
+        "bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":24}}],
+        "buffers":[{{{uri}"byteLength":{}}}]}}"#,
+        primitives.join(","),
+        materials.join(","),
+        accessors.join(","),
+        buffer.len()
+    );
+    (json, buffer)
+}
+
+fn gltf() -> Vec<u8> {
+    let (_, buffer) = gltf_parts("");
+    let uri =
+        format!(r#""uri":"data:application/octet-stream;base64,{}","#, STANDARD.encode(buffer));
+    gltf_parts(&uri).0.into()
+}
+
+fn glb() -> Vec<u8> {
+    let (json, buffer) = gltf_parts("");
+    let mut json = json.into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let length = 12 + 8 + json.len() + 8 + buffer.len();
+    let mut bytes = b"glTF".to_vec();
+    bytes.extend([2, length as u32, json.len() as u32].iter().flat_map(|n| n.to_le_bytes()));
+    bytes.extend(b"JSON");
+    bytes.extend(json);
+    bytes.extend((buffer.len() as u32).to_le_bytes());
+    bytes.extend(b"BIN\0");
+    bytes.extend(buffer);
+    bytes
+}
+
+/// All files, with what they are and whether coordinates are text.
+fn files() -> Vec<(&'static str, Vec<u8>, MeshKind, bool)> {
+    vec![
+        ("STL as text", stl_text(), MeshKind::Stl, true),
+        ("binary STL", stl_binary(), MeshKind::BinaryStl, false),
+        ("PLY as text", ply("ascii"), MeshKind::Ply, true),
+        ("PLY, big-endian", ply("binary_big_endian"), MeshKind::Ply, false),
+        ("PLY, little-endian", ply("binary_little_endian"), MeshKind::Ply, false),
+        ("OFF", off(), MeshKind::Off, true),
+        ("glTF", gltf(), MeshKind::Gltf, false),
+        ("GLB", glb(), MeshKind::Gltf, false),
+    ]
+}
+
+fn read(kind: MeshKind, bytes: &[u8]) -> Result<Scene, String> {
+    kind.read("the file", bytes, None).map_err(|failure| match failure {
+        Failure::Message(message) => message,
+        other => panic!("{other:?}"),
+    })
+}
+
+#[test]
+fn what_was_written_is_read() {
+    for (what, bytes, kind, is_text) in files() {
+        let found = Kind::of(&bytes, bytes.len() as u64, Path::new("x.obj"));
+        assert_eq!(found, Kind::Mesh(kind), "{what}");
+        let scene = read(kind, &bytes).unwrap();
+        let is_gltf = kind == MeshKind::Gltf;
+        assert_eq!(scene.len(), if is_gltf { 8 } else { 4 }, "{what}");
+        assert_eq!(scene.up(), if is_gltf { DVec3::Y } else { DVec3::Z }, "{what}");
+        for (number, face) in FACES.iter().enumerate() {
+            // As text says it, or as 32 bits have it.
+            let number_of =
+                |c: f32| if is_text { c.to_string().parse().unwrap() } else { f64::from(c) };
+            let corners = face.map(|corner| DVec3::from(VERTICES[corner].map(number_of)));
+            assert_eq!(scene.polygon(number), corners, "{what}");
+            let material = scene.material(number);
+            let colour = match kind {
+                MeshKind::Stl | MeshKind::BinaryStl => [204, 204, 204, 255],
+                _ => COLOURS[number],
+            };
+            let [r, g, b] = material.color;
+            assert_eq!(
+                [r, g, b, material.opacity].map(|c| (c * 255.0).round() as u8),
+                colour,
+                "{what}"
+            );
+            if is_gltf {
+                // A quarter turn about y takes x to -z and z to x; mirrored, the corners change places.
+                let moved = [0, 2, 1].map(|k| {
+                    let [x, y, z] = VERTICES[face[k]].map(f64::from);
+                    DVec3::new(10.0 + 2.0 * z, 2.0 * y, 2.0 * x)
+                });
+                let there = scene.polygon(4 + number);
+                assert!(
+                    there.iter().zip(moved).all(|(a, b)| a.distance(b) < 1e-6),
+                    "{there:?} {moved:?}"
+                );
+            }
+        }
+        // Numbers of three decimals, or a step of 32 bits.
+        let unit =
+            if is_text { 1e-3 } else { f64::from(f32::EPSILON) * if is_gltf { 21.0 } else { 5.5 } };
+        assert!(
+            (scene.precision() / (4.0 * unit) - 1.0).abs() < 1e-6,
+            "{what}: {}",
+            scene.precision()
+        );
+    }
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    let stl = |from: &str, to: &str| text(stl_text()).replacen(from, to, 1).into_bytes();
+    let ply_of = |from: &str, to: &str| text(ply("ascii")).replacen(from, to, 1).into_bytes();
+    let off_of = |from: &str, to: &str| text(off()).replacen(from, to, 1).into_bytes();
+    let gltf_of = |from: &str, to: &str| text(gltf()).replacen(from, to, 1).into_bytes();
+    let cut = |bytes: Vec<u8>, less: usize| bytes[..bytes.len() - less].to_vec();
+    let lying = |count: u32| {
+        let mut bytes = stl_binary();
+        bytes[80..84].copy_from_slice(&count.to_le_bytes());
+        bytes
+    };
+    let with_nan = || {
+        let mut bytes = stl_binary();
+        bytes[84 + 50 + 12..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+        bytes
+    };
+    let cases = [
+        (
+            MeshKind::Stl,
+            stl("vertex 0.1", "vertex nan"),
+            "line 4, facet 0 (from 0): expected `vertex`",
+        ),
+        (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): cut short"),
+        (MeshKind::Stl, stl("outer loop", "inner loop"), "unexpected here"),
+        (MeshKind::BinaryStl, lying(5), "it says that it has 5 triangles, and has 4"),
+        (
+            MeshKind::BinaryStl,
+            lying(u32::MAX),
+            "it says that it has 4294967295 triangles, and has 4",
+        ),
+        (
+            MeshKind::BinaryStl,
+            with_nan(),
+            "triangle 1 (from 0): a coordinate is not a finite number",
+        ),
+        (MeshKind::BinaryStl, vec![0; 20], "its header is cut short"),
+        (
+            MeshKind::Ply,
+            ply_of("vertex 4", "vertex 99999999999"),
+            "it says that it has 99999999999 of `vertex`",
+        ),
+        (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): cut short"),
+        (
+            MeshKind::Ply,
+            ply_of("0.1 0.2", "inf 0.2"),
+            "vertex 0 (from 0): `x`: inf is not a finite number",
+        ),
+        (
+            MeshKind::Ply,
+            ply_of("3 0 2 1", "3 0 2 9"),
+            "face 0 (from 0): 9 is not one of 4 vertices",
+        ),
+        (
+            MeshKind::Ply,
+            ply_of("3 0 2 1", "3 0 2 -1"),
+            "face 0 (from 0): -1 is not one of 4 vertices",
+        ),
+        (MeshKind::Ply, ply_of("3 0 2 1", "99999999999 0 2 1"), "face 0 (from 0): its property"),
+        (
+            MeshKind::Ply,
+            ply_of("property float z\n", ""),
+            "vertex 0 (from 0): it has no x, y and z",
+        ),
+        (MeshKind::Ply, ply_of("end_header", "end_headache"), "in its header: Line"),
+        (
+            MeshKind::Ply,
+            cut(ply("binary_little_endian"), 3),
+            "it says that it has 4 of `vertex`, more than fit into it",
+        ),
+        (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than fit into it"),
+        (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): cut short"),
+        (
+            MeshKind::Off,
+            off_of("0.1 0.2", "0.1 nan"),
+            "line 4, vertex 0 (from 0): expected three finite",
+        ),
+        (
+            MeshKind::Off,
+            off_of("3 0 2 1", "3 0 2 4"),
+            "face 0 (from 0): 4 is not one of 4 vertices",
+        ),
+        (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "it says that it has 9 corners"),
+        (MeshKind::Gltf, cut(glb(), 1), "cut short: it says that it is longer"),
+        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "it is glTF 1.0; glTF 2.0 is read"),
+        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "it is glTF 1.0"),
+        (MeshKind::Gltf, glb()[..10].to_vec(), "its header is cut short"),
+        (
+            MeshKind::Gltf,
+            gltf_of("\"mesh\":0", "\"mesh\":7"),
+            "`nodes[0].mesh`: index out of bounds",
+        ),
+        (
+            MeshKind::Gltf,
+            gltf_of("\"count\":4", "\"count\":99999999999"),
+            "mesh 0, primitive 0 (from 0): accessor 0 (from 0): its 99999999999 values do not fit",
+        ),
+        (
+            MeshKind::Gltf,
+            gltf_of("\"children\":[2]", "\"children\":[1]"),
+            "node 1 (from 0): it is in two places",
+        ),
+        (
+            MeshKind::Gltf,
+            gltf_of("\"byteLength\":72", "\"byteLength\":73"),
+            "buffer 0 (from 0): it says that it has 73 bytes, and has 72",
+        ),
+        (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "in its JSON: "),
+        (
+            MeshKind::Gltf,
+            gltf_of(
+                "\"asset\"",
+                "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"",
+            ),
+            "needs the extension KHR_draco_mesh_compression",
+        ),
+        (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: it is outside"),
+        (
+            MeshKind::Gltf,
+            gltf_parts("\"uri\":\"b.bin\",").0.into(),
+            "b.bin: standard input has no folder",
+        ),
+    ];
+    for (kind, bytes, problem) in cases {
+        let message = read(kind, &bytes).unwrap_err();
+        assert!(
+            message.starts_with("the file: ") && message.contains(problem),
+            "{problem}: {message}"
+        );
+        assert!(message.len() < 300 && !message.contains('\n'), "{message}");
+    }
+}
+
+/// A scene or a message of one line, and never more corners than bytes.
+#[test]
+fn damaged_files_are_read_or_refused() {
+    for (what, good, _, _) in files() {
+        let mut random = SplitMix64::new(good.len() as u64);
+        let mut refused = 0;
+        for _ in 0..300 {
+            let mut bytes = good.clone();
+            for _ in 0..1 + random.next() % 3 {
+                let at = |random: &mut SplitMix64, length: usize| {
+                    (random.next() % length.max(1) as u64) as usize
+                };
+                let (place, other) = (at(&mut random, bytes.len()), at(&mut random, bytes.len()));
+                match random.next() % 7 {
+                    0 => bytes.truncate(place.max(1)),
+                    1 => bytes[place] ^= 1 << (random.next() % 8),
+                    2 => bytes[place] = [0, 255, b'9', b'-', b'\n', b' '][other % 6],
+                    3 => drop(bytes.splice(place..place, *b"99999999999")),
+                    4 => drop(bytes.splice(place..place, *b" nan ")),
+                    5 => drop(bytes.drain(place.min(other)..place.max(other))),
+                    _ => {
+                        let end = (place + 4).min(bytes.len());
+                        bytes[place..end].fill(0xff);
+                    }
+                }
+            }
+            let Kind::Mesh(kind) = Kind::of(&bytes, bytes.len() as u64, Path::new("x.stl")) else {
+                continue;
+            };
+            match read(kind, &bytes) {
+                Ok(scene) => {
+                    let corners: usize =
+                        scene.polygons().map(|polygon| polygon.points().len()).sum();
+                    assert!(corners <= bytes.len(), "{what}");
+                    assert!(scene.polygons().flatten().all(|corner| corner.is_finite()), "{what}");
+                }
+                Err(message) => {
+                    refused += 1;
+                    assert!(message.len() < 400 && !message.contains('\n'), "{what}: {message}");
+                }
+            }
+        }
+        assert!(refused > 100, "{what}: {refused}");
+    }
+}
+
+#[test]
+fn files_of_other_programs_are_named() {
+    let kind = |bytes: &[u8]| Kind::of(bytes, bytes.len() as u64, Path::new("x.obj"));
+    for (beginning, name) in [
+        (&b"ISO-10303-21;\nHEADER;"[..], "STEP"),
+        (b"\n<?xml version=\"1.0\"?>\n<COLLADA xmlns=", "COLLADA"),
+        (b"<!DOCTYPE html><html>", "HTML"),
+        (b"PK\x03\x04\x14", "ZIP"),
+        (b"  0\r\nSECTION\r\n  2\r\n", "DXF"),
+        (b"MM\x08\0\0\0\x02\0", "3DS"),
+        (b"{\"a\": 1}", "JSON"),
+    ] {
+        assert!(matches!(kind(beginning), Kind::Other(found) if found.contains(name)), "{name}");
+    }
+    assert_eq!(kind(b""), Kind::Other("an empty file"));
+    for text in ["# a comment\nv 1 2 3\n", "solids\n", "plywood\n", "OFFICE 3\n", "v 0 0 0"] {
+        assert_eq!(kind(text.as_bytes()), Kind::Obj, "{text}");
+    }
+}
