@@ -8,6 +8,7 @@ mod walk;
 mod winding;
 
 pub use hits::{Hit, Hits};
+pub(crate) use hits::{Pieces, Targets};
 pub use locate::Location;
 pub use ray::Spot;
 pub use region::FragmentsIn;

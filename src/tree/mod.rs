@@ -19,6 +19,7 @@ pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::{Culling, Sides};
 pub use fragment::{Fragment, FragmentArrays, Fragments, Grid};
+pub(crate) use mesh::Source;
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node, Nodes};
 pub use order::{Flow, Order, Ordered, Part};
