@@ -11,7 +11,7 @@
 //! | draw translucent triangles on a GPU | [`BspTree::welded_mesh`], [`mesh::Triangles::write_back_to_front`] | `gpu_transparency` |
 //! | leave out what is out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
 //! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
-//! | order doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
+//! | order, hit or draw doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
@@ -35,7 +35,7 @@
 //! |---|---|---|---|---|---|
 //! | a tree, also that of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
 //! | the tree of a cell of a [`partition`] | yes | yes | yes | an error; so are winding numbers | yes |
-//! | polygons of an [`overlay`] | yes | not seen | not in them: each piece has its vertices | an error | no |
+//! | polygons of an [`overlay`] | yes | rays: yes; regions: not seen | meshes: yes, one of their own; arrays: no | an error | no |
 //! | lines and points of an overlay | yes | not seen | not in them | yes | no |
 //!
 //! # Conventions

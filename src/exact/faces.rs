@@ -162,6 +162,11 @@ impl Faces {
         self.faces[face].start as usize..end
     }
 
+    /// The first face that has no area: an overlay's segments and points follow its polygons.
+    pub(crate) fn first_thin(&self) -> usize {
+        self.len() - self.thin.segments - self.thin.points
+    }
+
     /// How many of a face's corners, from the first on, are part of it: all; two of a segment; one of a
     /// point.
     pub(crate) fn reach(&self, face: u32) -> usize {

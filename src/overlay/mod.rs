@@ -6,6 +6,7 @@ mod replace;
 mod thin;
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use order::InsertionTree;
 pub use order::{Overlaid, OverlayOrder};
@@ -15,8 +16,11 @@ pub use replace::{Marker, Segment, Shape, Shapes};
 use crate::error::{Error, Kind};
 use crate::exact::Faces;
 use crate::faces::{Preparation, Preparer};
-use crate::tree::parts::{Parts, Record, Stored};
-use crate::tree::{BspTree, Fragment};
+use crate::query::{Hits, Pieces, Targets};
+use crate::tree::bounds::Bounds;
+use crate::tree::parts::{Parts, Record};
+use crate::tree::{BspTree, Fragment, Mesh, Source};
+use crate::viewpoint::Ray;
 
 /// What moves and what has no area, in one exact order with a tree that stays as it is: doors,
 /// characters, a cursor; axes, curves, markers and labels.
@@ -157,6 +161,8 @@ pub struct Overlay {
     preparation: Preparation,
     /// For each face that is a segment, its number in its line.
     segments: Vec<u32>,
+    /// The boxes of the pieces, which the first ray makes.
+    bounds: OnceLock<Bounds>,
 }
 
 /// The tree that an overlay was made for.
@@ -192,6 +198,7 @@ impl Overlay {
             insertions: InsertionTree::new(tree.len()),
             preparation: Preparation::default(),
             segments: vec![],
+            bounds: OnceLock::new(),
         }
     }
 
@@ -202,6 +209,7 @@ impl Overlay {
         self.insertions.clear(self.base.fragments);
         self.preparation = Preparation::default();
         self.segments.clear();
+        self.bounds.take();
     }
 
     /// How many pieces there are.
@@ -221,8 +229,104 @@ impl Overlay {
     /// What is stored of a piece.
     fn stored(&self, number: u32) -> Fragment<'_> {
         let record = number as usize - self.base.fragments;
-        let Self { faces, pieces: Parts { records, vertices, positions, .. }, .. } = self;
-        Fragment::new(faces, Stored { records, vertices, positions }, record, number)
+        Fragment::new(&self.faces, self.pieces.stored(), record, number)
+    }
+
+    /// What a ray or a segment hits of the tree's polygons and the overlay's, the nearest first. The
+    /// overlay's polygons are numbered after those of the tree. Lines and points are not hit.
+    ///
+    /// ```
+    /// use binspace::overlay::Overlay;
+    /// use binspace::{BspTree, Ray};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let tree = BspTree::build([square(0.0), square(2.0)])?;
+    /// let mut overlay = Overlay::new(&tree);
+    /// overlay.replace(&tree, [square(1.0)])?;
+    ///
+    /// let down = Ray::new([0.5, 0.5, 3.0], [0.0, 0.0, -1.0]);
+    /// assert!(overlay.hits(&tree, down)?.map(|hit| hit.polygon()).eq([1, 2, 0]));
+    /// assert!(overlay.is_occluded(&tree, Ray::between([0.5, 0.5, 0.5], [0.5, 0.5, 1.5]))?);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// All that [`BspTree::hits`] says of hits holds for those of both: they are exact, and at one point the
+    /// tree's polygons come before the overlay's. The overlay's hits are all found first; that takes time
+    /// proportional to the number of its boxes that the ray crosses. The first call after a
+    /// [`replace`](Self::replace) makes these boxes, in time proportional to the number of pieces.
+    ///
+    /// # Errors
+    ///
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    pub fn hits<'a>(&'a self, tree: &'a BspTree, ray: Ray) -> Result<Hits<'a>, Error> {
+        Ok(self.targets(tree)?.hits(ray))
+    }
+
+    /// Whether a polygon of the tree or of the overlay lies between two points: otherwise as
+    /// [`BspTree::is_occluded`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`hits`](Self::hits).
+    pub fn is_occluded(&self, tree: &BspTree, ray: Ray) -> Result<bool, Error> {
+        Ok(self.targets(tree)?.is_occluded(ray))
+    }
+
+    /// The pieces of polygons as vertices and triangles, without T-junctions between them. It is as the mesh
+    /// of a tree, except that fragments have the numbers of [orders](Self::order), and polygons are numbered
+    /// after those of the tree. Its vertices are not those of the tree's mesh, and no edge is welded with the
+    /// tree's.
+    ///
+    /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices for
+    /// both meshes:
+    ///
+    /// ```
+    /// use binspace::overlay::Overlay;
+    /// use binspace::{BspTree, Viewpoint};
+    ///
+    /// let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    /// let tree = BspTree::build([square(0.0), square(2.0)])?;
+    /// let level = tree.welded_mesh()?; // its vertices go to the device once
+    /// let mut overlay = Overlay::new(&tree);
+    ///
+    /// // When something has moved: its vertices go after the level's, in the same buffer.
+    /// overlay.replace(&tree, [square(1.0)])?;
+    /// let moved = overlay.welded_mesh()?;
+    /// assert_eq!((level.len(), moved.len()), (8, 4));
+    ///
+    /// // Every frame:
+    /// let (mut order, mut indices) = (vec![], vec![0; 18]);
+    /// overlay.order(&tree, Viewpoint::eye([0.5, 0.5, 9.0]))?.write_into(&mut order);
+    /// let count = level.triangles().write_order_with(moved.triangles(), &order, &mut indices)?;
+    /// assert_eq!(count, 18);
+    /// assert_eq!(indices[6..12], [8, 9, 10, 8, 10, 11]);
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// O(n) for n corners of the tree's polygons, and O(m log m) for m vertices of pieces.
+    ///
+    /// # Errors
+    ///
+    /// As for [`BspTree::mesh`].
+    pub fn welded_mesh(&self) -> Result<Mesh, Error> {
+        let Self { faces, base, pieces, .. } = self;
+        let first_corner = match base.faces < faces.len() {
+            true => faces.corner_range(base.faces as u32).start,
+            false => faces.corner_count(),
+        };
+        let (stored, generation, first) = (pieces.stored(), base.generation, base.fragments);
+        Mesh::new(Source { faces, stored, generation, first, first_corner }, true)
+    }
+
+    fn targets<'a>(&'a self, tree: &'a BspTree) -> Result<Targets<'a>, Error> {
+        self.expect(tree)?;
+        let pieces = (!self.is_empty()).then(|| {
+            let (faces, stored) = (&self.faces, self.pieces.stored());
+            let flat = |piece| Fragment::new(faces, stored, piece, 0).flat_bounds();
+            let bounds = self.bounds.get_or_init(|| Bounds::of_pieces(self.len(), flat));
+            Pieces { faces, stored, bounds }
+        });
+        Ok(Targets { tree, pieces })
     }
 
     /// How many of the overlay's polygons were dropped or triangulated.
@@ -241,11 +345,6 @@ impl Overlay {
         let is_same = self.base.generation == tree.generation;
         if is_same { Ok(()) } else { Err(Kind::OverlaidTree.error()) }
     }
-}
-
-/// The first face that has no area: segments and points follow the polygons.
-fn first_thin(faces: &Faces) -> usize {
-    faces.len() - faces.thin.segments - faces.thin.points
 }
 
 impl fmt::Debug for Overlay {

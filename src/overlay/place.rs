@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec4};
 
-use super::first_thin;
 use super::order::{Branch, InsertionTree, Place, SlotSide};
 use super::thin::{Anchors, between};
 use crate::build::frames::OverlayBuilder;
@@ -72,7 +71,7 @@ impl Placer {
         insertions: &mut InsertionTree,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let thin = first_thin(faces) as u32;
+        let thin = faces.first_thin() as u32;
         let mut work = Work { tree, faces, thin, placer: self, pieces, insertions, watch };
         work.begin()?;
         while let Some(pending) = work.placer.pending.pop() {
@@ -418,7 +417,7 @@ impl super::Overlay {
     /// An error if the overlay is not one for the tree, or has polygons.
     pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
         self.expect(tree)?;
-        if self.base.faces < first_thin(&self.faces) {
+        if self.base.faces < self.faces.first_thin() {
             let number = self.faces.polygon(self.base.faces as u32) - self.base.polygons;
             return Err(crate::error::Kind::InOverlay.of_polygon(number));
         }
@@ -427,7 +426,7 @@ impl super::Overlay {
 
     /// All segments of its lines, in input order.
     pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
-        let first = first_thin(&self.faces);
+        let first = self.faces.first_thin();
         (0..self.faces.thin.segments).map(move |i| {
             let face = (first + i) as u32;
             let corners = self.faces.corners(face);

@@ -83,8 +83,17 @@ impl Overlay {
         self.clear();
         self.expect(tree)?;
         let filling = Filling(self);
-        let Overlay { faces, base, preparer, placer, pieces, insertions, preparation, segments } =
-            &mut *filling.0;
+        let Overlay {
+            faces,
+            base,
+            preparer,
+            placer,
+            pieces,
+            insertions,
+            preparation,
+            segments,
+            ..
+        } = &mut *filling.0;
         let Shapes { polygons, lines, points } = shapes;
         if faces.is_empty() {
             *faces = tree.faces.try_clone()?;

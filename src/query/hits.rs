@@ -9,16 +9,92 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::ray::{Depth, Interval, RayQuery, Spot};
-use super::walk::Walk;
+use super::walk::{Boxes, Walk};
 use crate::exact::Faces;
 use crate::exact::eye::{ExactRay, Parameter};
+use crate::tree::bounds::Bounds;
+use crate::tree::parts::Stored;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
-/// The hits of a ray, the nearest first: [`BspTree::hits`].
+/// What rays meet: the fragments of a tree, and pieces of an overlay that are numbered after them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Targets<'t> {
+    pub(crate) tree: &'t BspTree,
+    pub(crate) pieces: Option<Pieces<'t>>,
+}
+
+/// Pieces of an overlay.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pieces<'t> {
+    /// The tree's faces, and those of the pieces after them.
+    pub(crate) faces: &'t Faces,
+    pub(crate) stored: Stored<'t>,
+    pub(crate) bounds: &'t Bounds,
+}
+
+impl<'t> Targets<'t> {
+    fn faces(&self) -> &'t Faces {
+        self.pieces.map_or(&self.tree.faces, |pieces| pieces.faces)
+    }
+
+    fn fragment(&self, number: u32) -> Fragment<'t> {
+        match (self.pieces, (number as usize).checked_sub(self.tree.len())) {
+            (Some(Pieces { faces, stored, .. }), Some(piece)) => {
+                Fragment::new(faces, stored, piece, number)
+            }
+            _ => self.tree.fragment(number),
+        }
+    }
+
+    /// The pieces of polygons that a ray may meet.
+    fn pieces_near(self, query: &RayQuery) -> impl Iterator<Item = Fragment<'t>> {
+        let boxes = self.pieces.and_then(|pieces| Boxes::new(query, pieces.bounds));
+        let count = self.pieces.map_or(0, |pieces| pieces.stored.records.len() as u32);
+        let (mut run, first) = (0..count, self.tree.len() as u32);
+        let span = [0.0, if query.is_endless { f64::INFINITY } else { 1.0 }];
+        let next = move || match &boxes {
+            Some(boxes) => boxes.next(&mut run, span),
+            None => run.next(),
+        };
+        let thin = self.faces().first_thin();
+        let pieces = std::iter::from_fn(next).map(move |piece| self.fragment(first + piece));
+        pieces.filter(move |piece| (piece.face() as usize) < thin)
+    }
+
+    pub(crate) fn hits(self, ray: Ray) -> Hits<'t> {
+        let faces = self.faces();
+        let search = RayQuery::new(ray, faces.lattice()).map(|query| {
+            let mut found = HitQueue::default();
+            for piece in self.pieces_near(&query) {
+                if let Some(interval) = Interval::new(&query, &piece, faces) {
+                    found.push(interval, &query, faces);
+                }
+            }
+            let walk = Walk::new(self.tree, &query);
+            Search { query, walk, found, last: None, ends: BTreeMap::new() }
+        });
+        Hits { targets: self, ray, search }
+    }
+
+    pub(crate) fn is_occluded(self, ray: Ray) -> bool {
+        let faces = self.faces();
+        let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
+        let occludes = |fragment: Fragment<'_>| {
+            Interval::new(&query, &fragment, faces)
+                .is_some_and(|interval| interval.has_inner_point(&query, faces))
+        };
+        let mut walk = Walk::new(self.tree, &query);
+        let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
+        self.pieces_near(&query).any(occludes)
+            || fragments.any(|fragment| occludes(self.tree.fragment(fragment)))
+    }
+}
+
+/// The hits of a ray, the nearest first: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
 #[derive(Clone, Debug)]
-struct Hits<'t> {
-    tree: &'t BspTree,
+pub(crate) struct Hits<'t> {
+    targets: Targets<'t>,
     ray: Ray,
     /// None if the ray meets nothing.
     search: Option<Search<'t>>,
@@ -38,31 +114,30 @@ struct Search<'t> {
 
 impl Search<'_> {
     /// The next fragment that the ray meets.
-    fn next(&mut self, tree: &BspTree) -> Option<Interval> {
+    fn next(&mut self, tree: &BspTree, faces: &Faces) -> Option<Interval> {
         let Self { query, walk, found, .. } = self;
         loop {
             // Fragments behind the nearest that is found need not be looked at.
             let limit = found.first().map_or(f64::INFINITY, |nearest| nearest.enter.high);
-            let Some(fragment) = walk.next(limit) else { return found.pop(query, &tree.faces) };
+            let Some(fragment) = walk.next(limit) else { return found.pop(query, faces) };
             let fragment = tree.fragment(fragment);
-            if let Some(interval) = Interval::new(query, &fragment, &tree.faces) {
-                found.push(interval, query, &tree.faces);
+            if let Some(interval) = Interval::new(query, &fragment, faces) {
+                found.push(interval, query, faces);
             }
         }
     }
 
     /// Whether an interval is a hit, rather than more of the last hit of its polygon. At one point a polygon's
     /// intervals come in a row, so its last hit is the last of all, unless it goes on along the ray.
-    fn is_new(&mut self, tree: &BspTree, interval: &Interval) -> bool {
+    fn is_new(&mut self, faces: &Faces, interval: &Interval) -> bool {
         let Self { query, last, ends, .. } = self;
-        let (polygon, Interval { enter, leave, .. }) =
-            (tree.faces.polygon(interval.face), interval);
+        let (polygon, Interval { enter, leave, .. }) = (faces.polygon(interval.face), interval);
         let known = ends.get(&polygon).or(match last {
             Some((of, end)) if *of == polygon => Some(end),
             _ => None,
         });
-        let is_apart = known.is_none_or(|end| end.compare(enter, query, &tree.faces).is_lt());
-        if is_apart || known.is_some_and(|end| end.compare(leave, query, &tree.faces).is_lt()) {
+        let is_apart = known.is_none_or(|end| end.compare(enter, query, faces).is_lt());
+        if is_apart || known.is_some_and(|end| end.compare(leave, query, faces).is_lt()) {
             if enter.spot == leave.spot && !ends.contains_key(&polygon) {
                 *last = Some((polygon, *leave));
             } else {
@@ -73,31 +148,20 @@ impl Search<'_> {
     }
 }
 
-impl<'t> Hits<'t> {
-    fn new(tree: &'t BspTree, ray: Ray) -> Self {
-        let search = RayQuery::new(ray, tree.faces.lattice()).map(|query| Search {
-            walk: Walk::new(tree, &query),
-            query,
-            found: HitQueue::default(),
-            last: None,
-            ends: BTreeMap::new(),
-        });
-        Self { tree, ray, search }
-    }
-}
-
 impl<'t> Iterator for Hits<'t> {
     type Item = Hit<'t>;
 
     fn next(&mut self) -> Option<Hit<'t>> {
-        let search = self.search.as_mut()?;
+        let Self { targets, ray, search } = self;
+        let (search, faces) = (search.as_mut()?, targets.faces());
         let Interval { fragment, enter, facing, .. } = loop {
-            let interval = search.next(self.tree)?;
-            if search.is_new(self.tree, &interval) {
+            let interval = search.next(targets.tree, faces)?;
+            if search.is_new(faces, &interval) {
                 break interval;
             }
         };
-        Some(Hit { tree: self.tree, ray: self.ray, fragment, spot: enter.spot, facing })
+        let fragment = targets.fragment(fragment);
+        Some(Hit { fragment, ray: *ray, spot: enter.spot, facing })
     }
 }
 
@@ -151,30 +215,29 @@ impl BspTree {
     /// place, as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
     /// there after O(k log k) in the worst case, O(k) if they are met in input order.
     pub fn hits(&self, ray: Ray) -> impl FusedIterator<Item = Hit<'_>> + Clone + Debug {
-        Hits::new(self, ray)
+        Targets { tree: self, pieces: None }.hits(ray)
     }
 }
 
-/// Where a ray hits a polygon: [`BspTree::hits`].
+/// Where a ray hits a polygon: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
 #[derive(Clone, Copy)]
 pub struct Hit<'t> {
-    pub(super) tree: &'t BspTree,
-    pub(super) ray: Ray,
-    pub(super) fragment: u32,
-    pub(super) spot: Spot,
-    pub(super) facing: Ordering,
+    fragment: Fragment<'t>,
+    ray: Ray,
+    spot: Spot,
+    facing: Ordering,
 }
 
 impl<'t> Hit<'t> {
     /// The fragment that is hit. Where several fragments of the polygon meet in the point, it is one
     /// of them.
     pub fn fragment(&self) -> Fragment<'t> {
-        self.tree.fragment(self.fragment)
+        self.fragment
     }
 
     /// The index, in the input, of the polygon that is hit.
     pub fn polygon(&self) -> usize {
-        self.fragment().polygon()
+        self.fragment.polygon()
     }
 
     /// The side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the fragment's
@@ -201,7 +264,7 @@ impl<'t> Hit<'t> {
     /// Computed at each call, about 0.2 µs.
     pub fn point(&self) -> DVec3 {
         let exact = self.exact();
-        exact.map_or(DVec3::NAN, |(ray, t)| self.tree.faces.lattice().to_world(ray.point(&t)))
+        exact.map_or(DVec3::NAN, |(ray, t)| self.fragment.faces.lattice().to_world(ray.point(&t)))
     }
 
     /// How far two hits of the same ray are along it: `Less` if this one is nearer. It is exact, where
@@ -222,7 +285,7 @@ impl<'t> Hit<'t> {
     /// With the ray as it is given (see [`Ray`]) this is the point exactly, as a fraction: with n the
     /// vector product of q − p and r − p, its parameter is n·(p − from) / n·direction.
     pub fn grid_points(&self) -> Option<[[i64; 3]; 3]> {
-        self.spot.grid_points(&self.tree.faces)
+        self.spot.grid_points(self.fragment.faces)
     }
 
     /// The point by what defines it: a plane, mostly that of the face, and the ray.
@@ -233,7 +296,7 @@ impl<'t> Hit<'t> {
 
     /// The ray in integers, and the parameter. There is no hit without.
     fn exact(&self) -> Option<(ExactRay, Parameter)> {
-        let faces = &self.tree.faces;
+        let faces = self.fragment.faces;
         let ray = ExactRay::new(self.ray, faces.lattice())?;
         Some((ray, self.spot.parameter(&ray, faces)))
     }
@@ -243,7 +306,7 @@ impl std::fmt::Debug for Hit<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Hit")
             .field("polygon", &self.polygon())
-            .field("fragment", &self.fragment)
+            .field("fragment", &self.fragment.index())
             .field("parameter", &self.parameter())
             .field("point", &self.point())
             .field("facing", &self.facing())
@@ -337,13 +400,6 @@ impl BspTree {
     /// O(n) time ([`bounds`](Self::bounds)). After that nothing is allocated unless dozens of parts of the
     /// tree are pending at once.
     pub fn is_occluded(&self, ray: Ray) -> bool {
-        let faces = &self.faces;
-        let Some(query) = RayQuery::new(ray, faces.lattice()) else { return false };
-        let mut walk = Walk::new(self, &query);
-        let mut fragments = std::iter::from_fn(|| walk.next(f64::INFINITY));
-        fragments.any(|fragment| {
-            Interval::new(&query, &self.fragment(fragment), faces)
-                .is_some_and(|interval| interval.has_inner_point(&query, faces))
-        })
+        Targets { tree: self, pieces: None }.is_occluded(ray)
     }
 }

@@ -8,5 +8,6 @@ mod walk;
 mod winding;
 
 pub use hits::Hit;
+pub(crate) use hits::{Pieces, Targets};
 pub use locate::Location;
 pub use ray::Spot;

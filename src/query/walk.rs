@@ -64,7 +64,7 @@ impl<'t> Walk<'t> {
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
         let mut walk = Self {
             tree,
-            boxes: Boxes::new(query, tree),
+            boxes: Boxes::new(query, tree.boxes()),
             pending: SmallVec::new(),
             origin: query.origin.map(|c| c * unit),
             direction: query.direction.map(|c| c * unit),
@@ -190,9 +190,9 @@ impl<'t> Walk<'t> {
     }
 }
 
-/// A ray and a tree's boxes, in the unit of these.
+/// A ray and the boxes of fragments, in the unit of these.
 #[derive(Clone, Debug)]
-struct Boxes<'t> {
+pub(super) struct Boxes<'t> {
     bounds: &'t Bounds,
     /// For each axis: the origin, with the slack added and taken off, and one over the direction.
     origins: [[f64; 2]; 3],
@@ -213,7 +213,7 @@ const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
     /// `None` if boxes cannot be trusted with a ray.
-    fn new(query: &RayQuery, tree: &'t BspTree) -> Option<Self> {
+    pub(super) fn new(query: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [reach, speed] = [query.reach * unit, query.speed * unit];
         if !SIZES.contains(&reach) || speed > 0.0 && !SIZES.contains(&speed) {
@@ -221,7 +221,7 @@ impl<'t> Boxes<'t> {
         }
         let slack = PARAMETER_ERROR * reach;
         Some(Self {
-            bounds: tree.boxes(),
+            bounds,
             origins: query.origin.map(|c| [c * unit + slack, c * unit - slack]),
             inverses: query.direction.map(|c| {
                 let inverse = 1.0 / (c * unit);
@@ -248,7 +248,7 @@ impl<'t> Boxes<'t> {
 
     /// The next of some fragments whose box the ray meets between two parameters.
     #[inline]
-    fn next(&self, run: &mut Range<u32>, [from, to]: [f64; 2]) -> Option<u32> {
+    pub(super) fn next(&self, run: &mut Range<u32>, [from, to]: [f64; 2]) -> Option<u32> {
         let is_passed = |bounds: &Flat| {
             let [enter, leave] = self.within(bounds);
             !(enter <= leave && enter <= to && leave >= from)

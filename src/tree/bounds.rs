@@ -118,9 +118,7 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
 impl Bounds {
     fn new(tree: &BspTree) -> Self {
         // On this thread alone: another thread may wait for the boxes, and rayon's would wait for one another.
-        let boxes = |first| (first..tree.len()).map(|i| tree.fragment(i as u32).flat_bounds());
-        let blocks: Vec<Block> =
-            (0..tree.len()).step_by(BLOCK).map(|first| Block::new(boxes(first))).collect();
+        let blocks = blocks(tree.len(), |i| tree.fragment(i as u32).flat_bounds());
         let mut nodes = vec![NOTHING; tree.nodes.len()];
         let mut normals = vec![Normals::NONE; tree.nodes.len()];
         let faces: Vec<Vec4> = (0..tree.faces.len() as u32)
@@ -148,15 +146,20 @@ impl Bounds {
                 }
             }
         }
-        let (mut levels, mut len) = (vec![blocks], tree.len());
-        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-            let blocks = |first| last.iter().zip((0..len).step_by(BLOCK)).skip(first);
-            let of = |first| Block::new(blocks(first).map(|(block, first)| block.all(len - first)));
-            let next = (0..last.len()).step_by(BLOCK).map(of).collect();
-            len = last.len();
-            levels.push(next);
-        }
+        let levels = levels(tree.len(), blocks);
         Self { fragments: tree.len() as u32, nodes, normals, levels, planes }
+    }
+
+    /// Those of fragments without nodes: an overlay's pieces.
+    pub(crate) fn of_pieces(len: usize, flat: impl Fn(usize) -> Flat) -> Self {
+        let (nodes, normals, planes) = (vec![], vec![], Planes::of([].into_iter()));
+        Self {
+            fragments: len as u32,
+            nodes,
+            normals,
+            levels: levels(len, blocks(len, flat)),
+            planes,
+        }
     }
 
     pub(super) fn seen(&self, node: usize, arms: &Arms) -> Option<Ordering> {
@@ -195,6 +198,24 @@ impl Bounds {
             + self.levels.iter().map(|level| size_of_val(&**level)).sum::<usize>()
             + self.planes.bytes()
     }
+}
+
+/// So many boxes, in blocks.
+fn blocks(len: usize, flat: impl Fn(usize) -> Flat) -> Vec<Block> {
+    (0..len).step_by(BLOCK).map(|first| Block::new((first..len).map(&flat))).collect()
+}
+
+/// The blocks of so many boxes, the blocks of the boxes around these, and so on.
+fn levels(mut len: usize, blocks: Vec<Block>) -> Vec<Vec<Block>> {
+    let mut levels = vec![blocks];
+    while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+        let blocks = |first| last.iter().zip((0..len).step_by(BLOCK)).skip(first);
+        let of = |first| Block::new(blocks(first).map(|(block, first)| block.all(len - first)));
+        let next = (0..last.len()).step_by(BLOCK).map(of).collect();
+        len = last.len();
+        levels.push(next);
+    }
+    levels
 }
 
 /// The least coordinates of a box, then the largest.

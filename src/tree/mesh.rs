@@ -8,9 +8,11 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::BspTree;
+use super::parts::Stored;
 use crate::error::{Error, Kind};
 use crate::exact::{VertexId, VertexKind};
 use crate::memory::{empty, reserve};
+pub(crate) use survey::Source;
 use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends, triangulate};
 
 pub use triangles::Triangles;
@@ -108,8 +110,7 @@ impl BspTree {
     ///
     /// If memory runs out, or there would be more than 2³² indices.
     pub fn mesh(&self) -> Result<Mesh, Error> {
-        let (parts, triangles) = assemble(self, false)?;
-        Ok(Mesh { parts, triangles })
+        Mesh::new(self.mesh_source(), false)
     }
 
     /// Like [`mesh`](Self::mesh), without T-junctions: where polygons have an edge in common, or
@@ -122,12 +123,24 @@ impl BspTree {
     ///
     /// As for [`mesh`](Self::mesh).
     pub fn welded_mesh(&self) -> Result<Mesh, Error> {
-        let (parts, triangles) = assemble(self, true)?;
-        Ok(Mesh { parts, triangles })
+        Mesh::new(self.mesh_source(), true)
+    }
+
+    fn mesh_source(&self) -> Source<'_> {
+        let Self { faces, records, vertices, positions, generation, .. } = self;
+        let stored = Stored { records, vertices, positions };
+        let first_corner = faces.corners_of_cell();
+        Source { faces, stored, generation: *generation, first: 0, first_corner }
     }
 }
 
 impl Mesh {
+    pub(crate) fn new(source: Source<'_>, weld: bool) -> Result<Self, Error> {
+        let (parts, mut triangles) = assemble(source, weld)?;
+        triangles.vertices = parts.vertices.len() as u32;
+        Ok(Self { parts, triangles })
+    }
+
     /// How many vertices there are.
     pub fn len(&self) -> usize {
         self.parts.vertices.len()
@@ -182,10 +195,8 @@ impl Mesh {
     /// If memory runs out.
     pub fn triangles_of(&self, keep: impl Fn(usize) -> bool) -> Result<Triangles, Error> {
         let polygon = |first: u32| self.parts.vertices[first as usize].polygon as usize;
-        self.triangles.of_fragments(|fragment| {
-            let range = self.triangles.range(fragment);
-            self.triangles.indices()[range].first().is_some_and(|&first| keep(polygon(first)))
-        })
+        self.triangles
+            .of_fragments(|indices| indices.first().is_some_and(|&first| keep(polygon(first))))
     }
 
     /// The resident size in bytes.
@@ -215,13 +226,13 @@ struct Record {
     weights_end: usize,
 }
 
-/// The mesh of a tree, welded or not.
-fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangles), Error> {
-    let survey = Survey::new(tree)?;
+/// A mesh, welded or not.
+fn assemble(source: Source<'_>, weld: bool) -> Result<(Assembled, Triangles), Error> {
+    let survey = Survey::new(source)?;
     let points = Points::new(&survey)?;
     let mut lengths = Vec::new();
-    reserve(&mut lengths, tree.len())?;
-    lengths.resize(tree.len(), 0_u32);
+    reserve(&mut lengths, source.len())?;
+    lengths.resize(source.len(), 0_u32);
     for (at, &fragment) in survey.fragments.iter().enumerate() {
         let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
         let steps = points.ends[range].iter().map(|&[from, to]| match from.abs_diff(to) {
@@ -231,11 +242,12 @@ fn assemble(tree: &BspTree, weld: bool) -> Result<(Assembled, Triangles), Error>
         let triangles = steps.sum::<u32>().saturating_sub(2);
         lengths[fragment as usize] = triangles.checked_mul(3).ok_or(Kind::Indices.error())?;
     }
-    let mut triangles = Triangles::with_lengths(tree.generation, lengths.into_iter())?;
+    let Source { generation, first, .. } = source;
+    let mut triangles = Triangles::with_lengths(generation, first, lengths.into_iter())?;
     let mut assembler = Assembler::new(&survey, &points)?;
     for (at, &fragment) in survey.fragments.iter().enumerate() {
         assembler.outline(at, weld)?;
-        let mut places = triangles.of_mut(fragment).as_chunks_mut::<3>().0.iter_mut();
+        let mut places = triangles.of_mut(fragment as usize).as_chunks_mut::<3>().0.iter_mut();
         triangulate(&assembler.outline, |triangle| {
             if let Some(place) = places.next() {
                 *place = triangle;
@@ -278,15 +290,15 @@ impl<'s, 't> Assembler<'s, 't> {
     /// Makes the outline of a fragment, given its place among the fragments face by face.
     fn outline(&mut self, at: usize, weld: bool) -> Result<(), Error> {
         let (survey, points) = (self.survey, self.points);
-        let face = survey.tree.records[survey.fragments[at] as usize].face;
-        if survey.tree.faces.polygon(face) != self.polygon {
-            self.polygon = survey.tree.faces.polygon(face);
+        let face = survey.source.stored.records[survey.fragments[at] as usize].face;
+        if survey.faces.polygon(face) != self.polygon {
+            self.polygon = survey.faces.polygon(face);
             empty(&mut self.known);
         }
         self.outline.clear();
         let range = survey.starts[at] as usize..survey.starts[at + 1] as usize;
         let edges = &survey.edges[range.clone()];
-        let lines = survey.tree.fragment(survey.fragments[at]).lines();
+        let lines = survey.source.fragment(survey.fragments[at]).lines();
         let places = &points.ends[range];
         let mut before = last_carrier(edges, places);
         for ((edge, &[from, to]), line) in edges.iter().zip(places).zip(lines) {
@@ -317,7 +329,7 @@ impl<'s, 't> Assembler<'s, 't> {
 
     /// A vertex that the face itself has.
     fn own_vertex(&mut self, face: u32, node: Node) -> Result<u32, Error> {
-        let faces = &self.survey.tree.faces;
+        let faces = self.survey.faces;
         let vertex_id = match self.survey.cut(node) {
             Some((_, vertex_id)) => vertex_id,
             None => VertexId::corner(node - faces.corner_range(face).start as u32),
@@ -343,7 +355,7 @@ impl<'s, 't> Assembler<'s, 't> {
         let numbers = edge_numbers(survey, face, k);
         self.vertex(node, pair(numbers), || {
             let axis = survey.carriers[line as usize].axis;
-            let [a, b] = ends(&survey.tree.faces, face, k).map(|end| end[axis]);
+            let [a, b] = ends(survey.faces, face, k).map(|end| end[axis]);
             let share = coordinate(survey, line as usize, node).share(a, b).clamp(0.0, 1.0);
             vec![(numbers[0], 1.0 - share), (numbers[1], share)]
         })
@@ -379,7 +391,7 @@ impl<'s, 't> Assembler<'s, 't> {
         if number != NONE {
             return Ok(number);
         }
-        let faces = &self.survey.tree.faces;
+        let faces = self.survey.faces;
         let place = match self.survey.cut(root) {
             None => faces.given_corner(root),
             Some((face, vertex_id)) => place_of_cut(self.survey, face, vertex_id),
@@ -402,7 +414,7 @@ fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
 /// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
 /// that all faces at the edge agree.
 fn place_of_cut(survey: &Survey<'_>, face: u32, vertex_id: VertexId) -> [f64; 3] {
-    let faces = &survey.tree.faces;
+    let faces = survey.faces;
     match vertex_id.kind() {
         VertexKind::OnEdge(k, plane) if faces.moved_axis(face).is_some() => {
             let cut = faces.cut_of_segment(ends(faces, face, k), plane);
@@ -418,7 +430,7 @@ fn pair([a, b]: [u32; 2]) -> [u32; 3] {
 
 /// The numbers, within the polygon, of the corners at the ends of a face's edge.
 fn edge_numbers(survey: &Survey<'_>, face: u32, k: u32) -> [u32; 2] {
-    let faces = &survey.tree.faces;
+    let faces = survey.faces;
     let len = faces.corner_range(face).len() as u32;
     [k, if k + 1 == len { 0 } else { k + 1 }].map(|k| faces.corner_number(face, k))
 }
@@ -447,7 +459,7 @@ mod assemble_tests {
         let walls = (0..WALLS).map(|k| corners.map(|(y, z)| [f64::from(k), y, z]));
         let balanced = BuildOptions::DEFAULT.with_heuristic(Heuristic::Balanced);
         let tree = balanced.build(std::iter::once(square).chain(walls)).unwrap();
-        let survey = Survey::new(&tree).unwrap();
+        let survey = Survey::new(tree.mesh_source()).unwrap();
         let points = Points::new(&survey).unwrap();
         let mut assembler = Assembler::new(&survey, &points).unwrap();
         // The largest room for the square's vertices, for those of the first wall after it, and of the rest.

@@ -19,6 +19,7 @@ pub(crate) use bounds::{BLOCK, Flat, HalfSpace, rounding};
 pub use bsp_tree::{BspTree, Stats};
 pub use culling::Culling;
 pub use fragment::{Fragment, FragmentArrays, Grid};
+pub(crate) use mesh::Source;
 pub use mesh::{Mesh, MeshVertex, Triangles};
 pub use node::{Child, Node};
 pub use order::{Flow, Order, Ordered, Part};

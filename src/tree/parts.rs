@@ -60,6 +60,12 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
+    /// The fragments, by reference.
+    pub(crate) fn stored(&self) -> Stored<'_> {
+        let Self { records, vertices, positions, .. } = self;
+        Stored { records, vertices, positions }
+    }
+
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
         self.nodes.clear();

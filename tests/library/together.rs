@@ -54,7 +54,7 @@ fn trees_frames_and_cells() {
     cells.for_each(|tree| assert_eq!(use_all(tree), Some(ErrorKind::Unsupported)));
 }
 
-/// Rays see the tree alone, and drawings refuse polygons of an overlay.
+/// Drawings refuse polygons of an overlay, and regions do not see them.
 #[test]
 fn trees_and_overlays() {
     let tree = BspTree::build(squares()).expect("a tree");
@@ -66,6 +66,13 @@ fn trees_and_overlays() {
     let culling = Culling::NONE.with_facing(Facing::Front);
     let order = overlay.order(&tree, ABOVE).expect("its tree").culled(&culling);
     assert!(order.into_iter().count() > tree.len());
+    let down = Ray::new([1.0, 1.6, 8.0], [0.0, 0.0, -1.0]);
+    assert_eq!(overlay.hits(&tree, down).expect("its tree").count(), 6 + 1);
+    let around_it = Ray::between([1.0, 1.6, 1.7], [1.0, 1.6, 1.3]);
+    assert!(overlay.is_occluded(&tree, around_it).expect("its tree"));
+    assert!(!tree.is_occluded(around_it));
+    let mesh = overlay.welded_mesh().expect("small");
+    assert!(mesh.vertices().all(|vertex| vertex.polygon == 6) && !mesh.is_empty());
     let map = tree.visibility(&camera(), &ViewOptions::DEFAULT).expect("memory");
     assert_eq!(map.lines(&overlay, Hidden::Keep).unwrap_err().kind(), ErrorKind::Unsupported);
     overlay

@@ -7,6 +7,7 @@ use super::rays::{Vector, vector};
 use super::vector::{Plane, main_axis, scalar, sign};
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
+use binspace::overlay::Overlay;
 use binspace::{BspTree, Facing, Hit, Ray};
 use dashu_int::IBig;
 use num_traits::{One, Signed, Zero};
@@ -16,9 +17,11 @@ use std::sync::OnceLock;
 /// How many faces in a row have a ball.
 const RUN: usize = 16;
 
-/// A tree's faces, made ready for rays.
+/// The faces of a tree, or of a tree and an overlay, made ready for rays.
 pub struct Oracle<'t> {
     tree: &'t BspTree,
+    overlay: Option<&'t Overlay>,
+    given: &'t Faces,
     faces: Vec<Face>,
     /// The same in rationals, as far as they were asked for.
     models: Vec<OnceLock<model::Face>>,
@@ -258,9 +261,17 @@ impl Line {
 
 impl<'t> Oracle<'t> {
     pub fn new(tree: &'t BspTree) -> Self {
+        Self::of(tree, None, tree.faces())
+    }
+
+    /// That of an overlay's hits. The faces are the tree's, and those of the overlay's polygons.
+    pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
+        Self::of(tree, Some(overlay), faces)
+    }
+
+    fn of(tree: &'t BspTree, overlay: Option<&'t Overlay>, faces: &'t Faces) -> Self {
         /// The length of this many steps is a number, however small the scene is.
         const MANY: i32 = 100;
-        let faces = tree.faces();
         let all = || 0..faces.len() as u32;
         let rough: Vec<Rough> = all().map(|face| Rough::new(faces, face)).collect();
         let balls: Vec<Rough> = rough.chunks(RUN).map(Rough::around).collect();
@@ -270,6 +281,8 @@ impl<'t> Oracle<'t> {
         assert_eq!(digits.count_ones(), 1, "a power of two");
         Self {
             tree,
+            overlay,
+            given: faces,
             faces: all().map(|face| Face::new(faces, face)).collect(),
             models: all().map(|_| OnceLock::new()).collect(),
             middle: Rough::around(&balls).centre,
@@ -285,7 +298,7 @@ impl<'t> Oracle<'t> {
     }
 
     pub fn faces(&self) -> &'t Faces {
-        self.tree.faces()
+        self.given
     }
 
     /// A face in rationals.
@@ -303,7 +316,8 @@ impl<'t> Oracle<'t> {
 
     /// The exact vertices of a fragment.
     pub fn vertices(&self, fragment: u32) -> Vec<Point> {
-        let fragment = self.tree.fragment(fragment);
+        let piece = self.overlay.and_then(|overlay| overlay.piece(fragment));
+        let fragment = piece.unwrap_or_else(|| self.tree.fragment(fragment));
         let face = self.model(fragment.face());
         fragment.vertex_ids().map(|vertex_id| face.resolve(self.faces(), vertex_id)).collect()
     }
@@ -412,7 +426,7 @@ impl<'t> Oracle<'t> {
 
     /// Whether a ray has a point so far from the scene that it may meet nothing, as the docs of `Ray` say.
     fn may_miss(&self, ray: Ray) -> bool {
-        let faces = self.tree.faces();
+        let faces = self.given;
         let corners = (0..faces.len() as u32).flat_map(|face| faces.corners(face));
         let corners = corners.map(|&corner| faces.lattice().to_world(corner));
         let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
@@ -435,7 +449,11 @@ impl<'t> Oracle<'t> {
             chords.iter().any(|chord| chord.enter < chord.leave || is_inside(&chord.enter));
         let truth = self.hits(chords);
         let most = 2 * truth.len() + 9;
-        let hits: Vec<Hit<'_>> = self.tree.hits(ray).take(most).collect();
+        let found = match self.overlay {
+            Some(overlay) => overlay.hits(self.tree, ray).expect("its tree"),
+            None => self.tree.hits(ray),
+        };
+        let hits: Vec<Hit<'_>> = found.take(most).collect();
         let fault = |what: &str| format!("{what}: {ray:?}\nfound {hits:#?}\nin truth {truth:#?}");
         let said = |hit: &Hit<'_>| (hit.polygon(), hit.fragment().face() as usize, hit.facing());
         let expected =
@@ -444,7 +462,11 @@ impl<'t> Oracle<'t> {
             let is_excused = hits.is_empty() && self.may_miss(ray);
             return if is_excused { Ok(()) } else { Err(fault("wrong hits")) };
         }
-        if self.tree.is_occluded(ray) != is_occluded {
+        let found = match self.overlay {
+            Some(overlay) => overlay.is_occluded(self.tree, ray).expect("its tree"),
+            None => self.tree.is_occluded(ray),
+        };
+        if found != is_occluded {
             return Err(fault("wrongly blocked, or not"));
         }
         for (hit, truth) in hits.iter().zip(&truth) {

@@ -7,7 +7,8 @@ use crate::error::{Error, Kind};
 use crate::exact::vertex::Fraction;
 use crate::exact::{Faces, POSITION_OFF, PlaneId, VertexId, VertexKind};
 use crate::memory::{empty, reserve};
-use crate::tree::BspTree;
+use crate::tree::Fragment;
+use crate::tree::parts::Stored;
 use crate::union::Union;
 
 /// A vertex as one face names it: a corner, or where planes cut the face. The first nodes are the
@@ -21,9 +22,35 @@ pub(super) struct FragmentEdge {
     pub(super) from: Node,
 }
 
+/// The fragments that a mesh is made of: those of a tree, or an overlay's pieces of polygons.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'t> {
+    pub(crate) faces: &'t Faces,
+    pub(crate) stored: Stored<'t>,
+    /// That of the tree.
+    pub(crate) generation: u64,
+    /// The number of the first fragment in orders.
+    pub(crate) first: usize,
+    /// The first corner of their faces.
+    pub(crate) first_corner: usize,
+}
+
+impl<'t> Source<'t> {
+    /// How many fragments there are, and pieces of lines and points.
+    pub(super) fn len(&self) -> usize {
+        self.stored.records.len()
+    }
+
+    /// A fragment, counted from 0.
+    pub(super) fn fragment(&self, at: u32) -> Fragment<'t> {
+        Fragment::new(self.faces, self.stored, at as usize, at)
+    }
+}
+
 /// The edges of all fragments, face by face.
 pub(super) struct Survey<'t> {
-    pub(super) tree: &'t BspTree,
+    pub(super) source: Source<'t>,
+    pub(super) faces: &'t Faces,
     /// The numbers of all fragments, face by face.
     pub(super) fragments: Vec<u32>,
     /// Where the edges of each of `fragments` begin, and the end of the last.
@@ -35,19 +62,28 @@ pub(super) struct Survey<'t> {
 }
 
 impl<'t> Survey<'t> {
-    pub(super) fn new(tree: &'t BspTree) -> Result<Self, Error> {
-        let fragments = by_face(tree)?;
+    pub(super) fn new(source: Source<'t>) -> Result<Self, Error> {
+        let faces = source.faces;
+        let fragments = by_face(source)?;
         let (starts, edges) = (Vec::new(), Vec::new());
-        let mut survey =
-            Self { tree, fragments, starts, edges, cuts: Vec::new(), carriers: Vec::new() };
-        let edges = tree.fragments().map(|fragment| fragment.vertex_count()).sum();
+        let mut survey = Self {
+            source,
+            faces,
+            fragments,
+            starts,
+            edges,
+            cuts: Vec::new(),
+            carriers: Vec::new(),
+        };
+        let all = 0..source.len() as u32;
+        let edges = all.map(|fragment| source.fragment(fragment).vertex_count()).sum();
         u32::try_from(2 * edges).map_err(|_| Kind::Indices.error())?;
         reserve(&mut survey.edges, edges)?;
-        reserve(&mut survey.starts, tree.len() + 1)?;
+        reserve(&mut survey.starts, survey.fragments.len() + 1)?;
         let mut names = Names::default();
         for at in 0..survey.fragments.len() {
-            let fragment = tree.fragment(survey.fragments[at]);
-            names.enter(&tree.faces, fragment.face())?;
+            let fragment = source.fragment(survey.fragments[at]);
+            names.enter(faces, fragment.face())?;
             survey.make_room(&mut names, fragment.vertex_count())?;
             survey.starts.push(survey.edges.len() as u32);
             for (vertex_id, line) in fragment.vertex_ids().zip(fragment.lines()) {
@@ -79,7 +115,7 @@ impl<'t> Survey<'t> {
         if let VertexKind::Corner(k) = vertex_id.kind() {
             return names.first_corner + k;
         }
-        let corners = self.tree.faces.corner_count();
+        let corners = self.faces.corner_count();
         *names.vertex_ids.entry(vertex_id).or_insert_with(|| {
             self.cuts.push((names.face, vertex_id));
             (corners + self.cuts.len() - 1) as u32
@@ -88,7 +124,7 @@ impl<'t> Survey<'t> {
 
     fn carrier_of_cut(&mut self, names: &mut Names, plane: PlaneId) -> u32 {
         *names.planes.entry(plane).or_insert_with(|| {
-            let axis = self.tree.faces.axis_of_cut(names.face, plane);
+            let axis = self.faces.axis_of_cut(names.face, plane);
             self.carriers.push(Carrier { axis, face: Some(names.face) });
             self.carriers.len() as u32 - 1
         })
@@ -97,20 +133,20 @@ impl<'t> Survey<'t> {
     fn carrier_of_edge(&mut self, names: &mut Names, k: u32) -> u32 {
         let known = &mut names.edges[k as usize];
         *known.get_or_insert_with(|| {
-            let ends = ends(&self.tree.faces, names.face, k);
+            let ends = ends(self.faces, names.face, k);
             names.lines.number(ends, &mut self.carriers)
         })
     }
 
     /// Which face and vertex a node is, unless it is a corner.
     pub(super) fn cut(&self, node: Node) -> Option<(u32, VertexId)> {
-        let at = (node as usize).checked_sub(self.tree.faces.corner_count())?;
+        let at = (node as usize).checked_sub(self.faces.corner_count())?;
         self.cuts.get(at).copied()
     }
 
     /// How many nodes there are.
     pub(super) fn nodes(&self) -> usize {
-        self.tree.faces.corner_count() + self.cuts.len()
+        self.faces.corner_count() + self.cuts.len()
     }
 }
 
@@ -149,23 +185,27 @@ impl Names {
 }
 
 /// The numbers of all fragments, face by face.
-fn by_face(tree: &BspTree) -> Result<Vec<u32>, Error> {
+fn by_face(source: Source<'_>) -> Result<Vec<u32>, Error> {
+    let faces = source.faces;
     let mut ends = Vec::new();
-    reserve(&mut ends, tree.faces.len())?;
-    ends.resize(tree.faces.len(), 0_u32);
-    tree.records.iter().for_each(|record| ends[record.face as usize] += 1);
+    reserve(&mut ends, faces.first_thin())?;
+    ends.resize(faces.first_thin(), 0_u32);
+    // Segments and points of an overlay have no triangles.
+    let records = source.stored.records.iter().zip(0..source.len() as u32);
+    let records = records.filter(|(record, _)| (record.face as usize) < faces.first_thin());
+    records.clone().for_each(|(record, _)| ends[record.face as usize] += 1);
     let mut sum = 0;
     for end in &mut ends {
         sum += *end;
         *end = sum;
     }
     let mut fragments = Vec::new();
-    reserve(&mut fragments, tree.len())?;
-    fragments.resize(tree.len(), 0);
-    for (number, record) in tree.records.iter().enumerate().rev() {
+    reserve(&mut fragments, sum as usize)?;
+    fragments.resize(sum as usize, 0);
+    for (record, number) in records.rev() {
         let end = &mut ends[record.face as usize];
         *end -= 1;
-        fragments[*end as usize] = number as u32;
+        fragments[*end as usize] = number;
     }
     Ok(fragments)
 }
@@ -309,10 +349,10 @@ impl Points {
     }
 
     fn unite_corners(&mut self, survey: &Survey<'_>) -> Result<(), Error> {
-        let faces = &survey.tree.faces;
+        let faces = survey.faces;
         let mut known: HashMap<[u64; 3], Node> = HashMap::new();
         known.try_reserve(faces.corner_count() / 4).map_err(|_| Error::out_of_memory())?;
-        for corner in faces.corners_of_cell() as u32..faces.corner_count() as u32 {
+        for corner in survey.source.first_corner as u32..faces.corner_count() as u32 {
             let place = faces.given_corner(corner).map(f64::to_bits);
             known.try_reserve(1).map_err(|_| Error::out_of_memory())?;
             self.same.unite(*known.entry(place).or_insert(corner), corner);
@@ -376,7 +416,7 @@ fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
 }
 
 fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
-    survey.tree.faces.moved_axis(face).is_some()
+    survey.faces.moved_axis(face).is_some()
 }
 
 /// The coordinate of a node on a line, along the line's axis.
@@ -385,7 +425,7 @@ fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
 /// cuts the edge as given, so that all faces agree; on a line inside a face, that of the vertex on
 /// the face's plane.
 pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fraction {
-    let (faces, carrier) = (&survey.tree.faces, survey.carriers[line]);
+    let (faces, carrier) = (survey.faces, survey.carriers[line]);
     match (survey.cut(node), carrier.face) {
         (None, None) => Fraction::whole(faces.given_corner(node)[carrier.axis]),
         (None, Some(face)) => {
@@ -422,7 +462,7 @@ fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
     reserve(&mut all, 2 * survey.edges.len())?;
     all.resize(2 * survey.edges.len(), End::default());
     let places = rounded_places(survey)?;
-    let faces = &survey.tree.faces;
+    let faces = survey.faces;
     for range in survey.starts.windows(2) {
         let edges = &survey.edges[range[0] as usize..range[1] as usize];
         for (i, edge) in edges.iter().enumerate() {
@@ -453,7 +493,7 @@ fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
 fn rounded_places(survey: &Survey<'_>) -> Result<Vec<[f64; 3]>, Error> {
     let mut places = Vec::new();
     reserve(&mut places, survey.cuts.len())?;
-    let faces = &survey.tree.faces;
+    let faces = survey.faces;
     places.extend(survey.cuts.iter().map(|&(face, vertex_id)| faces.position(face, vertex_id)));
     Ok(places)
 }
@@ -463,7 +503,8 @@ mod points_tests;
 
 #[cfg(test)]
 mod tests {
-    use super::{BspTree, Names, PlaneId, VertexId};
+    use super::{Names, PlaneId, VertexId};
+    use crate::BspTree;
     use crate::exact::EdgeLine;
 
     #[test]

@@ -17,6 +17,10 @@ use crate::viewpoint::Viewpoint;
 pub struct Triangles {
     /// That of their tree.
     generation: u64,
+    /// The number of the first fragment in orders: 0, or that of an overlay's first piece.
+    first: usize,
+    /// How many vertices the mesh has.
+    pub(super) vertices: u32,
     /// Where each fragment's indices begin, and the end of the last.
     starts: Vec<u32>,
     /// [`CHUNK`] more than there are.
@@ -38,6 +42,7 @@ impl Triangles {
     /// Room for so many indices of each fragment.
     pub(super) fn with_lengths(
         generation: u64,
+        first: usize,
         lengths: impl Iterator<Item = u32>,
     ) -> Result<Self, Error> {
         let (mut starts, mut indices) = (Vec::new(), Vec::new());
@@ -51,25 +56,27 @@ impl Triangles {
         reserve(&mut indices, sum as usize + CHUNK)?;
         indices.resize(sum as usize + CHUNK, 0);
         let mut lengths = starts.windows(2).map(|ends| ends[1] - ends[0]);
-        let first = lengths.next().unwrap_or(0);
-        let each = lengths.all(|length| length == first).then_some(first / 3);
-        Ok(Self { generation, starts, indices, each })
+        let length = lengths.next().unwrap_or(0);
+        let each = lengths.all(|other| other == length).then_some(length / 3);
+        Ok(Self { generation, first, vertices: 0, starts, indices, each })
     }
 
-    /// The indices of a fragment, to be filled in.
-    pub(super) fn of_mut(&mut self, fragment: u32) -> &mut [u32] {
-        let range = self.range(fragment);
+    /// The indices of a fragment, counted from 0, to be filled in.
+    pub(super) fn of_mut(&mut self, at: usize) -> &mut [u32] {
+        let range = self.range_at(at);
         &mut self.indices[range]
     }
 
-    /// Those of some fragments alone.
-    pub(super) fn of_fragments(&self, keep: impl Fn(u32) -> bool) -> Result<Self, Error> {
-        let fragments = 0..self.starts.len() as u32 - 1;
-        let kept = |fragment| if keep(fragment) { self.range(fragment) } else { 0..0 };
-        let lengths = fragments.clone().map(|fragment| kept(fragment).len() as u32);
-        let mut some = Self::with_lengths(self.generation, lengths)?;
-        for fragment in fragments {
-            some.of_mut(fragment).copy_from_slice(&self.indices[kept(fragment)]);
+    /// Those of some fragments alone, by their indices.
+    pub(super) fn of_fragments(&self, keep: impl Fn(&[u32]) -> bool) -> Result<Self, Error> {
+        let fragments = 0..self.starts.len() - 1;
+        let kept = |at| Some(&self.indices[self.range_at(at)]).filter(|indices| keep(indices));
+        let kept = |at| kept(at).unwrap_or_default();
+        let lengths = fragments.clone().map(|at| kept(at).len() as u32);
+        let mut some = Self::with_lengths(self.generation, self.first, lengths)?;
+        some.vertices = self.vertices;
+        for at in fragments {
+            some.of_mut(at).copy_from_slice(kept(at));
         }
         Ok(some)
     }
@@ -85,8 +92,11 @@ impl Triangles {
     ///
     /// If there is no such fragment.
     pub fn range(&self, fragment: u32) -> Range<usize> {
-        let fragment = fragment as usize;
-        self.starts[fragment] as usize..self.starts[fragment + 1] as usize
+        self.range_at(fragment as usize - self.first)
+    }
+
+    fn range_at(&self, at: usize) -> Range<usize> {
+        self.starts[at] as usize..self.starts[at + 1] as usize
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -116,7 +126,8 @@ impl Triangles {
         order: &mut Vec<u32>,
         indices: &mut [u32],
     ) -> Result<usize, Error> {
-        if tree.generation != self.generation {
+        let is_of_tree = self.first == 0 && self.starts.len() == tree.len() + 1;
+        if tree.generation != self.generation || !is_of_tree {
             return Err(Kind::MeshOfOtherTree.error());
         }
         let (count, given) = (self.indices().len(), indices.len());
@@ -150,9 +161,62 @@ impl Triangles {
         Ok(count)
     }
 
+    /// Writes the indices of a tree's fragments and of an overlay's pieces in an order of both, as of
+    /// [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns how many. `pieces`
+    /// are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
+    ///
+    /// The vertices of the pieces are numbered after those of the tree's mesh: put both into one vertex
+    /// buffer, the pieces' after the tree's. Lines and points in the order have no triangles.
+    ///
+    /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
+    ///
+    /// # Errors
+    ///
+    /// If `indices` is too short, or `pieces` are not those of an overlay of the same tree. Then nothing is
+    /// written.
+    ///
+    /// # Panics
+    ///
+    /// As for [`write_order`](Self::write_order).
+    pub fn write_order_with(
+        &self,
+        pieces: &Self,
+        order: &[u32],
+        indices: &mut [u32],
+    ) -> Result<usize, Error> {
+        let is_of_one_tree = self.generation == pieces.generation;
+        if !is_of_one_tree || self.first != 0 || pieces.first != self.starts.len() - 1 {
+            return Err(Kind::MeshOfOtherTree.error());
+        }
+        let is_piece = |number: u32| number as usize >= pieces.first;
+        let of = |number: u32| if is_piece(number) { pieces } else { self };
+        let count = order.iter().map(|&number| of(number).range(number).len()).sum();
+        let given = indices.len();
+        let mut places =
+            indices.get_mut(..count).ok_or(Kind::Places { needed: count, given }.error())?;
+        for run in order.chunk_by(|&a, &b| is_piece(a) == is_piece(b)) {
+            let len = run.iter().map(|&number| of(number).range(number).len()).sum();
+            let Some((here, rest)) = places.split_at_mut_checked(len) else { break };
+            if is_piece(run[0]) {
+                pieces.write_one_by_one(run, here, self.vertices);
+            } else {
+                self.write(run, here);
+            }
+            places = rest;
+        }
+        Ok(count)
+    }
+
+    /// Writes the indices of fragments, moved by a number of vertices.
+    fn write_one_by_one(&self, order: &[u32], places: &mut [u32], shift: u32) {
+        let indices = order.iter().flat_map(|&number| &self.indices[self.range(number)]);
+        places.iter_mut().zip(indices).for_each(|(place, index)| *place = index + shift);
+    }
+
     /// Writes the indices of fragments one after the other.
     fn write(&self, order: &[u32], places: &mut [u32]) {
         match self.each {
+            _ if self.first > 0 => self.write_one_by_one(order, places, 0),
             Some(1) => self.write_equal::<3>(order, places),
             Some(2) => self.write_equal::<6>(order, places),
             _ => self.write_staged(order, places),

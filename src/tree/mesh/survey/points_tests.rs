@@ -35,7 +35,7 @@ fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
 /// Whether any three ends on each line compare as numbers do. How many pairs on lines are at one point
 /// though they are at different places of the line.
 fn check(tree: &BspTree) -> usize {
-    let survey = Survey::new(tree).unwrap();
+    let survey = Survey::new(tree.mesh_source()).unwrap();
     let points = Points::new(&survey).unwrap();
     let (all, starts) = by_line(&survey).unwrap();
     let mut apart = 0;
