@@ -249,7 +249,7 @@ impl Camera {
 
     /// Two vectors whose scalar products with a point's vector from the [origin](Self::origin) are its
     /// distances from the middle of the picture, along [`right`](Self::right) and along [`up`](Self::up).
-    /// From an eye, they are multiplied by the point's distance.
+    /// For an eye, each product is multiplied by the point's distance.
     fn rows(&self) -> [DVec3; 2] {
         let Self { right, up, forward, middle, .. } = *self;
         let sine = up.cross(right).dot(forward);
