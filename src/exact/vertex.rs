@@ -1,4 +1,4 @@
-//! Vertices of pieces: on which side of a plane each lies, decided in integers, and where it is, rounded.
+//! Vertices of pieces: their sides of planes, decided in integers, and their rounded positions.
 //!
 //! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
 //! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
@@ -10,10 +10,10 @@
 //! | edge `ab` cut by h | a, b | −h(b), h(a): 160 bits | h(a)·g(b) − h(b)·g(a): 320 bits |
 //! | h₁ and h₂ in the face's plane | its reference triangle | h₁ × h₂ over A, B, C: 320 bits | 482 bits |
 //!
-//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the
-//! axis `e` in which the plane is least steep. Its edges then lie in the planes through their two
-//! lattice points and along `e`, which stand for h above; its own weights over A, B, C are the
-//! areas of triangles seen along `e`.
+//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the axis `e` in
+//! which the plane is least steep. Its edges then lie in the planes through their two lattice points and
+//! along `e`, which stand for h above; its own weights over A, B, C are the areas of triangles seen along
+//! `e`.
 
 use std::cmp::Ordering;
 
@@ -31,7 +31,7 @@ use super::plane::{LOW, LOW_BITS, Plane, cross, largest, relative_to, rounded};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights<const W: usize> {
     points: [[f64; 3]; 3],
-    /// Those beyond the number of points are 0.
+    /// Weights beyond the number of points are 0.
     weights: [Int<W>; 3],
     len: usize,
 }
@@ -43,7 +43,8 @@ impl<const W: usize> Weights<W> {
         Self { points: [a, b, b], weights, len: 2 }
     }
 
-    /// The point where three planes meet: that of a triangle, and two that have these values at its corners.
+    /// The point where three planes meet: the plane of a triangle, and two with these values at its
+    /// corners.
     pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
         // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
         // their vector product.
@@ -54,7 +55,7 @@ impl<const W: usize> Weights<W> {
         Self { points, weights, len: 3 }
     }
 
-    /// The sign that a linear function has at the vertex, by its values at lattice points: exact.
+    /// The sign of a linear function at the vertex, from its values at lattice points: exact.
     pub(crate) fn sign(&self, value: impl Fn(&[f64; 3]) -> Int<3>) -> Ordering {
         // The value at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
         // of the quotient is needed, and the numerator and the denominator are exact.
@@ -88,7 +89,7 @@ impl Weights<5> {
         Fraction { numerator, denominator: self.total() }
     }
 
-    /// The place in lattice units, each coordinate within three roundings of the exact one.
+    /// The position in lattice units, each coordinate within three roundings of the exact one.
     pub(crate) fn position(&self) -> [f64; 3] {
         std::array::from_fn(|axis| {
             let Fraction { numerator, denominator } = self.along(axis);
@@ -113,7 +114,7 @@ impl Faces {
         }
     }
 
-    /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
+    /// The ends of the edge that contains a vertex, if they lie exactly on the face's plane.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
         if self.moved_axis(face).is_some() {
@@ -159,8 +160,8 @@ impl Faces {
         }
     }
 
-    /// Where a plane cuts the segment between two lattice points; `None` unless they are strictly on
-    /// its two sides.
+    /// The point where a plane cuts the segment between two lattice points; `None` unless they are strictly
+    /// on its two sides.
     pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
         let plane = self.plane(plane);
         let values = ends.map(|end| plane.at(&end));
@@ -185,8 +186,8 @@ impl Faces {
             VertexKind::Corner(k) => smallvec![(k, 1.0)],
             VertexKind::OnEdge(k, _) if weights.len == 2 => weights.shares([k, (k + 1) % len]),
             VertexKind::OnEdge(k, _) => {
-                // The edge of a face that is planar only by definition: the exact weights are over
-                // the reference triangle, so take the rounded position's share of the edge.
+                // The edge of a face that is planar only by definition: the exact weights are over the
+                // reference triangle, so use the rounded position's share of the edge.
                 let edge = [k, (k + 1) % len];
                 let [a, b] = edge.map(|k| DVec3::from(self.corners(face)[k as usize]));
                 let arm = b - a;
@@ -215,7 +216,7 @@ impl Faces {
     }
 }
 
-/// A coordinate of a point, in lattice units. The denominator is not zero, and of either sign.
+/// A coordinate of a point, in lattice units. The denominator is not zero, and has either sign.
 ///
 /// Both are sums over the weights of [`Weights`].
 #[derive(Clone, Copy, Debug)]
@@ -230,7 +231,7 @@ impl Fraction {
         Self { numerator: Int::from(value as i64), denominator: Int::from(1_i64) }
     }
 
-    /// How two coordinates compare: exact.
+    /// Compares two coordinates, exactly.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
         let left = self.numerator.times::<5, 12>(&other.denominator);
         let right = other.numerator.times::<5, 12>(&self.denominator);
@@ -239,7 +240,7 @@ impl Fraction {
         relative_to((left - right).sign(), denominators)
     }
 
-    /// Which share of the way from one lattice coordinate to another has been gone here, rounded.
+    /// The rounded share of the way from one lattice coordinate to another.
     pub(crate) fn share(&self, from: f64, to: f64) -> f64 {
         let before = self.denominator.times::<1, 6>(&Int::from(from as i64));
         (self.numerator - before).to_f64() / (self.denominator.to_f64() * (to - from))
@@ -265,15 +266,15 @@ impl Faces {
 struct ExactEdge {
     /// The lattice points of its two corners.
     ends: [[f64; 3]; 2],
-    /// How they are moved onto the face's plane; `None` if both are on it.
+    /// The move of its ends onto the face's plane; `None` if both are on it.
     moved: Option<Moved>,
 }
 
-/// How the ends of an edge are moved: along an axis, by half a step at most.
+/// The move of an edge's ends: along an axis, by half a step at most.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     axis: usize,
-    /// The face's plane at the ends, and what it gains with a step along the axis.
+    /// The face's plane at the ends, and its increase with a step along the axis.
     offs: [i128; 2],
     slope: i128,
 }
