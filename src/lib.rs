@@ -15,10 +15,10 @@
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
-//! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
+//! | find the hits of a ray, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
 //! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
-//! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
 //! | find the fragments in a box, or the leaf of a point | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
+//! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
 //! | copy all fragments to another language, a file or a device | [`BspTree::arrays`], [`BspTree::arrays_f32`] | |
 //! | choose the partition planes yourself | [`BuildOptions::with_chooser`], [`choose::PieceSet`] | `surface_area` |
 //! | write a tree to a file, or read a model | `BspTree::write`, `scene::Scene::read_obj` | |

@@ -318,8 +318,8 @@ impl Faces {
 }
 
 // Positions. The exact one is a quotient of integers of up to 380 bits, whose leading bits nearly always
-// suffice. So numbers are cut off to 124 bits as they arise, with a bound on what that loses. Where
-// the quotient could be off by more than `OFF`, because terms cancel, it is computed in full.
+// suffice. So numbers are truncated to 124 bits as they arise, with a bound on the loss. If the quotient
+// could be off by more than `OFF`, because terms cancel, it is computed in full.
 
 /// Bits that are kept of a number, the sign aside.
 const KEPT: u32 = 124;
@@ -328,22 +328,22 @@ const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
 /// 1 in numbers of which a half is below it.
 const UNIT: f64 = (1u64 << HALF) as f64;
-/// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
-/// larger: more of them are computed in full.
+/// The sum of the weights must be 2⁷⁰ times the error of one. Too small: positions are off by more. Too
+/// large: more of them are computed in full.
 const MARGIN: u32 = 70;
-/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with
-/// a larger margin than that, no position could be computed from them.
+/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with a
+/// larger margin than that, no position could be computed from them.
 const EDGE_MARGIN: u32 = 60;
-/// What cutting off adds to the error of a position, at most, in lattice units: on an edge as long as
-/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is
-/// less: 6 · 2⁻⁷⁰ of its size, as three weights are in the numerator and three in the denominator.)
+/// The largest error of a position from truncation, in lattice units: on an edge as long as the lattice is
+/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of its size,
+/// because three weights are in the numerator and three in the denominator.)
 pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {
     /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
-    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to
-    /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
-    /// points and planes get the same bits, whichever way their faces run.
+    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to that
+    /// axis defines the vertex. All pieces, of any face, that define the vertex by the same points and
+    /// planes get the same bits, in either orientation of their faces.
     pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
             VertexKind::Corner(k) => return self.corners(face)[k as usize],
@@ -367,7 +367,7 @@ impl Faces {
     }
 }
 
-/// Where a plane meets an edge; `None` if the leading bits do not tell.
+/// Where a plane meets an edge; `None` if the leading bits do not decide.
 fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     let ExactEdge { ends, moved } = edge;
     let ends = ends.map(integers);
@@ -406,7 +406,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     }))
 }
 
-/// Where two planes meet that of a triangle; `None` if the leading bits do not tell.
+/// Where two planes meet that of a triangle; `None` if the leading bits do not decide.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     let triangle = triangle.map(integers);
     let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));
@@ -444,8 +444,8 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     Some(position)
 }
 
-/// A plane at some lattice points, without the last bits, and how many were dropped. Each is rounded
-/// towards 0: so those of a plane and its reverse differ in sign alone. Below 2¹²⁴ in magnitude.
+/// A plane's values at some lattice points, without the last bits, and the number of bits dropped. Each is
+/// rounded towards 0, so those of a plane and its reverse differ only in sign. Below 2¹²⁴ in magnitude.
 #[inline]
 fn leading(plane: &Plane, points: [[i64; 3]; 3]) -> ([i128; 3], u32) {
     let parts = points.map(|point| at(plane, point));
@@ -495,7 +495,7 @@ fn at(plane: &Plane, point: [i64; 3]) -> HighLow<LOW_BITS> {
     HighLow { high: high + (low >> LOW_BITS), low: low & LOW }
 }
 
-/// How many bits the largest magnitude of some numbers has.
+/// The number of bits of the largest magnitude.
 #[inline]
 fn bits_of<const K: usize>(numbers: [i128; K]) -> u32 {
     let all = numbers.iter().fold(0, |all, number| all | number.unsigned_abs());
@@ -528,7 +528,7 @@ impl Product {
 #[inline]
 fn nearest(high: i128, low: u64) -> f64 {
     if high.unsigned_abs() >> HALF > 0 {
-        // The last bit set if any bit below is: then the conversion rounds once, as if it saw all.
+        // The last bit is set if any bit below is: then the conversion rounds once, as if it saw all bits.
         return (high | i128::from(low > 0)) as f64;
     }
     ((high << HALF | i128::from(low)) as f64) / (1u64 << HALF) as f64

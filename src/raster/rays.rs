@@ -83,9 +83,9 @@ const REGION: f64 = (1u64 << 60) as f64;
 /// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between
 /// it and the middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d|
 /// / (h · σ): h is the distance of the picture's plane from the eye, and σ the smallest singular value of
-/// the matrix with the columns `right` and `down`. With the angle φ between the two, σ² ≥ min(|right|,
-/// |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the pixel's size here. Too small: rays
-/// are off by more than a thousandth of a pixel.
+/// the matrix with the columns `right` and `down`. With the angle φ between the two, σ² ≥
+/// min(|right|, |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the pixel's size here. Too
+/// small: rays are off by more than a thousandth of a pixel.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
@@ -98,8 +98,8 @@ impl Rays {
     /// a thousandth of a pixel. In a picture of n pixels, width and height together, every pixel is large
     /// enough that has n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000
     /// by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. The
-    /// size of an oblong pixel is its shorter side; that of a skewed pixel, its shorter side times √(1 −
-    /// |cos φ|), where φ is the angle between its sides.
+    /// size of an oblong pixel is its shorter side; that of a skewed pixel, its shorter side times √(1
+    /// − |cos φ|), where φ is the angle between its sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }

@@ -95,7 +95,7 @@ impl Builtin {
         }
     }
 
-    /// What the size counts; `None` for scenes of one size.
+    /// The meaning of the size; `None` for scenes of one size.
     pub fn size_meaning(self) -> Option<&'static str> {
         self.size().map(|(_, meaning)| meaning)
     }

@@ -372,8 +372,8 @@ pub(in crate::tree) struct Normals {
 }
 
 /// A bound on the error of a unit normal's coordinate in `f32`, and of adding this to it. With ε = 2⁻²³: a
-/// normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, which leaves less than ε /
-/// 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
+/// normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, which leaves less than ε
+/// / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
 /// more than 1. So this is more than twice the error. Too small: a box may not contain the exact normal.
 /// Too large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;

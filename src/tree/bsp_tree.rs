@@ -35,7 +35,7 @@ use crate::faces::Preparation;
 /// [`Overlay`](crate::overlay::Overlay) adds moving polygons, lines and points. If most polygons move, as
 /// in a compositor of layers, use a [`FrameBuilder`](crate::FrameBuilder), which builds a tree every frame.
 ///
-/// # What it holds
+/// # Contents
 ///
 /// The tree stores every polygon that has area as one or more *fragments*: convex pieces. A polygon that no
 /// partition plane cuts is one fragment, so nothing was cut if [`len`](Self::len) equals

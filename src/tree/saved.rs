@@ -179,7 +179,7 @@ const EMPTY: u32 = 0;
 const FRAGMENT: u32 = 1;
 const NODE: u32 = 2;
 
-/// What a node has on its plane and its sides. (A plane has at most as many fragments as there are
+/// The contents of a node's plane and sides, packed. (A plane has at most as many fragments as there are
 /// faces, fewer than 2²⁷.)
 fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
     let side = |is_node, leaf: &Range<u32>| match is_node {

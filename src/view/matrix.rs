@@ -35,8 +35,8 @@ impl Camera {
     /// The row of z, the depth, may have any finite numbers, and may depend on the others. There is no near
     /// and no far plane. The depth is only used with a parallel matrix. There it must increase away from
     /// the viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If
-    /// depths are reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0))
-    /// * matrix`.
+    /// depths are reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0,
+    /// -1.0)) * matrix`.
     ///
     /// Mirrored pictures are refused: in them right, up and towards the viewer form a left-handed frame, as
     /// in plots with one inverted axis. Negate the first row, and mirror the drawing: x becomes width − x.

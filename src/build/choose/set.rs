@@ -223,7 +223,7 @@ impl PackedPieces {
 /// A plane, with each of its numbers four times.
 struct Splat {
     normal: [Vec4; 3],
-    /// Along the normal, pieces certainly in front are above this value, and pieces behind below the next.
+    /// Along the normal, pieces certainly in front are above `above`, and pieces behind below `below`.
     above: Vec4,
     below: Vec4,
 }
