@@ -1,11 +1,11 @@
-//! Partitions of strangers that are wrong in one plane: refused, and the message says which it is.
+//! Forged partitions that are wrong in one plane: refused, with a message that names the plane.
 
 use binspace::partition::{Extent, Partition};
 use testkit::prelude::*;
 use testkit::saved::seal;
 
 const LIMIT: i64 = 1 << 51;
-/// How many planes the partition has.
+/// The number of planes of the partition.
 const PLANES: usize = 3;
 
 /// Four cells, by planes of any axis and place: over all, over two of them, over the other two.

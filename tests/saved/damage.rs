@@ -1,4 +1,4 @@
-//! Files that are cut short, damaged, forged, or of something else.
+//! Truncated, damaged and forged files, and files of other kinds.
 
 use testkit::effort::effort;
 use testkit::prelude::*;
@@ -58,8 +58,8 @@ fn a_checksum_shows_every_changed_byte() {
     }
 }
 
-/// Every byte changed, in one way or with more effort in several, and the checksum made right: refused, or as
-/// good as any tree to use.
+/// Every byte changed, in one way or with more effort in several, and the checksum corrected: refused, or
+/// as usable as any tree.
 #[test]
 fn a_forged_file_is_refused_or_usable() {
     let (mut usable, mut refused) = (0, 0);
@@ -77,14 +77,14 @@ fn a_forged_file_is_refused_or_usable() {
             }
         }
     }
-    // Corners may be moved a little, and counts be false.
+    // Corners may be slightly moved, and counts be false.
     enough!(usable > 200, refused > 200; "{usable} {refused}");
 }
 
 #[test]
 fn an_absurd_length_is_refused() {
     let file = &files()[0];
-    // Where the lengths of lists are: in place of one, 2⁵⁶ and what is just allowed.
+    // The lengths of lists: each is replaced by 2⁵⁶ and by the largest allowed value.
     let mut tried = 0;
     for at in (16..file.len() - 12).step_by(4) {
         for length in [1_u64 << 56, (1 << 28) - 1, (1 << 29) - 1, u64::MAX] {
