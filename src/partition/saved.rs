@@ -82,7 +82,7 @@ impl Partition {
             }
             let SplitPlane { axis, at } = self.planes[subtree.plane];
             if !(part[0][axis]..=part[1][axis]).contains(&at) {
-                return Err(invalid("plane", subtree.plane, "is outside of what it divides"));
+                return Err(invalid("plane", subtree.plane, "is outside the part that it divides"));
             }
             let [mut behind, mut ahead] = [part; 2];
             behind[1][axis] = at;

@@ -173,11 +173,11 @@ const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither 
                          zero, or they depend on each other";
 const NOTHING_AHEAD: &str = "w of the matrix is zero or negative for every point: it must be positive ahead of the \
                              camera";
-const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror what is drawn; or, if its y \
+const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror the drawing; or, if its y \
                         points down, negate its second row";
 const MIRRORED_OR_REVERSED: &str = "the matrix mirrors the picture, or its depth decreases away from the viewer: if \
                                     depths are reversed, negate its third row; if its y points down, negate its second \
-                                    row; or negate its first row and mirror what is drawn";
+                                    row; or negate its first row and mirror the drawing";
 const SKEWED: &str = "the sides of a pixel, or the picture and the line of sight to its middle, form an angle of less \
                       than 0.001 radians";
 const TOO_FAR: &str =

@@ -57,9 +57,9 @@ fn planes_are_within_what_they_divide() {
         let at = |behind: i64, ahead: i64| with_planes([(axis, 10), (axis, behind), (axis, ahead)]);
         assert!(at(10, 10).is_ok() && at(-LIMIT, LIMIT).is_ok());
         let message = at(11, 12).expect_err("ahead of the first");
-        assert!(message.contains("plane 1 is outside of what it divides"), "{message}");
+        assert!(message.contains("plane 1 is outside the part that it divides"), "{message}");
         let message = at(8, 9).expect_err("behind the first");
-        assert!(message.contains("plane 2 is outside of what it divides"), "{message}");
+        assert!(message.contains("plane 2 is outside the part that it divides"), "{message}");
         // On another axis it may be anywhere.
         let other = (axis + 1) % 3;
         assert!(with_planes([(axis, 10), (other, 11), (other, 9)]).is_ok());

@@ -190,9 +190,9 @@ fn a_line_is_cut_only_where_it_goes_through() {
     }
 }
 
-/// Two squares side by side in the picture, on both sides of a wall that is seen edge-on, and a line and a point
-/// on their common border: one square is behind them and the other in front. Nothing else asks that the one
-/// behind comes first.
+/// Two squares side by side in the picture, on both sides of a wall that is seen edge-on, and a line and a
+/// point on their common border: one square is behind them and the other in front. Nothing else requires
+/// that the one behind comes first.
 #[test]
 fn lines_and_points_come_between_polygons_that_touch() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();

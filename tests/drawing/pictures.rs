@@ -345,7 +345,7 @@ fn fill_at_random(
     }
 }
 
-/// Whatever the numbers are, a file is well-formed, and its numbers are finite.
+/// For any numbers, a file is well-formed, and its numbers are finite.
 #[test]
 fn odd_numbers_make_no_broken_files() {
     const ODD: [f64; 12] = [

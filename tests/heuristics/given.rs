@@ -191,7 +191,7 @@ fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
             assert!(Snapshot::of(&tree) == expected, "{by}, {answer:?}");
             assert!(calls.load(Relaxed) > 100, "{by}, {answer:?}");
         }
-        // A set's own beginning leaves all on one side, but for a piece that ends there.
+        // The beginning of a set leaves all on one side, except a piece that ends there.
         let options = options.with_chooser(|set| {
             axis(0, (0..set.piece_count()).map(|i| set.bounds(i)[0].x).fold(f64::MAX, f64::min))
         });

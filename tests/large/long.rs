@@ -1,6 +1,6 @@
 //! The long run: seed after seed.
 
-#![allow(clippy::print_stdout, reason = "the table is what is asked for")]
+#![allow(clippy::print_stdout, reason = "the run prints a table")]
 
 use super::all_scenes::{self, KINDS};
 use super::trial::Trial;

@@ -132,7 +132,7 @@ fn exact_rays_confirm_what_planes_excuse() {
             let (mut order, mut right) = (Vec::new(), [0, 0]);
             tree.back_to_front_into(camera.viewpoint(), &mut order);
             check(&tree, &camera, &order, &mut right);
-            assert_eq!(right[1], 0, "what is not excused is wrong");
+            assert_eq!(right[1], 0, "pixels that are not excused are wrong");
             counts[0] += right[0];
             // A completely wrong order: the same places are excused.
             order.reverse();
