@@ -40,7 +40,7 @@ impl<R: Read> Reader<R> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
             return Err(refused(
-                "it is no file of binspace: it begins with other bytes".to_owned(),
+                "it is not a binspace file: it begins with other bytes".to_owned(),
             ));
         }
         let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
@@ -52,8 +52,8 @@ impl<R: Read> Reader<R> {
         }
         if version != kind.version {
             return Err(refused(format!(
-                "its layout is version {version}, but this version of binspace reads version {} \
-                 alone: write it again, from the polygons",
+                "its layout is version {version}, but this version of binspace reads only \
+                 version {}: write it again, from the polygons",
                 kind.version
             )));
         }
@@ -136,7 +136,7 @@ impl<R: Read> Reader<R> {
             return Ok(());
         }
         Err(refused(format!(
-            "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
+            "it is damaged: its checksum is {found:08x}, but it stores {expected:08x}"
         )))
     }
 }
@@ -240,7 +240,7 @@ pub(crate) fn damaged(what: &'static str, fault: &'static str) -> Error {
 }
 
 pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Error {
-    refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
+    refused(format!("it has {found} {what}, above the limit of {limit}: it is damaged"))
 }
 
 fn refused(problem: impl Into<Problem>) -> Error {
@@ -252,7 +252,7 @@ fn refused(problem: impl Into<Problem>) -> Error {
 fn failed(error: io::Error, what: &'static str) -> Error {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => {
-            refused(format!("it ends within its {what}: it is cut short, or damaged before that"))
+            refused(format!("it is truncated within its {what}, or damaged before that"))
         }
         io::ErrorKind::OutOfMemory => Error::out_of_memory(),
         _ => refused(error),

@@ -121,7 +121,7 @@ impl Faces {
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
-            return Err(damaged("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or NaN"));
         }
         if !Self::is_cell(self.cell()) {
             return Err(damaged("cell", "is outside the grid"));

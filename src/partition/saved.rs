@@ -62,7 +62,7 @@ impl Partition {
         file.finish()?;
         lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
-            return Err(damaged("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or NaN"));
         }
         let is_wrong = |plane: &SplitPlane| plane.axis > 2 || plane.at.abs() > LATTICE_LIMIT;
         if let Some(plane) = planes.iter().position(is_wrong) {

@@ -217,7 +217,7 @@ impl FromStr for BuiltinSpec {
         };
         let scene: Builtin = name.parse()?;
         let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
-            let problem = format!("the scene {scene} has one size; ask for it as `{scene}`");
+            let problem = format!("the scene {scene} has one size; write `{scene}`");
             return Err(Kind::Argument(problem).error());
         };
         let size = digits.parse().ok().filter(|size| sizes.contains(size));

@@ -132,7 +132,7 @@ impl Scene {
             })?,
         };
         file.finish()?;
-        let name_of = |bytes| String::from_utf8(bytes).map_err(|_| damaged("name", "is no text"));
+        let name_of = |bytes| String::from_utf8(bytes).map_err(|_| damaged("name", "is not UTF-8"));
         scene.name = name_of(name)?;
         for (name, [red, green, blue, opacity]) in materials {
             let color = [red, green, blue];

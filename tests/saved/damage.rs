@@ -27,11 +27,11 @@ fn message(file: &[u8]) -> String {
 }
 
 #[test]
-fn every_part_of_a_file_is_cut_short() {
+fn every_truncated_file_is_refused() {
     for file in files() {
         for len in 0..file.len() {
             let message = message(&file[..len]);
-            assert!(message.contains("cut short"), "{len}: {message}");
+            assert!(message.contains("truncated"), "{len}: {message}");
         }
     }
 }
@@ -47,7 +47,7 @@ fn a_checksum_shows_every_changed_byte() {
                 damaged[at] ^= change;
                 let message = message(&damaged);
                 let is_told = match at {
-                    0..8 => message.contains("no file of binspace"),
+                    0..8 => message.contains("not a binspace file"),
                     8..12 => message.contains("where a \"tree\" is expected"),
                     12..16 => message.contains("version"),
                     _ => message.contains("damaged"),
@@ -106,14 +106,14 @@ fn another_version_is_named() {
         seal(&mut file);
         let message = message(&file);
         let is_named = message.contains(&format!("version {version},"));
-        assert!(is_named && message.contains("reads version 3"), "{message}");
+        assert!(is_named && message.contains("reads only version 3"), "{message}");
     }
 }
 
 #[test]
 fn other_files_are_told() {
-    assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("no file of binspace"));
-    assert!(message(b"binspacescene").contains("cut short"));
+    assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("not a binspace file"));
+    assert!(message(b"binspacescene").contains("truncated"));
     assert!(message(b"binspacescen\x01\0\0\0").contains("it holds a \"scen\""));
-    assert!(message(b"").contains("cut short"));
+    assert!(message(b"").contains("truncated"));
 }

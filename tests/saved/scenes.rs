@@ -46,7 +46,7 @@ fn damaged_scenes_are_refused_and_forged_ones_usable() {
     let file = bytes(&full());
     for len in 0..file.len() {
         let error = Scene::read(&file[..len]).unwrap_err();
-        assert!(error.to_string().contains("cut short"), "{len}: {error}");
+        assert!(error.to_string().contains("truncated"), "{len}: {error}");
     }
     let (mut usable, mut refused) = (0, 0);
     for at in 0..file.len() {
