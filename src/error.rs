@@ -3,16 +3,16 @@
 use std::sync::Arc;
 use std::{fmt, io};
 
-/// Why something could not be built, read, written or finished: its [kind](Self::kind), and the polygon to blame
-/// if there is one. Its message says what to do.
+/// The reason why a build, read, write or other call failed: its [kind](Self::kind), and the polygon that
+/// caused it, if any. The message says what to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     kind: Kind,
-    /// The thing to blame, and its number.
+    /// The cause and its number.
     blamed: Option<(Shape, usize)>,
 }
 
-/// The things that an error may name.
+/// The kinds of input that an error may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
     Polygon,
@@ -22,7 +22,7 @@ pub(crate) enum Shape {
 }
 
 impl Kind {
-    // No `From`: with it, `?` in closures would need their error's type.
+    // No `From`: with it, `?` in closures would need the type of their error.
     pub(crate) const fn error(self) -> Error {
         Error { kind: self, blamed: None }
     }
@@ -42,13 +42,13 @@ impl Error {
         Kind::Cancelled.error()
     }
 
-    /// The same error, where the polygon to blame is a shape of another kind.
+    /// The same error, where the cause is a shape of another kind.
     pub(crate) fn of(mut self, shape: Shape) -> Self {
         self.blamed = self.blamed.map(|(_, number)| (shape, number));
         self
     }
 
-    /// The index of the polygon (or layer) to blame, in the order in which the polygons were given.
+    /// The index of the polygon (or layer) that caused the error, in input order.
     pub const fn polygon(&self) -> Option<usize> {
         match self.number_of(Shape::Layer) {
             Some(layer) => Some(layer),
@@ -56,8 +56,8 @@ impl Error {
         }
     }
 
-    /// The same error about a polygon of another number, if it blames a polygon: for those who give the library
-    /// a part of their polygons, as of a cell, and know these by other numbers.
+    /// Renumbers the polygon that caused the error, if any: for callers that pass on a part of their
+    /// polygons, such as those of a cell.
     ///
     /// ```
     /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
@@ -72,25 +72,25 @@ impl Error {
         self
     }
 
-    /// The index of the overlay's line to blame, in the order in which the lines were given.
+    /// The index of the overlay's line that caused the error, in input order.
     pub const fn line(&self) -> Option<usize> {
         self.number_of(Shape::Line)
     }
 
-    /// The index of the overlay's point to blame, in the order in which the points were given.
+    /// The index of the overlay's point that caused the error, in input order.
     pub const fn point(&self) -> Option<usize> {
         self.number_of(Shape::Point)
     }
 
     const fn number_of(&self, kind: Shape) -> Option<usize> {
         match self.blamed {
-            // `==` of enums is not for `const` functions.
+            // `const` functions cannot use `==` on enums.
             Some((shape, number)) if shape as u8 == kind as u8 => Some(number),
             _ => None,
         }
     }
 
-    /// What kind of error it is, to decide what to do about it.
+    /// The kind of the error, to decide how to handle it.
     pub const fn kind(&self) -> ErrorKind {
         match self.kind {
             Kind::NonFinite
@@ -118,7 +118,7 @@ impl Error {
         }
     }
 
-    /// The line of the text file to blame, counted from 1.
+    /// The line of the text file that caused the error, counted from 1.
     pub const fn line_of_file(&self) -> Option<usize> {
         match &self.kind {
             Kind::File(fault) => fault.line,
@@ -131,29 +131,29 @@ impl Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A polygon, an option or an argument has a number out of its range, or a body is open where only closed
-    /// ones have an inside.
+    /// A number of a polygon, option or argument is out of range, or a body is open where only closed
+    /// bodies have an inside.
     InvalidInput,
-    /// There is more input than the numbers of a tree can count.
+    /// The input is larger than the numbers of a tree can count.
     TooLarge,
     /// A budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another heuristic
     /// may succeed.
     OverBudget,
     /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
-    /// Other lists, such as those of drawings, overlays and boxes, are not checked: where they do not fit, the
-    /// program ends, as Rust programs do. A system that promises more memory than it has may end it
-    /// earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit the
-    /// memory of a build.
+    /// Other lists, such as those of drawings, overlays and boxes, are not checked: if memory runs out, the
+    /// program aborts, like other Rust programs. A system that overcommits memory may end it earlier.
+    /// Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit the memory of a
+    /// build.
     OutOfMemory,
-    /// The caller's callback cancelled it, as that of
-    /// [`build_with_progress`](crate::BuildOptions::build_with_progress) can.
+    /// The caller's callback cancelled the call, as in
+    /// [`build_with_progress`](crate::BuildOptions::build_with_progress).
     Cancelled,
     /// An overlay or a mesh was made for another tree.
     OtherTree,
-    /// The two do not combine, such as a drawing and the tree of one cell.
+    /// Two things do not combine, such as a drawing and the tree of one cell.
     Unsupported,
-    /// A file is damaged, cut short, or not of the expected format.
+    /// A file is damaged, truncated, or not of the expected format.
     InvalidFile,
     /// Reading failed; [`source`](std::error::Error::source) is the reason.
     Io,
@@ -168,10 +168,10 @@ impl std::error::Error for Error {
     }
 }
 
-/// Why a file could not be read. The polygon to blame is its face.
+/// The reason why a file could not be read. The polygon that caused the error is a face of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FileFault {
-    /// Empty where the caller knows it.
+    /// Empty if the caller knows it.
     pub(crate) name: String,
     /// Counted from 1.
     pub(crate) line: Option<usize>,
@@ -221,7 +221,7 @@ impl From<io::Error> for Problem {
     }
 }
 
-/// All that can go wrong, each with the numbers that its message needs.
+/// All causes of errors, each with the numbers for its message.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     not(all(feature = "drawing", feature = "layers", any(feature = "save", feature = "obj"))),
@@ -245,7 +245,7 @@ pub(crate) enum Kind {
     Layer,
     // Limits that the input, or a tree of it, exceeds.
     Polygons(usize),
-    /// Of all polygons together.
+    /// All polygons together.
     CornersInAll(usize),
     /// Of a mesh, or of arrays.
     Indices,

@@ -1,8 +1,9 @@
-//! The guide: a page for each subject, with programs that are tests. The pages of types say the rest.
+//! The guide: a page for each subject, with programs that are tests. For details see the pages of types.
 //!
 //! This module has no code. Its pages are the files in `docs/guide/`.
 
-/// Where links between pages lead here; in the files they lead to files. (The first definition of a link wins.)
+/// The targets of links between pages in rustdoc; in the files they lead to files. (The first definition of
+/// a link wins.)
 macro_rules! links {
     () => {
         "[building]: crate::guide::building
@@ -21,7 +22,7 @@ macro_rules! links {
     };
 }
 
-/// Makes the pages: each has some lines of its own, the links, and its file.
+/// Makes the pages: each has its own lines, the links, and its file.
 macro_rules! pages {
     ($($(#[$doc:meta])* $page:ident)*) => {
         $(
@@ -42,7 +43,7 @@ pages! {
     gpu
     /// One view as paths and lines: the module `drawing`.
     drawings
-    /// Polygons that move, lines and points: [`Overlay`](crate::overlay::Overlay).
+    /// Moving polygons, lines and points: [`Overlay`](crate::overlay::Overlay).
     moving
     /// A tree a frame: [`FrameBuilder`](crate::FrameBuilder), and the module `layers`.
     frames

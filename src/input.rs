@@ -2,13 +2,13 @@
 
 use glam::{DVec3, Vec3, Vec3A};
 
-/// The most corners of one polygon, about 4 million. Larger: an endless polygon takes more memory
-/// before it is noticed; smaller: coast lines have to be divided.
+/// The largest number of corners of one polygon, about 4 million. Too large: an endless polygon takes more
+/// memory before it is rejected. Too small: coastlines have to be divided.
 pub const MAX_CORNERS: usize = 1 << 22;
 
 /// A point of an input polygon.
 pub trait Point: Copy {
-    /// How precise a coordinate is: the distance from 1 to the next number that it could be.
+    /// The relative precision of a coordinate: the distance from 1 to the next possible number.
     /// `f32::EPSILON` for coordinates that are, or once were, `f32`.
     const PRECISION: f64;
 
@@ -40,10 +40,10 @@ impl_point! {
     mint::Point3<f64>, f64: self => DVec3::from(self);
 }
 
-/// An input polygon: its corners in order around it. The first corner is not repeated at the end.
+/// An input polygon: its corners in order. The first corner is not repeated at the end.
 ///
-/// The front of a polygon is the side from which its corners run counter-clockwise. Implement the
-/// trait for a type of your own to build a tree without copying your mesh first:
+/// The front of a polygon is the side from which its corners run counter-clockwise. Implement the trait for
+/// your own type to build a tree without copying your mesh first:
 ///
 /// ```
 /// use binspace::{BspTree, Polygon};
@@ -70,15 +70,15 @@ pub trait Polygon {
     /// A corner.
     type Point: Point;
 
-    /// The corners, in order around the polygon. More than 2²² (4 194 304) are an error,
-    /// so an endless iterator is one as well.
+    /// The corners, in order around the polygon. More than 2²² (4 194 304) are an error, and so is an
+    /// endless iterator.
     fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
-    /// How far a corner may be off the plane that it was meant to be on, a length. The default
-    /// tolerance follows it, within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
+    /// The largest distance of a corner from its intended plane. The default tolerance follows it, within
+    /// limits: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
-    /// By default it is four times [`Point::PRECISION`] of the polygon's largest coordinate, about the
-    /// rounding of a point that was turned by a matrix.
+    /// By default four times [`Point::PRECISION`] of the polygon's largest coordinate, about the rounding
+    /// error of a point multiplied by a matrix.
     fn precision(&self) -> f64 {
         // Not `f64::max`, which takes more instructions because of NaN.
         let larger = |most: f64, c: f64| if c > most { c } else { most };
@@ -90,8 +90,8 @@ pub trait Polygon {
     }
 }
 
-/// Steps of the largest coordinate by which a computed point may be off its plane.
-/// Smaller: cards that a matrix put into one plane cut each other; larger: thin layers are merged.
+/// Steps of the largest coordinate by which a computed point may be off its plane. Too small: cards that a
+/// matrix put into one plane cut each other. Too large: thin layers are merged.
 pub(crate) const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {

@@ -9,15 +9,15 @@
 //! |---|---|---|
 //! | paint polygons back to front | [`BspTree::back_to_front`], [`Fragment`] | |
 //! | draw translucent triangles on a GPU | [`BspTree::welded_mesh`], [`mesh::Triangles::write_back_to_front`] | `gpu_transparency` |
-//! | leave out what is out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
+//! | leave out fragments out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
 //! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
 //! | order, hit or draw doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
-//! | find what a ray hits, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
+//! | find the hits of a ray, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
 //! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
-//! | find what is in a box, or where a point is | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
+//! | find the fragments in a box, or the leaf of a point | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
 //! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
 //! | copy all fragments to another language, a file or a device | [`BspTree::arrays`], [`BspTree::arrays_f32`] | |
 //! | choose the partition planes yourself | [`BuildOptions::with_chooser`], [`choose::PieceSet`] | `surface_area` |
@@ -27,7 +27,7 @@
 //!
 //! Input and options: [`Polygon`], [`Point`], [`BuildOptions`], [`Heuristic`], [`Tolerance`], [`Progress`],
 //! [`Viewpoint`]. A tree's parts and figures: [`Node`], [`Child`], [`Facing`], [`Grid`], [`Preparation`],
-//! [`Stats`]. What went wrong, and at which polygon: [`Error`], [`ErrorKind`].
+//! [`Stats`]. The cause of a failure, and its polygon: [`Error`], [`ErrorKind`].
 //!
 //! # What works together
 //!
@@ -40,19 +40,19 @@
 //!
 //! # Conventions
 //!
-//! - Coordinates are right-handed, in any unit; results are in the same.
+//! - Coordinates are right-handed, in any unit; results are in the same unit.
 //! - A polygon's corners run counter-clockwise seen from its **front**; the front of a plane is the
 //!   side that its normal points to.
-//! - Order: *back to front* is the order to paint in, the furthest first.
+//! - Order: *back to front* is the painting order, furthest first.
 //! - Pixels: x to the right, y down, rows from the top; a pixel is judged at its centre.
 //!
 //! # Features
 //!
 //! | feature | default | adds |
 //! |---|---|---|
-//! | `parallel` | yes | building with rayon's threads; the tree is the same, bit for bit |
-//! | `raster` | no | cameras (`view`), a painter and a z-buffer that decide every pixel exactly (`raster`, `paint`), their comparison (`verify`), and occlusion culling (`occlusion`) |
-//! | `drawing` | no | module `drawing`: one view as a vector picture, one path a visible polygon; turns on `raster` |
+//! | `parallel` | yes | building with rayon's threads; the tree is bit for bit the same |
+//! | `raster` | no | cameras (`view`), an exact painter and z-buffer (`raster`, `paint`), their comparison (`verify`), and occlusion culling (`occlusion`) |
+//! | `drawing` | no | module `drawing`: one view as a vector picture with one path per visible polygon; turns on `raster` |
 //! | `pdf` | no | vector pictures as PDF; turns on `drawing` |
 //! | `layers` | no | module `layers`: rectangles with 4×4 matrices, as in CSS 3D, clipped, cut and in paint order |
 //! | `scene` | no | module `scene`: polygons with colours, generated scenes |
@@ -111,7 +111,7 @@ pub use query::{Hit, Location};
 pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Ordered, Part, Stats};
 pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
-/// What a heuristic of your own sees and returns: [`BuildOptions::with_chooser`].
+/// The input and output of your own heuristic: [`BuildOptions::with_chooser`].
 pub mod choose {
     pub use crate::build::{PieceSet, SplitPlane};
     pub use crate::exact::Side;
@@ -122,8 +122,7 @@ pub mod mesh {
     pub use crate::tree::{FragmentArrays, Mesh, MeshVertex, Triangles};
 }
 
-/// What the project's own programs, tests and benches need of the library's insides. It may change in
-/// any release.
+/// Internals for the project's own programs, tests and benches. They may change in any release.
 #[doc(hidden)]
 pub mod internals {
     pub use crate::build::choose::{FrameTuning, Tuning};
@@ -144,7 +143,7 @@ pub mod internals {
     pub use crate::scene::obj::{Decimals, open_regular};
 }
 
-/// The README's examples are tested as they stand.
+/// Tests the README's examples.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,12 +1,12 @@
-//! Lists with little spare room whose growth is an error where it does not fit into memory, for what is as long
-//! as the input or the tree; and tables that are emptied quickly.
+//! Lists as long as the input or the tree, with little spare capacity, whose growth returns an error if
+//! memory runs out; and tables that are emptied quickly.
 
 use std::collections::HashMap;
 
 use crate::Error;
 
-/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles, which would leave
-/// the largest lists half empty.)
+/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles, which would leave the
+/// largest lists half empty.)
 ///
 /// # Errors
 ///
@@ -28,11 +28,11 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
     Ok(())
 }
 
-/// The length of a list, as the place where what follows begins.
+/// The length of a list, as the place of the next item.
 ///
 /// # Errors
 ///
-/// If there are more than `u32::MAX` before: so many take more memory than there is.
+/// If it is more than `u32::MAX`: such a list takes more memory than there is.
 #[cfg(feature = "drawing")]
 pub(crate) fn place(len: usize) -> Result<u32, Error> {
     u32::try_from(len).map_err(|_| Error::out_of_memory())
@@ -50,14 +50,14 @@ pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<
     Ok(list)
 }
 
-/// A table with more room than this for each of its entries is given back rather than emptied.
-/// Smaller: sets of about one size ask for memory again and again; larger: more time for empty room.
+/// A table with more capacity than this for each of its entries is freed rather than emptied. Too small:
+/// sets of similar sizes allocate repeatedly. Too large: more time for empty capacity.
 const ROOM: usize = 8;
-/// A table with no more room than this is kept.
+/// A table with no more capacity than this is kept.
 const SMALL: usize = 64;
 
-/// Empties a table in time proportional to its entries. (`HashMap::clear` takes time for all the room
-/// that the table has, which the largest set of entries leaves behind for every set after it.)
+/// Empties a table in time proportional to its entries. (`HashMap::clear` takes time for the table's whole
+/// capacity, which the largest set of entries leaves behind for every set after it.)
 pub(crate) fn empty<K, V>(table: &mut HashMap<K, V>) {
     if table.capacity() > SMALL.max(ROOM * table.len()) {
         *table = HashMap::new();
@@ -102,7 +102,7 @@ mod tests {
             let visited = if table.capacity() == room { room } else { len };
             assert!(visited <= SMALL.max(ROOM * len), "{visited} places for {len} entries");
         }
-        // Room that is used is kept.
+        // A table whose capacity is used is kept.
         table.extend((0..1000).map(|k| (k, ())));
         let room = table.capacity();
         empty(&mut table);

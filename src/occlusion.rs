@@ -1,4 +1,4 @@
-//! Which pixels are covered already, for walks from front to back that leave out what is hidden.
+//! A mask of covered pixels, for front-to-back walks that skip hidden subtrees.
 
 use std::ops::Range;
 
@@ -8,15 +8,15 @@ use crate::paint::Pieces;
 use crate::raster::{Rays, Window, for_each_run};
 use crate::tree::{BspTree, Fragment};
 
-/// The pixels that are covered so far on a walk from front to back: occlusion culling.
+/// The pixels covered so far on a front-to-back walk: occlusion culling.
 ///
-/// Cover it with each fragment that comes, and skip the subtrees that it hides: nothing in them
-/// owns a pixel of the picture that the rays define. That is exact, except that a subtree is judged
-/// by its box, so that one is looked at which only seems to reach out.
+/// Cover it with each visited fragment, and skip the subtrees that it hides: they own no pixel of the
+/// picture that the rays define. This is exact, except that a subtree is tested by its box, so a subtree
+/// may be visited although all its fragments are hidden.
 ///
-/// The mask may be coarser than the picture: cells of so many pixels each way, which are covered
-/// only by a fragment that covers all of their pixels. Then it is smaller and faster, and hides less:
-/// along the edge between two walls, no cell is covered by either.
+/// The mask may be coarser than the picture: cells of several pixels each way, which are covered only by a
+/// fragment that covers all of their pixels. Then it is smaller and faster, and hides less: along the edge
+/// between two walls, neither wall covers a cell.
 ///
 /// ```
 /// use binspace::raster::Rays;
@@ -49,15 +49,15 @@ pub struct CoverageMask<'t> {
     pieces: Pieces,
     /// The side of a cell in pixels.
     cell: u32,
-    /// Words of a row of cells.
+    /// Words in a row of cells.
     words: usize,
-    /// A bit for each cell that is covered.
+    /// A bit for each covered cell.
     bits: Vec<u64>,
-    /// How many cells are not covered, in each row.
+    /// The number of uncovered cells in each row.
     open: Vec<u32>,
-    /// The rows of which some cell is open.
+    /// The rows that have an open cell.
     open_rows: usize,
-    /// Working space: of a row of cells, in how many rows of pixels each was covered so far.
+    /// Working space: for each cell of a row, the number of pixel rows in which it is covered so far.
     rows_covered: Vec<u32>,
 }
 
@@ -65,8 +65,8 @@ pub struct CoverageMask<'t> {
 const WORD: u32 = u64::BITS;
 
 impl<'t> CoverageMask<'t> {
-    /// A mask of which nothing is covered, for the picture of some rays through a tree's faces, with
-    /// cells of `cell` pixels each way; 0 counts as 1.
+    /// An empty mask for the picture of some rays through a tree's faces, with cells of `cell` pixels each
+    /// way; 0 counts as 1.
     ///
     /// # Panics
     ///
@@ -89,11 +89,11 @@ impl<'t> CoverageMask<'t> {
         }
     }
 
-    /// Whether nothing in a box owns a pixel: all that it may cover is covered, or it is outside of
+    /// Whether nothing in a box owns a pixel: every pixel that it may cover is covered, or it is outside
     /// the picture.
     ///
-    /// It looks at the rows of cells that the box may cover, up to the first open cell: at most a word of 64
-    /// cells at a time, and nothing in a row that is full.
+    /// Tests the rows of cells that the box may cover, up to the first open cell: at most a word of 64
+    /// cells at a time, and nothing in a full row.
     pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
         let lattice = self.tree.faces().lattice();
         let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
@@ -109,22 +109,22 @@ impl<'t> CoverageMask<'t> {
         rows.all(|row| self.open[row as usize] == 0 || !self.has_open(row, &columns))
     }
 
-    /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel
-    /// of a cell that was not covered yet.
+    /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel of a
+    /// cell that was not covered before.
     ///
-    /// It takes the time to find the fragment's pixels, O(edges) a row of pixels, and that of the cells
-    /// in the rows that it reaches, in the mask's whole width, whether they are covered already or not: ask
-    /// [`hides`](Self::hides) first where a box is at hand.
+    /// Takes the time to find the fragment's pixels, O(edges) per row of pixels, plus the time for all
+    /// cells in its rows, over the mask's whole width, covered or not. If you have a box, call
+    /// [`hides`](Self::hides) first.
     ///
     /// # Panics
     ///
     /// If the fragment is of a tree with another grid.
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
-        // Its own faces, not those of the mask's tree: it may be a piece of an overlay.
+        // The fragment's own faces, not those of the mask's tree: it may be a piece of an overlay.
         let faces = fragment.faces;
         let mut runs: Vec<(u32, Range<u32>)> = Vec::new();
         for_each_run(&self.rays, faces, self.pieces.of(fragment), |y, run| match runs.last_mut() {
-            // Runs of a row of pixels may touch: they are parts of one.
+            // Runs of a row of pixels may touch: they are parts of one run.
             Some((last_y, last)) if *last_y == y && last.end == run.start => last.end = run.end,
             _ => runs.push((y, run)),
         });
@@ -140,12 +140,12 @@ impl<'t> CoverageMask<'t> {
         owns
     }
 
-    /// Whether all of the picture is covered.
+    /// Whether the whole picture is covered.
     pub fn is_full(&self) -> bool {
         self.open_rows == 0
     }
 
-    /// Covers the cells of a row that the runs of pixels in it cover, all of them.
+    /// Covers the cells of a row that the runs cover in all of its rows of pixels.
     fn close(&mut self, row: u32, runs: &[(u32, Range<u32>)]) {
         let [width, height] = self.rays.size();
         let height = (height - row * self.cell).min(self.cell);

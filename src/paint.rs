@@ -5,8 +5,7 @@ use crate::raster::{Image, Layers, Outline, Painter, Piece, Rays, blend, for_eac
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
-/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the
-/// rays.
+/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the rays.
 ///
 /// Fragments are bounded by the exact lines that cut them, not by their rounded vertices.
 ///
@@ -19,8 +18,8 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints the fragments of a list, the first at the bottom, as of an order that leaves out what is not in view.
-/// Numbers that name no fragment are skipped.
+/// Paints the fragments of a list, the first at the bottom, such as a culled order. Numbers that name no
+/// fragment are skipped.
 ///
 /// # Panics
 ///
@@ -29,8 +28,8 @@ pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
     paint_list(Painter::new(rays, tree.faces()), tree, order, None)
 }
 
-/// Paints fragments of a tree one after the other, and records which faces cover which pixels.
-/// Numbers that name no fragment are skipped.
+/// Paints fragments of a tree one after the other, and records the faces that cover each pixel. Numbers
+/// that name no fragment are skipped.
 pub(crate) fn paint_list(
     mut painter: Painter<'_>,
     tree: &BspTree,
@@ -52,8 +51,8 @@ pub(crate) fn paint_list(
 /// Paints a tree's fragments in colours, back to front, over a background. `look` returns the
 /// colour and the opacity of a polygon, given its number.
 ///
-/// The picture is RGB, 8 bits each, row by row from the top left. If everything is opaque, it is
-/// the same as [`raster::picture`](crate::raster::picture) of what [`paint_tree`] paints.
+/// The picture is RGB, 8 bits each, row by row from the top left. If everything is opaque, it equals
+/// [`raster::picture`](crate::raster::picture) of the image from [`paint_tree`].
 ///
 /// # Panics
 ///
@@ -74,8 +73,8 @@ pub fn paint_tree_in_colour(
 }
 
 /// Calls `paint` with each pixel that each fragment covers, back to front: the pixel's number, row by row
-/// from the top left, and the colour and the opacity there. [`blend`] makes of them the
-/// picture of [`paint_tree_in_colour`], of one tree or of those of several cells one after the other.
+/// from the top left, and the colour and the opacity there. With [`blend`] this makes the picture of
+/// [`paint_tree_in_colour`], from one tree or from several cells one after the other.
 ///
 /// # Panics
 ///
@@ -101,7 +100,7 @@ pub fn for_each_painted(
 }
 
 #[doc(hidden)]
-/// Makes pieces to paint of fragments, in memory that the next one uses again.
+/// Converts fragments to pieces for painting, in reused memory.
 #[derive(Clone, Debug, Default)]
 pub struct Pieces {
     lines: Vec<EdgeLine>,

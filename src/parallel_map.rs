@@ -5,8 +5,8 @@
 ///
 /// # Errors
 ///
-/// That of the first item that has one, whichever fails first. Items behind one that failed are not
-/// begun any more.
+/// The error of the first item that has one, whichever fails first. Items after a failed one are no longer
+/// started.
 pub(crate) fn map<T: Send, U: Send, E: Send>(
     items: Vec<T>,
     function: impl Fn(T) -> Result<U, E> + Sync,
@@ -17,7 +17,8 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
         use rayon::prelude::*;
         use std::sync::atomic::{AtomicUsize, Ordering};
 
-        // All items before this one are done, whatever they give: so the first error is among the results.
+        // All items before this one are completed, whatever their results: so the first error is among the
+        // results.
         let failed = AtomicUsize::new(usize::MAX);
         let result = |(number, item)| {
             if failed.load(Ordering::Relaxed) < number {
@@ -35,7 +36,8 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
     items.into_iter().map(function).collect()
 }
 
-/// Calls a function here and another one beside it, if that is worth waking a thread; else before it.
+/// Calls a function here and another one on a second thread, if that is worth waking one; otherwise before
+/// it.
 #[cfg(feature = "save")]
 #[cfg_attr(not(feature = "parallel"), expect(unused_variables, reason = "there is one thread"))]
 pub(crate) fn beside<T>(
@@ -54,19 +56,19 @@ pub(crate) fn beside<T>(
     here()
 }
 
-/// Whether rayon's threads run; if not, all work is for the calling thread.
+/// Whether rayon's threads run; if not, the calling thread does all work.
 ///
-/// They are started here at the first use: where that fails, because memory for their stacks or a
-/// limit on threads is lacking, rayon itself would panic.
+/// The first use starts them: if that fails, because memory for their stacks is lacking or threads are
+/// limited, rayon itself would panic.
 #[cfg(feature = "parallel")]
 pub(crate) fn are_running() -> bool {
     static ARE_RUNNING: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
-    // For targets without threads rayon uses the calling one.
+    // On targets without threads rayon uses the calling one.
     cfg!(target_family = "wasm")
         || rayon::current_thread_index().is_some()
         || *ARE_RUNNING.get_or_init(|| {
-            // An error without a cause means that they run already. (If the program itself tried to start
-            // them before, and failed, this cannot tell.)
+            // An error without a cause means that they run already. (It cannot be distinguished from an
+            // earlier failed attempt of the program itself.)
             let started = rayon::ThreadPoolBuilder::new().build_global();
             started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
         })
@@ -97,7 +99,7 @@ mod tests {
     #[test]
     fn the_error_is_that_of_the_first_item_that_has_one() {
         for first in [0, 1, 17, 500, 998, 999] {
-            // Those further on fail sooner.
+            // Later items fail sooner.
             let function = |item: u32| {
                 let turns = if item == first { 20_000 } else { 0 };
                 (0..turns).for_each(|turn| _ = std::hint::black_box(turn));

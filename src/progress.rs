@@ -8,30 +8,30 @@ use std::sync::{Mutex, TryLockError};
 
 use crate::Error;
 
-/// The callback is called each time about this many more pieces have been examined, which takes a
-/// millisecond. Smaller: time spent on calls; larger: cancelling takes longer.
+/// The callback is called about each time that this many more pieces have been examined, which takes a
+/// millisecond. Too small: time spent on calls. Too large: cancelling takes longer.
 pub(crate) const PULSE: usize = 1 << 16;
-/// How many pieces (or polygons, corners and edges while polygons are prepared) are processed between two
-/// polls for cancellation. Too small: polling takes time; too large: cancelling takes longer.
+/// The number of pieces (or polygons, corners and edges while polygons are prepared) processed between two
+/// polls for cancellation. Too small: polling takes time. Too large: cancelling takes longer.
 pub(crate) const PIECES_AT_ONCE: usize = 4096;
 /// A search for axis planes takes about as long as examining each piece this many times.
 pub(crate) const SWEEP: usize = 10;
 
-/// What a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
+/// The amount that a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
 /// that all pieces of a face add up to one face.
 const FACE: u64 = 1 << 32;
 
-/// How far a build has come.
+/// The progress of a build.
 ///
-/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so
-/// far. From then on `total` is the number of faces and does not change, and `done` never decreases.
-/// At the end both are equal. (What is asked of a `VisibilityMap` counts parts of its work instead.)
+/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far.
+/// From then on `total` is the number of faces and does not change, and `done` never decreases. At the end
+/// both are equal. (Queries of a `VisibilityMap` count parts of their work instead.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// How many faces are in the tree; a face in part counts as that part.
+    /// The number of faces in the tree; a partial face counts as that part.
     pub done: usize,
-    /// How many faces there are, or polygons while they are read.
+    /// The number of faces, or of polygons while they are read.
     pub total: usize,
 }
 
@@ -67,14 +67,14 @@ pub(crate) fn one_at_a_time(
 
 type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
 
-/// Shared by the jobs of a build: counts their work, calls the callback, and tells them to stop.
+/// Shared by the jobs of a build: counts their work, calls the callback, and stops them.
 #[derive(Default)]
 pub(crate) struct Watch<'a> {
     callback: Option<Callback<'a>>,
     total: AtomicUsize,
     /// In units of 1/`FACE`.
     done: AtomicU64,
-    /// How many pieces have been examined.
+    /// The number of pieces examined.
     work: AtomicUsize,
     cancelled: AtomicBool,
 }
@@ -97,14 +97,14 @@ impl<'a> Watch<'a> {
             return Err(Error::cancelled());
         }
         if self.callback.is_none() || pieces == 0 {
-            // All threads share the counter, so it is left alone where it can be.
+            // All threads share the counter, so it is left alone if possible.
             return Ok(());
         }
         let before = self.work.fetch_add(pieces, Ordering::Relaxed);
         if before / PULSE == before.wrapping_add(pieces) / PULSE { Ok(()) } else { self.call() }
     }
 
-    /// Counts a piece that has been stored in the tree, and was cut so many times.
+    /// Counts a piece that has been stored in the tree after `cuts` cuts.
     #[inline]
     pub(crate) fn finish(&self, cuts: u8) {
         if self.callback.is_some() {
@@ -113,7 +113,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Reports that all is done.
+    /// Reports the end of the build.
     pub(crate) fn end(&self) -> Result<(), Error> {
         // Shares of pieces cut more than 32 times were rounded to nothing, so the sum may fall short.
         let total = self.total.load(Ordering::Relaxed) as u64;
@@ -128,7 +128,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Lets all further work fail, as after a cancellation.
+    /// Makes all further work fail, as after a cancellation.
     pub(crate) fn stop(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
@@ -137,7 +137,7 @@ impl<'a> Watch<'a> {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    /// How much work has been counted.
+    /// The amount of work counted.
     #[cfg(test)]
     pub(crate) fn examined(&self) -> usize {
         self.work.load(Ordering::Relaxed)
@@ -203,8 +203,8 @@ mod tests {
         assert_eq!(*heard.lock().unwrap(), expected);
     }
 
-    /// By the planes of the first ones, layers become a list of nodes, and each has all the rest to
-    /// look at.
+    /// Split by the planes of the first ones, layers become a list of nodes, and each node examines all the
+    /// rest.
     #[test]
     fn a_pass_over_a_set_is_work_though_it_cuts_nothing() {
         let layers = (0..2000)

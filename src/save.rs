@@ -1,9 +1,9 @@
-//! Files: how numbers and lists are written and read back, whatever they are of.
+//! Files: writes and reads numbers and lists of any content.
 //!
-//! A file is little-endian. It begins with the eight bytes `binspace`, four that say of what it is,
-//! such as `tree`, and the version as `u32`. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of
-//! all bytes before. In between are numbers, and lists: their length as `u64`, then the items.
-//! Another file may follow directly.
+//! A file is little-endian. It begins with the eight bytes `binspace`, four bytes for its kind, such as
+//! `tree`, and the version as `u32`. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of all bytes
+//! before. In between are numbers, and lists: their length as `u64`, then the items. Another file may
+//! follow directly.
 
 use std::io::{self, Read, Write};
 
@@ -11,10 +11,10 @@ use crc32fast::Hasher;
 
 use crate::error::{self, Error, FileFault, Problem};
 
-/// What every file begins with.
+/// The first bytes of every file.
 const MAGIC: [u8; 8] = *b"binspace";
 
-/// What a file holds, and the version of its layout.
+/// The kind of a file, and the version of its layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind {
     /// Four letters.
@@ -22,8 +22,8 @@ pub(crate) struct Kind {
     pub(crate) version: u32,
 }
 
-/// How many bytes are read or written at once. Too small: more calls. Too large: it leaves the
-/// processor's cache.
+/// The number of bytes read or written at once. Too small: more calls. Too large: it leaves the processor's
+/// cache.
 const CHUNK: usize = 1 << 16;
 
 /// Reads a file.
@@ -35,12 +35,12 @@ pub(crate) struct Reader<R> {
 }
 
 impl<R: Read> Reader<R> {
-    /// Begins with a file, which must be of this kind and version.
+    /// Begins a file, which must be of this kind and version.
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, Error> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
             return Err(refused(
-                "it is no file of binspace: it begins with other bytes".to_owned(),
+                "it is not a binspace file: it begins with other bytes".to_owned(),
             ));
         }
         let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
@@ -52,15 +52,15 @@ impl<R: Read> Reader<R> {
         }
         if version != kind.version {
             return Err(refused(format!(
-                "its layout is version {version}, but this version of binspace reads version {} \
-                 alone: write it again, from the polygons",
+                "its layout is version {version}, but this version of binspace reads only \
+                 version {}: write it again, from the polygons",
                 kind.version
             )));
         }
         Ok(reader)
     }
 
-    /// Reads some bytes of what is called `what`.
+    /// Reads bytes; errors call them `what`.
     pub(crate) fn bytes<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], Error> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes).map_err(|error| failed(error, what))?;
@@ -80,18 +80,18 @@ impl<R: Read> Reader<R> {
         self.bytes(what).map(f64::from_le_bytes)
     }
 
-    /// A number of things, which must not be above a limit.
+    /// Reads a number of things, which must not be above a limit.
     pub(crate) fn count(&mut self, what: &'static str, limit: usize) -> Result<usize, Error> {
         let (found, limit) = (self.u64(what)?, limit as u64);
         if found > limit {
             return Err(too_many(what, found, limit));
         }
-        // It fits, as the limit did.
+        // It fits, because the limit did.
         Ok(found as usize)
     }
 
-    /// Reads a list: how many items there are, which must not be above a limit, and the items, each
-    /// from `N` bytes.
+    /// Reads a list: the number of items, which must not be above a limit, and the items, each from `N`
+    /// bytes.
     pub(crate) fn list<T, const N: usize>(
         &mut self,
         what: &'static str,
@@ -102,7 +102,7 @@ impl<R: Read> Reader<R> {
         self.items(what, len, item)
     }
 
-    /// Reads the items of a list, each from `N` bytes, given how many there are.
+    /// Reads the items of a list, each from `N` bytes, given their number.
     pub(crate) fn items<T, const N: usize>(
         &mut self,
         what: &'static str,
@@ -113,7 +113,7 @@ impl<R: Read> Reader<R> {
         let most = (CHUNK / N).max(1);
         while items.len() < len {
             let some = most.min(len - items.len());
-            // At most twice what has been read, so that a false length cannot ask for much.
+            // At most twice the items read so far, so that a false length cannot reserve much.
             if items.capacity() - items.len() < some {
                 let room = len.min(2 * items.len() + most) - items.len();
                 items.try_reserve_exact(room).map_err(|_| Error::out_of_memory())?;
@@ -121,14 +121,14 @@ impl<R: Read> Reader<R> {
             let bytes = &mut self.chunk[..some * N];
             self.input.read_exact(bytes).map_err(|error| failed(error, what))?;
             self.sum.update(bytes);
-            // A closure around it is inlined; `&mut item` in its place was called for each item.
+            // The compiler inlines a closure here; it called `&mut item` for each item.
             #[expect(clippy::redundant_closure, reason = "see above")]
             items.extend(bytes.as_chunks::<N>().0.iter().map(|bytes| item(bytes)));
         }
         Ok(items)
     }
 
-    /// Compares the checksum. What was read before may be false until then.
+    /// Compares the checksum. Until then, everything read may be false.
     pub(crate) fn finish(mut self) -> Result<(), Error> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
@@ -136,18 +136,18 @@ impl<R: Read> Reader<R> {
             return Ok(());
         }
         Err(refused(format!(
-            "it is damaged: its bytes have the checksum {found:08x}, but it says {expected:08x}"
+            "it is damaged: its checksum is {found:08x}, but it stores {expected:08x}"
         )))
     }
 }
 
-/// The `u32` that begins at a place among some bytes.
+/// The `u32` at a place in some bytes.
 #[inline]
 pub(crate) fn u32_at<const N: usize>(bytes: &[u8; N], at: usize) -> u32 {
     u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
 }
 
-/// The `u64` that begins at a place among some bytes.
+/// The `u64` at a place in some bytes.
 #[inline]
 pub(crate) fn u64_at<const N: usize>(bytes: &[u8; N], at: usize) -> u64 {
     u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
@@ -158,7 +158,7 @@ pub(crate) fn u64_at<const N: usize>(bytes: &[u8; N], at: usize) -> u64 {
 pub(crate) struct Writer<W> {
     output: W,
     sum: Hasher,
-    /// What is still to be written, up to about [`CHUNK`] bytes.
+    /// Bytes not written yet, up to about [`CHUNK`].
     waiting: Vec<u8>,
 }
 
@@ -194,7 +194,7 @@ impl<W: Write> Writer<W> {
         self.put(value.to_le_bytes())
     }
 
-    /// Writes a list: how many items there are, and each as `write` does.
+    /// Writes a list: the number of items, and each item by `write`.
     pub(crate) fn list<T>(
         &mut self,
         items: impl ExactSizeIterator<Item = T>,
@@ -204,7 +204,7 @@ impl<W: Write> Writer<W> {
         self.items(items, write)
     }
 
-    /// Writes the items of a list alone, whose number follows from what was written before.
+    /// Writes the items of a list without their number, which follows from earlier data.
     pub(crate) fn items<T>(
         &mut self,
         mut items: impl Iterator<Item = T>,
@@ -220,7 +220,7 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    /// Writes what is left, and the checksum.
+    /// Writes the remaining bytes and the checksum.
     pub(crate) fn finish(mut self) -> io::Result<()> {
         self.flush()?;
         let sum = self.sum.clone().finalize();
@@ -229,18 +229,18 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// The error of a thing of which there are several, given its number, that is not as it must be.
+/// The error of one of several things, given its number, that is invalid.
 pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: {what} {number} {fault}"))
 }
 
-/// The error of a thing of which there is one.
+/// The error of a single thing that is invalid.
 pub(crate) fn damaged(what: &'static str, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: its {what} {fault}"))
 }
 
 pub(crate) fn too_many(what: &'static str, found: u64, limit: u64) -> Error {
-    refused(format!("it claims to have {found} {what}, but {limit} is the most: it is damaged"))
+    refused(format!("it has {found} {what}, above the limit of {limit}: it is damaged"))
 }
 
 fn refused(problem: impl Into<Problem>) -> Error {
@@ -252,7 +252,7 @@ fn refused(problem: impl Into<Problem>) -> Error {
 fn failed(error: io::Error, what: &'static str) -> Error {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => {
-            refused(format!("it ends within its {what}: it is cut short, or damaged before that"))
+            refused(format!("it is truncated within its {what}, or damaged before that"))
         }
         io::ErrorKind::OutOfMemory => Error::out_of_memory(),
         _ => refused(error),

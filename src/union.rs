@@ -1,13 +1,13 @@
-//! Sets that are united: union-find.
+//! Union-find: disjoint sets of numbers that are united.
 
 use std::cell::Cell;
 
 use crate::Error;
 use crate::memory::reserve;
 
-/// Sets of numbers, each named by its least (Galler and Fischer 1964).
+/// Disjoint sets of numbers, each named by its least (Galler and Fischer 1964).
 pub(crate) struct Union {
-    /// For each number, a lesser one of the same set. The least names itself.
+    /// For each number, a smaller one of the same set. The least refers to itself.
     up: Vec<Cell<u32>>,
 }
 
@@ -26,8 +26,8 @@ impl Union {
 
     /// The least number of a number's set.
     ///
-    /// Every number on the way is moved to the one after the next, so that long chains are walked
-    /// once and not by every number: O(log n) on average (Tarjan and van Leeuwen 1984).
+    /// Path halving: every number on the way is linked to the one after the next, so that a long chain is
+    /// walked once and not by every number: O(log n) on average (Tarjan and van Leeuwen 1984).
     pub(crate) fn root(&self, mut node: u32) -> u32 {
         loop {
             let up = self.up[node as usize].get();

@@ -1,24 +1,24 @@
-//! From where, along what and in what one looks: viewpoints, rays, frusta.
+//! Viewpoints, rays and frusta.
 
 use std::cmp::Ordering;
 
 use glam::{DMat4, DVec3, DVec4};
 use smallvec::SmallVec;
 
-/// Where a picture is seen from: a point, or, for a parallel projection, a direction.
+/// The point from which a picture is seen, or the direction of view of a parallel projection.
 ///
-/// Every value has an order, so nothing fails or panics:
+/// Every value has an order; nothing fails or panics:
 ///
 /// | coordinates | count as |
 /// |---|---|
-/// | NaN in an eye | that of the middle of the scene's bounding box |
+/// | NaN in an eye | the coordinate of the centre of the scene's bounding box |
 /// | NaN in a direction | 0 |
-/// | ±∞ in an eye | an eye infinitely far away: a parallel projection from that side, in which only the infinite coordinates matter, all equally |
-/// | ±∞ in a direction | likewise, only the infinite coordinates matter |
-/// | a direction of zeros | (0, 0, −1), as seen from the side of positive z |
+/// | ±∞ in an eye | an eye infinitely far away: a parallel projection from that side; only the infinite coordinates matter, all equally |
+/// | ±∞ in a direction | only the infinite coordinates matter, all equally |
+/// | a direction of zeros | (0, 0, −1), a view from the side of positive z |
 ///
 /// Eyes are rounded to the scene's grid, or, beyond 500 extents, to one part in 2⁶¹ of their distance;
-/// directions to one part in 2⁵². Of eyes beyond about 2³⁷⁰ extents only the direction counts, and a
+/// directions to one part in 2⁵². For eyes beyond about 2³⁷⁰ extents only the direction counts, and a
 /// coordinate beyond about 2⁹⁷⁰ extents counts as infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
@@ -29,18 +29,18 @@ pub enum Viewpoint {
 }
 
 impl Viewpoint {
-    /// The point where the eye is.
+    /// A viewpoint at a point, the eye.
     pub fn eye(point: impl Into<DVec3>) -> Self {
         Self::Eye(point.into())
     }
 
-    /// The direction in which the viewer looks, from infinitely far away.
+    /// A viewpoint infinitely far away, given the direction in which the viewer looks.
     pub fn direction(direction: impl Into<DVec3>) -> Self {
         Self::Direction(direction.into())
     }
 }
 
-/// The side of a polygon, or of a plane, that is seen.
+/// The visible side of a polygon or plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Facing {
     /// The front: corners run counter-clockwise, and the normal points to the eye.
@@ -51,7 +51,7 @@ pub enum Facing {
     EdgeOn,
 }
 
-/// From the sign of a distance from the plane: positive is the front.
+/// The sign of a distance from the plane: positive is the front.
 impl From<Ordering> for Facing {
     fn from(side: Ordering) -> Self {
         match side {
@@ -62,33 +62,32 @@ impl From<Ordering> for Facing {
     }
 }
 
-/// A ray, or the segment between two points: what [`BspTree::hits`](crate::BspTree::hits) follows.
+/// A ray, or the segment between two points, as for [`BspTree::hits`](crate::BspTree::hits).
 ///
-/// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction leads
-/// from one end to the other, so that its parameters are 0 to 1, both included.
+/// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction is the
+/// difference of its ends, so its parameters are 0 to 1, both included.
 ///
-/// Coordinates are in the polygons' unit and are taken as they are given, up to digits below 2⁻¹²⁰ of
-/// the scene's extent, or of the distance of the scene or of a point from the origin, if that is larger;
-/// those of a direction, up to digits below 2⁻¹²⁰ of its largest. Near the origin, no `f64` of more than
-/// 2⁻⁶⁸ of the extent has such digits: what is decided about a ray is exact for the very numbers that it
-/// is made of.
+/// Decisions about a ray are exact for its given coordinates, in the polygons' unit, except for digits of
+/// points below 2⁻¹²⁰ of the scene's extent, or of the distance of the scene or of a point from the origin
+/// if that is larger, and for digits of a direction below 2⁻¹²⁰ of its largest. Near the origin, no `f64`
+/// of more than 2⁻⁶⁸ of the extent has such digits.
 ///
 /// | coordinates | the ray |
 /// |---|---|
 /// | any NaN or ±∞ | meets nothing |
 /// | a point further from the scene than 2⁶⁸ extents | may meet nothing |
-/// | a direction of zeros, or two equal ends | is a point: it meets what contains it |
+/// | a direction of zeros, or two equal ends | is a point: it meets the polygons that contain it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {
-    /// From a point in a direction, without end. The direction may have any length: it is the unit of
+    /// From a point in a direction, without end. The direction may have any length, which is the unit of
     /// the parameter.
     Endless {
         /// The point where `t` is 0.
         from: DVec3,
-        /// From there to the point where `t` is 1.
+        /// The vector to the point where `t` is 1.
         direction: DVec3,
     },
-    /// From a point to another.
+    /// From one point to another.
     Segment {
         /// The point where `t` is 0.
         from: DVec3,
@@ -109,12 +108,11 @@ impl Ray {
     }
 }
 
-/// A convex region: the points on the front of some planes, such as the four sides of what a camera
-/// sees.
+/// A convex region: the points in front of a number of planes, such as the four sides of a camera's view.
 ///
-/// A plane is a normal, of any length, and an offset: it keeps the points p with
-/// `normal.dot(p) >= offset`, as a [`Node`](crate::Node) has its front. Without planes, the region is
-/// all of space. A plane with a number that is infinite or NaN keeps everything.
+/// A plane is a normal, of any length, and an offset: it keeps the points p with `normal.dot(p) >= offset`,
+/// like the front of a [`Node`](crate::Node). Without planes, the region is the whole space. A plane with
+/// an infinite or NaN number keeps everything.
 ///
 /// ```
 /// use binspace::Frustum;
@@ -131,20 +129,20 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// No plane: the whole space.
+    /// No planes: the whole space.
     pub const EVERYWHERE: Self = Self { planes: SmallVec::new_const() };
 
-    /// The points on the front of all these planes.
+    /// The points in front of all these planes.
     pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
         let mut all = Self::default();
-        // One by one: a wrong size hint asks for no memory.
+        // Pushes one by one, because a wrong size hint must not allocate memory.
         planes.into_iter().for_each(|plane| all.planes.push(plane));
         all
     }
 
-    /// The box between two corners, given by its least and largest coordinates: with a
-    /// [`Culling`](crate::Culling), orders have the fragments whose boxes meet it, and
-    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) gives those that do so themselves.
+    /// The box between two corners, given by its least and largest coordinates. With a
+    /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet it;
+    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds the fragments that meet it exactly.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -167,14 +165,14 @@ impl Frustum {
         Self::new([0, 1, 2].map(sides).into_iter().flatten())
     }
 
-    /// What a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture, as a projection
-    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU has them. Its depths are left alone, so there is
-    /// no near and no far plane.
+    /// The points that a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture for a
+    /// projection matrix of OpenGL, Vulkan, Direct3D or WebGPU. Depth is ignored, so there is no near and
+    /// no far plane.
     ///
-    /// Points right on the sides may be left out by the rounding of the matrix: widen it a little.
+    /// Rounding of the matrix may leave out points exactly on the sides: widen it a little.
     pub fn from_matrix(matrix: DMat4) -> Self {
         let [x, y, w] = [matrix.row(0), matrix.row(1), matrix.row(3)];
-        // Where both sides hold, w is not negative; it is worth a plane of its own for boxes.
+        // Both sides together imply w ≥ 0; as a separate plane this rejects more boxes.
         Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
     }
 
@@ -183,11 +181,11 @@ impl Frustum {
         &self.planes
     }
 
-    /// Whether a box, given by its least and largest coordinates, may have points in the region:
-    /// whether it is not outside of one of the planes.
+    /// Whether a box, given by its least and largest coordinates, may have points in the region: whether no
+    /// plane has the whole box behind it.
     ///
-    /// Rounding makes it say yes too often, never no: the box counts as larger by some 10⁻¹⁵ of its
-    /// distance from the origin. It also says yes where a box is outside, but not of any one plane.
+    /// Never wrongly false: the box counts as larger by about 10⁻¹⁵ of its distance from the origin. Also
+    /// true if the box is outside the region, but not behind any single plane.
     pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
         let reach = low.abs().max(high.abs());
         !self.planes.iter().any(|&(normal, offset)| {

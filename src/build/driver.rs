@@ -1,5 +1,5 @@
-//! From polygons to a tree, step by step: preparation, division, the finished tree; the same for trees that
-//! are extended, and for cells of a scene.
+//! From polygons to a tree, step by step: preparation, division, the finished tree. The same steps extend
+//! trees and build cells of a scene.
 
 use std::mem::take;
 use std::ops::ControlFlow;
@@ -26,9 +26,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If a coordinate is infinite or NaN; if one polygon has more than 2²² corners, all polygons
-    /// together have 2²⁸ or more, or the tree would have more than 2²⁵ fragments; or if memory runs
-    /// out. The error names the polygon where one is to blame.
+    /// If a coordinate is infinite or NaN; if one polygon has more than 2²² corners, all polygons together
+    /// have 2²⁸ or more, or the tree would have more than 2²⁵ fragments; or if memory runs out. The error
+    /// names the polygon that caused it, if any.
     pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         BuildOptions::DEFAULT.build(polygons)
     }
@@ -49,9 +49,9 @@ impl BuildOptions {
 
     /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
     ///
-    /// The callback is called at the start, about once per millisecond of work, and at the end. Any
-    /// thread may call it, but never two at once: a thread that finds it busy continues with its
-    /// work. So the callback may be slow, and may use the same thread pool.
+    /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
+    /// may call it, but never two at once: a thread that finds it busy continues with its work. So the
+    /// callback may be slow, and may use the same thread pool.
     ///
     /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops
     /// after its current pass over a set of pieces. That takes milliseconds, or tenths of a second
@@ -98,7 +98,7 @@ fn tree<P: Polygon>(
     tree_of_faces(options, faces, preparation, watch)
 }
 
-/// Builds a tree of prepared faces, of what is in their cell if they have one.
+/// Builds a tree of prepared faces, or of their parts in a cell if they have one.
 pub(super) fn tree_of_faces(
     options: &BuildOptions,
     mut faces: Faces,
@@ -119,7 +119,7 @@ pub(super) fn tree_of_faces(
     BspTree::new(faces, preparation, parts)
 }
 
-/// Cuts faces to their cell, and removes those that nothing is left of.
+/// Cuts faces to their cell, and removes those that lie outside it.
 fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let mut clipper = Clipper::new(faces);
@@ -141,7 +141,7 @@ fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     Ok(Job { pieces, arena, depth: 0 })
 }
 
-/// Prepares polygons. What that needs is freed before the faces are divided.
+/// Prepares polygons. The working memory is freed before the faces are divided.
 fn prepared<P: Polygon>(
     options: &BuildOptions,
     polygons: impl IntoIterator<Item = P>,
@@ -155,7 +155,7 @@ fn prepared<P: Polygon>(
     Ok((faces, preparation))
 }
 
-/// Builds a tree of prepared faces. Their tolerance counts, not that of the options.
+/// Builds a tree of prepared faces, with their tolerance instead of that of the options.
 ///
 /// # Errors
 ///
@@ -201,10 +201,11 @@ pub(super) fn divide_all(
 }
 
 impl BspTree {
-    /// Adds polygons for good, with the default options. Their numbers follow those of the tree's.
+    /// Adds polygons permanently, with the default options. Their numbers follow those of the tree's
+    /// polygons.
     ///
-    /// Builds the tree again from its own polygons and the others, on its grid and with its tolerance. The
-    /// numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
+    /// Builds the tree again from its own polygons and the new ones, on its grid and with its tolerance.
+    /// The numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
     /// [meshes](crate::mesh::Mesh) have to be made again. It takes as long as a build; put moving polygons
     /// into an overlay.
     ///
@@ -223,8 +224,8 @@ impl BspTree {
     /// # Errors
     ///
     /// As for [`build`](Self::build), and if a polygon reaches beyond the grid:
-    /// [`BuildOptions::with_bounds`] makes it larger. The error names the polygon by its index among
-    /// the new ones. The tree is as it was then.
+    /// [`BuildOptions::with_bounds`] makes it larger. The error names the polygon by its index among the
+    /// new ones, and the tree is not changed.
     pub fn extend<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -234,8 +235,8 @@ impl BspTree {
 }
 
 impl BuildOptions {
-    /// Adds polygons to a tree with these options, of which the tolerance and the bounds do not count;
-    /// see [`BspTree::extend`].
+    /// Adds polygons to a tree with these options, except their tolerance and bounds; see
+    /// [`BspTree::extend`].
     ///
     /// # Errors
     ///
@@ -248,8 +249,8 @@ impl BuildOptions {
         extend(self, tree, polygons, &Watch::default())
     }
 
-    /// The same, with progress reported to a callback that can cancel, as
-    /// [`build_with_progress`](Self::build_with_progress) does.
+    /// Like [`extend`](Self::extend), with progress reported to a callback that can cancel, as in
+    /// [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///
@@ -281,17 +282,17 @@ fn extend<P: Polygon>(
 }
 
 impl BuildOptions {
-    /// Divides a scene into cells, each of about as many of some samples of it, such as one corner of every
-    /// polygon, or of some of them. Takes O(n log cells) time for n samples.
+    /// Divides a scene into cells, each with about the same number of the given samples, such as one corner
+    /// of every polygon, or of some polygons. Takes O(n log cells) time for n samples.
     ///
-    /// Each plane goes through a sample, and divides those on the axis along which they reach furthest. The
-    /// same samples, in whatever order, give the same cells. No cell is left out, but there may be nothing
-    /// in some: with fewer samples than cells, or most of them in one place, planes lie where there is room
-    /// for them. 0 cells count as 1.
+    /// Each plane goes through a sample, and divides the samples on the axis of their largest extent. The
+    /// same samples, in any order, give the same cells. Every cell exists, but some may be empty: with
+    /// fewer samples than cells, or most of them in one place, planes lie where there is room for them. 0
+    /// cells count as 1.
     ///
-    /// The extent must hold all polygons: it defines the grid that their corners are rounded to, as the
-    /// [bounds](Self::bounds) do that these options may have. The tolerance of these options is that of all
-    /// cells; the default follows the extent.
+    /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines
+    /// the grid to which their corners are rounded. The tolerance of these options is that of all cells;
+    /// the default follows the extent.
     ///
     /// # Errors
     ///
@@ -313,11 +314,11 @@ impl BuildOptions {
         Partition::new(extent, &room, self.tolerance, samples, cells)
     }
 
-    /// Builds the tree of a cell, of the polygons that [reach](Partition::reached_by) it, or more. Their
-    /// order counts where they are coplanar, so it must be the same for all cells; the tree names them by
-    /// their places in this list.
+    /// Builds the tree of a cell, from at least the polygons that [reach](Partition::reached_by) it.
+    /// Coplanar polygons keep their order, so it must be the same for all cells. The tree's polygon numbers
+    /// are places in this list.
     ///
-    /// The tolerance and the bounds of the options do not count: the partition has both.
+    /// The partition's tolerance and bounds replace those of the options.
     ///
     /// # Errors
     ///
@@ -335,8 +336,8 @@ impl BuildOptions {
         tree_of_cell(self, partition, cell, polygons, &Watch::default())
     }
 
-    /// The same, with progress reported to a callback that can cancel, as
-    /// [`build_with_progress`](Self::build_with_progress) does.
+    /// Like [`build_cell`](Self::build_cell), with progress reported to a callback that can cancel, as in
+    /// [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///
@@ -358,15 +359,15 @@ impl BuildOptions {
 }
 
 impl Partition {
-    /// What becomes of polygons in the trees of cells: what these count in their
-    /// [preparations](BspTree::preparation), but each polygon once, however many cells it reaches. For
-    /// totals of a scene, whose polygons may be given in several lists.
-    /// [`dropped`](crate::Preparation::dropped) are those without area. It takes as long as
-    /// [`build_cell`](BuildOptions::build_cell) takes to prepare them, and cannot be cancelled.
+    /// The same counts as in the [preparations](BspTree::preparation) of the cells' trees, but with each
+    /// polygon counted once, however many cells it reaches: for totals of a scene, whose polygons may be
+    /// given in several lists. [`dropped`](crate::Preparation::dropped) polygons are those without area.
+    /// Takes as long as the preparation in [`build_cell`](BuildOptions::build_cell), and cannot be
+    /// cancelled.
     ///
     /// # Errors
     ///
-    /// As for [`build_cell`](BuildOptions::build_cell), but for its budgets.
+    /// As for [`build_cell`](BuildOptions::build_cell), except for its budgets.
     pub fn preparation<P: Polygon>(
         &self,
         polygons: impl IntoIterator<Item = P>,
@@ -375,8 +376,8 @@ impl Partition {
         prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
     }
 
-    /// Whether a tree is one of this cell: on the partition's grid, with its tolerance, and cut to the cell.
-    /// One that was built of other polygons is, too.
+    /// Whether a tree can be one of this cell: on the partition's grid, with its tolerance, and cut to the
+    /// cell. The polygons of the tree are not compared.
     ///
     /// # Panics
     ///
@@ -400,7 +401,7 @@ fn tree_of_cell<P: Polygon>(
     tree_of_faces(options, faces, preparation, watch)
 }
 
-/// Prepares the polygons of a cell. What that needs is freed before the faces are divided.
+/// Prepares the polygons of a cell. The working memory is freed before the faces are divided.
 fn prepared_in_cell<P: Polygon>(
     faces: &mut Faces,
     polygons: impl IntoIterator<Item = P>,

@@ -1,5 +1,4 @@
-//! Trees for one view, built in memory that is kept: those of frames, and those of the pieces that an overlay
-//! has in one cell.
+//! Trees for one view, built in reused memory: the trees of frames, and of an overlay's pieces in one cell.
 
 use std::fmt;
 use std::mem::take;
@@ -20,16 +19,16 @@ use crate::tree::BspTree;
 use crate::tree::node::{MOST_FRAGMENTS, Sizes};
 use crate::tree::parts::{Parts, RawNode};
 
-/// Builds a tree for every frame, in memory that it keeps.
+/// Builds a tree for every frame, in reused memory.
 ///
-/// Take it where polygons move every frame and each tree is drawn once or twice, as in a compositor
-/// of layers. Its trees are as exact as those of [`BspTree::build`], but made for one view: planes of
-/// small sets are chosen in less time, so that there may be other fragments; the rounded positions of
-/// cut vertices are stored rather than computed at each reading; and the layout from which
-/// [`back_to_front_into`](BspTree::back_to_front_into) writes order after order is left out, so that
-/// an order takes a few times longer; so it does for a clone of such a tree. Once its lists have grown
-/// to the size of a scene, a frame of few layers allocates nothing, except for the boxes of frames that are queried or
-/// culled (see [`BspTree::bounds`]). The lists do not shrink again: make another builder for that.
+/// Use it if polygons move every frame and each tree is drawn once or twice, as in a compositor of layers.
+/// Its trees are as exact as those of [`BspTree::build`], but made for one view. Planes of small sets are
+/// chosen in less time, so the fragments may differ. The rounded positions of cut vertices are stored
+/// rather than computed at each reading. The layout with which
+/// [`back_to_front_into`](BspTree::back_to_front_into) writes many orders is left out, so an order takes a
+/// few times longer, also for a clone of such a tree. Once its lists have grown to the size of a scene, a
+/// frame of few layers allocates nothing, except for the boxes of frames that are queried or culled (see
+/// [`BspTree::bounds`]). The lists do not shrink; to free their memory, make another builder.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};
@@ -53,7 +52,7 @@ use crate::tree::parts::{Parts, RawNode};
 pub struct FrameBuilder {
     options: BuildOptions,
     tree: BspTree,
-    // Lists that are kept for the next frame.
+    // Lists that are reused for the next frame.
     preparer: Preparer,
     builder: Builder,
     planes: Vec<PreparedPlane>,
@@ -61,11 +60,11 @@ pub struct FrameBuilder {
     sizes: Vec<Sizes>,
 }
 
-/// Puts faces into planes that several of them share.
+/// Puts faces into common planes.
 type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
 
 impl FrameBuilder {
-    /// A builder with these options. Its tree is empty so far.
+    /// A builder with these options and an empty tree.
     pub fn new(options: BuildOptions) -> Self {
         Self {
             options,
@@ -78,7 +77,7 @@ impl FrameBuilder {
         }
     }
 
-    /// Sets the options of the trees to come.
+    /// Sets the options of later trees.
     pub fn set_options(&mut self, options: BuildOptions) {
         self.options = options;
     }
@@ -96,7 +95,8 @@ impl FrameBuilder {
         Ok(&self.tree)
     }
 
-    /// Builds a tree of polygons that are flat by definition, those of each group in one plane.
+    /// Builds a tree of polygons that are flat by definition, where the polygons of each group are in one
+    /// plane.
     #[cfg(feature = "layers")]
     pub(crate) fn build_in_planes<'g, P: Polygon>(
         &mut self,
@@ -140,7 +140,7 @@ impl FrameBuilder {
         Ok(())
     }
 
-    /// The last tree that was built.
+    /// The last tree built.
     pub fn tree(&self) -> &BspTree {
         &self.tree
     }
@@ -162,19 +162,19 @@ impl fmt::Debug for FrameBuilder {
     }
 }
 
-/// Builds a tree of the pieces in each cell, in memory that it keeps.
+/// Builds a tree of the pieces in each cell, in reused memory.
 #[derive(Default)]
 pub(crate) struct OverlayBuilder {
     builder: Builder,
 }
 
 impl OverlayBuilder {
-    /// A tree of some pieces, with the positions of its vertices. Give the parts back to
-    /// [`keep`](Self::keep) when they are read.
+    /// A tree of some pieces, with the positions of its vertices. Pass the parts to [`keep`](Self::keep)
+    /// after reading them.
     ///
     /// # Errors
     ///
-    /// If there are too many fragments, if it is cancelled, or if memory runs out.
+    /// If there are too many fragments, the caller cancels, or memory runs out.
     pub(crate) fn build(
         &mut self,
         faces: &Faces,
@@ -191,13 +191,13 @@ impl OverlayBuilder {
         for piece in pieces {
             job.pieces.push(piece.copied(arena, &mut job.arena));
         }
-        // The budget counts all faces, the tree's among them.
+        // The budget counts all faces, including the tree's.
         let options = BuildOptions::DEFAULT.with_max_fragments(MOST_FRAGMENTS);
         let shared = Shared::new(faces, &options, &Tuning::FRAMES, watch)?;
         jobs::run(&shared.with_positions(), job, builder)
     }
 
-    /// Keeps the memory of a tree for the next.
+    /// Keeps the memory of a tree for the next one.
     pub(crate) fn keep(&mut self, parts: Parts) {
         self.builder.output.parts = parts;
     }

@@ -10,30 +10,30 @@ use crate::exact::Vertex;
 use crate::memory::reserve;
 use crate::tree::parts::{Parts, RawNode, Record};
 
-/// Where both sides of a plane have at least this many pieces, one side becomes a job of its own.
-/// Smaller: more copying; larger: threads wait for each other at the end.
+/// Where both sides of a plane have at least this many pieces, one side becomes a separate job. Too small:
+/// more copying. Too large: threads wait for each other at the end.
 const JOB: usize = 1024;
 
 /// A set of pieces with their vertices, to be built into a subtree.
 pub(super) struct Job {
     pub(super) pieces: Vec<Piece>,
     pub(super) arena: Vec<Vertex>,
-    /// How many nodes lie above it.
+    /// The number of nodes above it.
     pub(super) depth: usize,
 }
 
-/// Whether one side of a plane becomes a job of its own, by the numbers of pieces on both sides: only
-/// where both are large is there work for another thread.
+/// Whether one side of a plane becomes a separate job, by the numbers of pieces on both sides: only where
+/// both are large is there work for another thread.
 pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
     back.min(front) >= JOB
 }
 
-/// A build of fewer pieces starts on the calling thread. Larger: the pool's threads idle at first;
-/// smaller: waking them takes longer than the build.
+/// A build of fewer pieces starts on the calling thread. Too large: the pool's threads idle at first. Too
+/// small: waking them takes longer than the build.
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 
-/// The outputs of the jobs so far, by their numbers; those of jobs that are not finished are missing.
+/// The outputs of the jobs so far, by their numbers; the outputs of unfinished jobs are missing.
 #[cfg(feature = "parallel")]
 type Outputs = Mutex<Vec<Option<Result<Output, Error>>>>;
 
@@ -64,7 +64,7 @@ fn build_and_spawn<'s>(
     outputs.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(output);
 }
 
-/// Builds a job, and all jobs that it and they hand over, and joins them.
+/// Builds a job, and all jobs handed over by it and by these, and joins them.
 pub(super) fn run(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Result<Parts, Error> {
     #[cfg(feature = "parallel")]
     if job.pieces.len() >= JOB && crate::parallel_map::are_running() {
@@ -88,7 +88,7 @@ fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Resu
     for output in outputs.into_iter().flatten() {
         match output {
             Ok(output) => finished.push(output),
-            // What another job's error has stopped says nothing of that error.
+            // A job stopped because of another job's error does not report that error.
             Err(error) if error.kind() == crate::ErrorKind::Cancelled => cancelled = Some(error),
             Err(error) => return Err(error),
         }
@@ -100,7 +100,7 @@ fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Resu
 #[derive(Debug, Default)]
 pub(super) struct Output {
     pub(super) parts: Parts,
-    /// Where the outputs of other jobs are to be inserted.
+    /// Where to insert the outputs of other jobs.
     gaps: Vec<Gap>,
 }
 
@@ -132,7 +132,7 @@ impl Output {
         Ok(())
     }
 
-    /// Forgets all.
+    /// Removes everything.
     pub(super) fn clear(&mut self) {
         self.parts.clear();
         self.gaps.clear();
@@ -157,7 +157,7 @@ impl Output {
         Gap { nodes: nodes.len(), records: records.len(), vertices: vertices.len(), job }
     }
 
-    /// Appends what another output has between two of its gaps.
+    /// Appends the part of another output between two of its gaps.
     fn append(&mut self, other: &Self, from: Gap, to: Gap) {
         let shift = self.parts.vertices.len() as u32 - from.vertices as u32;
         self.parts.nodes.extend_from_slice(&other.parts.nodes[from.nodes..to.nodes]);
@@ -186,8 +186,8 @@ fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     reserve(&mut whole.parts.vertices, sum(|output| output.parts.vertices.len()))?;
     reserve(&mut whole.parts.positions, sum(|output| output.parts.positions.len()))?;
     let start = |job| (Gap { nodes: 0, records: 0, vertices: 0, job }, 0);
-    // The outputs that are copied in part: from where to go on, and which gap comes next. A stack
-    // rather than recursion, because jobs can be nested deeply.
+    // The outputs that are partly copied: from where to continue, and the next gap. A stack rather than
+    // recursion, because jobs can be nested deeply.
     let mut stack = vec![start(0)];
     while let Some((from, next)) = stack.pop() {
         let output = &outputs[from.job];
@@ -214,9 +214,9 @@ mod threads_tests {
 
     use crate::{BuildOptions, Heuristic};
 
-    /// The depth that the sets on one side stay below, and that on the other side does not.
+    /// The depth that one side stays below, and the other exceeds.
     const MOST: usize = 100;
-    /// How many squares there are on the side that needs no more depth.
+    /// The number of squares on the shallow side.
     const MANY: u32 = 1 << 15;
 
     /// A square at a place along the x axis.
@@ -224,11 +224,11 @@ mod threads_tests {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(y, z)| [x, y, z])
     }
 
-    /// By the planes of the first ones, the squares in front become a list, and those behind a tree without
-    /// long branches.
+    /// Split by the planes of the first ones, the squares in front become a list, and those behind a tree
+    /// without long branches.
     fn squares() -> impl Iterator<Item = [[f64; 3]; 4]> {
         let list = (1..2000).map(f64::from);
-        // As often from each half, each quarter, and so on.
+        // Equally often from each half, each quarter, and so on.
         let tree = (0..MANY).map(|k| -1.0 - f64::from(k.reverse_bits() >> 17));
         std::iter::once(0.0).chain(list).chain(tree).map(square)
     }
@@ -248,7 +248,7 @@ mod threads_tests {
         let error = tree.unwrap_err();
         assert!(error.kind() == crate::ErrorKind::OverBudget, "{error}");
         assert!(done < 1000, "{done} faces were stored after the error");
-        // The job behind is large enough to be heard of.
+        // The job behind is large enough to call the callback.
         let mut calls = 0;
         let behind = squares().filter(|square| square[0][0] < 0.0);
         let tree = options.build_with_progress(behind, |_| {

@@ -1,7 +1,7 @@
 //! Building a tree.
 //!
-//! `driver` has the steps from polygons to a tree. `subtree` takes a set of pieces apart, by the planes that
-//! `choose` finds. `jobs` spreads large sets over threads and joins what they built.
+//! `driver` has the steps from polygons to a tree. `subtree` divides a set of pieces by the planes that
+//! `choose` finds. `jobs` spreads large sets over threads and joins the results.
 
 pub(crate) mod choose;
 pub(crate) mod driver;

@@ -28,20 +28,20 @@ use crate::faces::Tolerance;
 pub struct BuildOptions {
     /// How partition planes are chosen. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
-    /// The coplanar tolerance: polygons that reach no further than this from a plane count as lying
-    /// on it. Default: [`Tolerance::Default`], which follows the precision of the polygons.
+    /// The coplanar tolerance: a polygon counts as lying on a plane if it reaches no further than this from
+    /// it. Default: [`Tolerance::Default`], which follows the precision of the polygons.
     pub tolerance: Tolerance,
-    /// The most fragments that a tree may have, and the most polygons it may be built from.
-    /// Exceeding it is an error; too many input polygons are rejected before the build starts, and
-    /// before the rest is read once 2²⁰ have come, if their iterator's size hint tells. Default: 2²⁵ (33 554 432 fragments,
-    /// about 5 GB). More than 2²⁹ − 1 counts as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
+    /// The largest number of fragments of a tree, and of polygons that it is built from. More is an error.
+    /// Too many input polygons are rejected before the build starts; if the iterator's size hint is too
+    /// large, after 2²⁰ polygons. Default: 2²⁵ (33 554 432 fragments, about 5 GB). More than 2²⁹ − 1 counts
+    /// as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
     pub max_fragments: usize,
-    /// The most nodes on a path from the root. Exceeding it is an error. Default: unlimited; no code
+    /// The largest number of nodes on a path from the root. More is an error. Default: unlimited; no code
     /// recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
-    /// Two opposite corners of a box that the grid of exact coordinates has to hold besides the
-    /// polygons: one that holds all that an [`Overlay`](crate::overlay::Overlay) will have. It counts as part
-    /// of the scene where the scene's extent matters, as for the default tolerance. Default: none.
+    /// Two opposite corners of a box that the grid of exact coordinates must contain besides the polygons,
+    /// such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). It counts as part of the
+    /// scene for its extent, for instance in the default tolerance. Default: none.
     pub bounds: Option<[DVec3; 2]>,
     pub(super) chooser: Option<GivenChooser>,
 }
@@ -71,47 +71,47 @@ impl BuildOptions {
         self
     }
 
-    /// Sets the coplanar tolerance, a share of the scene's extent of 0 or more.
+    /// Sets the coplanar tolerance as a share of the scene's extent, 0 or more.
     #[must_use]
     pub const fn with_relative_tolerance(mut self, share: f64) -> Self {
         self.tolerance = Tolerance::Relative(share);
         self
     }
 
-    /// Sets the most fragments.
+    /// Sets the largest number of fragments.
     #[must_use]
     pub const fn with_max_fragments(mut self, max_fragments: usize) -> Self {
         self.max_fragments = max_fragments;
         self
     }
 
-    /// Sets the most nodes on a path from the root.
+    /// Sets the largest number of nodes on a path from the root.
     #[must_use]
     pub const fn with_max_depth(mut self, max_depth: usize) -> Self {
         self.max_depth = max_depth;
         self
     }
 
-    /// Sets two opposite corners of a box that holds all that will move.
+    /// Sets two opposite corners of a box that contains everything that will move.
     #[must_use]
     pub const fn with_bounds(mut self, corner: DVec3, opposite: DVec3) -> Self {
         self.bounds = Some([corner, opposite]);
         self
     }
 
-    /// Sets a heuristic of your own: a function that chooses the plane that divides a set of pieces.
+    /// Sets your own heuristic: a function that chooses the plane that divides a set of pieces.
     ///
-    /// It is called once for each set of two or more pieces. Where it returns `None`, or a plane that does not
-    /// divide the set, [`heuristic`](Self::heuristic) chooses instead. Such a plane leaves all pieces on one
-    /// side, or names a piece, axis or coordinate that does not exist. So whatever the function returns, the
-    /// tree is exact, its build ends, and budgets and cancellation work.
+    /// It is called once for each set of two or more pieces. If it returns `None` or a plane that does not
+    /// divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the set if
+    /// it leaves all pieces on one side, or names a piece, axis or coordinate that does not exist. So for
+    /// every function the tree is exact, its build ends, and budgets and cancellation work.
     ///
-    /// Several threads call it at the same time, in any order. If its result depends on the set alone, the tree
-    /// is the same with any number of threads. If it panics, so does the build.
+    /// Several threads call it at the same time, in any order. If its result depends only on the set, the
+    /// tree is the same with any number of threads. If it panics, so does the build.
     ///
     /// It also chooses for a [`FrameBuilder`](crate::FrameBuilder) with these options, for the cells of a
-    /// [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files of trees store the
-    /// planes and not the function.
+    /// [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files of trees store
+    /// the planes but not the function.
     ///
     /// ```
     /// use binspace::choose::SplitPlane;
@@ -152,19 +152,18 @@ impl Default for BuildOptions {
 /// Naylor, “On visible surface generation by a priori tree structures”, 1980), and *free planes*,
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
-/// By no heuristic is a polygon cut by the plane of another that lies within the coplanar tolerance of
-/// the polygon's own plane: the plane of the larger one divides the set instead. Free planes may cut
-/// both.
+/// No heuristic lets a plane cut a polygon whose own plane is the same within the coplanar tolerance: the
+/// plane of the larger polygon divides the set instead. Free planes may cut both.
 ///
-/// A heuristic of your own goes before them: [`BuildOptions::with_chooser`].
+/// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///
-/// Every heuristic is deterministic. Those that would try the planes of all polygons of a set try at
+/// Every heuristic is deterministic. A heuristic that compares the planes of all polygons of a set tries at
 /// most 96 of them, spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). The cheapest choice, with up to 14 times as many fragments as a scored one.
+    /// 1980). The fastest choice, with up to 14 times as many fragments as a scored one.
     First,
     /// The plane of a random polygon; the same seed gives the same tree. The expected number of
     /// fragments is O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient
@@ -177,53 +176,54 @@ pub enum Heuristic {
     /// display of rigid objects”, 1983).
     FewestSplits,
     /// The polygon's plane with the smallest difference between the numbers of polygons in front and
-    /// behind. Naylor (“Constructing good partitioning trees”, 1993) says why balance alone makes no good tree.
+    /// behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone makes no
+    /// good tree.
     Balanced,
-    /// The polygon's plane with the lowest weighted sum of the two, and of a bonus: the trade between cuts and
-    /// balance of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning trees”,
-    /// 1987).
+    /// The polygon's plane with the lowest weighted sum of splits and imbalance, less a bonus: the
+    /// trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning
+    /// trees”, 1987).
     Weighted {
         /// Cost of each polygon that the plane cuts. Default 8.
         splits: f64,
-        /// Cost of each polygon by which one side has more than the other. Default 1.
+        /// Cost of each polygon in the difference between the two sides. Default 1.
         balance: f64,
         /// Bonus, per polygon in the set, for a plane perpendicular to an axis. Default 0.
         axial: f64,
     },
-    /// [`Weighted`](Self::Weighted) with its default weights, over a sample of the polygons' planes,
-    /// as the level builders of id Software's games do. (That a few candidates do was found by Fuchs, Abram and
-    /// Grant, 1983.)
+    /// [`Weighted`](Self::Weighted) with its default weights, over a sample of the polygons' planes, as in
+    /// the level builders of id Software's games. (Fuchs, Abram and Grant, 1983, found that a few
+    /// candidates are enough.)
     Sampled {
-        /// How many planes are tried at each node. Default 16.
+        /// The number of planes tried at each node. Default 16.
         candidates: u32,
     },
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
-    /// searching”, 1975), by the cost of [`Auto`](Self::Auto). They are found by a binned sweep (Wald, “On fast
-    /// construction of SAH-based bounding volume hierarchies”, 2007). A set of which all polygons lie in one plane, or for
-    /// which no free plane is found that separates anything, is split by the plane of a polygon.
+    /// searching”, 1975), by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On fast
+    /// construction of SAH-based bounding volume hierarchies”, 2007). The plane of a polygon splits the set
+    /// if all its polygons lie in one plane, or if no free plane separates any of them.
     FreePlanes,
-    /// The best of both kinds of planes by one cost. The default: the fewest fragments on most
-    /// scenes. The cost is the library's own; polygons' planes are compared by successive halving (Karnin, Koren
-    /// and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+    /// The best of both kinds of planes by one cost. The default: the fewest fragments on most scenes. The
+    /// cost is the library's own; polygons' planes are compared by successive halving (Karnin, Koren and
+    /// Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
     ///
-    /// The candidates are free planes and the planes of a sample of the polygons. The cost of a
-    /// plane estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n
-    /// behind, where a polygon that the plane cuts counts on both. The plane of a large polygon gets
-    /// a reward, because a wall or floor that is not taken early is cut again and again.
+    /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
+    /// estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n behind, where
+    /// a polygon that the plane cuts counts on both. The plane of a large polygon gets a reward, because a
+    /// wall or floor that is not used early is cut repeatedly.
     ///
-    /// A set is divided by a free plane that cuts nothing, else by the best. Of up to 255 polygons, no
-    /// plane that cuts is preferred to one that does not; below 64, no free plane that cuts is tried.
-    /// Where only planes at the rim of a set cut nothing, as in a convex body, the polygons at the rim
-    /// are taken off one after the other in a single search.
+    /// A free plane that cuts nothing has priority; otherwise the best plane is used. In sets of up to 255
+    /// polygons, a plane without cuts is preferred to any plane with cuts; below 64, no free plane that
+    /// cuts is tried. If only planes at the boundary of a set cut nothing, as in a convex body, a single
+    /// search separates its outer polygons one after the other.
     ///
-    /// A [`FrameBuilder`](crate::FrameBuilder) tries the planes of polygons first, which takes less
-    /// time: four of them in sets of up to 255 polygons. It takes one that cuts nothing and divides the set
-    /// evenly, or one that cuts one or two polygons, which cross its own.
+    /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four of
+    /// them in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,
+    /// or one that cuts one or two polygons that cross the plane's own polygon.
     #[default]
     Auto,
 }
 
-/// What `Weighted` weighs splits, balance and axial planes by, unless told otherwise.
+/// Default weights of splits, balance and axial planes in `Weighted`.
 pub(super) const DEFAULT_WEIGHTS: [f64; 3] = [8.0, 1.0, 0.0];
 
 impl Heuristic {

@@ -16,9 +16,9 @@ pub(crate) struct Piece {
     /// The index of its first vertex in the arena, and their number; 0 for a whole face.
     start: u32,
     len: u32,
-    /// How many times it was cut; stays at 255.
+    /// The number of times it was cut; stays at 255.
     pub(crate) cuts: u8,
-    /// On which sides of the box there is a corner of the face: bits 0–2 for the minima along x, y and
+    /// The sides of the box on which there is a corner of the face: bits 0–2 for the minima along x, y and
     /// z, bits 3–5 for the maxima.
     on_corner: u8,
 }
@@ -34,7 +34,7 @@ impl Piece {
         piece
     }
 
-    /// A part of a piece that was cut, by its vertices, and where these begin in the arena.
+    /// A part of a piece that was cut, by its vertices and their start in the arena.
     pub(crate) fn part(whole: &Self, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(whole.face, start as u32, vertices.len() as u32);
         piece.cuts = whole.cuts.saturating_add(1);
@@ -53,15 +53,15 @@ impl Piece {
         piece
     }
 
-    /// The order in which pieces on one plane are painted: that of their faces. (Pieces of one face do not
-    /// meet there; they come in the order of their vertices, so that an unstable sort, which needs no
-    /// memory, has one result.)
+    /// The painting order of pieces on one plane: that of their faces. (Pieces of one face do not meet
+    /// there; they come in the order of their vertices, so that an unstable sort, which needs no memory,
+    /// has one result.)
     #[inline]
     pub(crate) fn rank(&self) -> (u32, u32) {
         (self.face, self.start)
     }
 
-    /// A segment or a point, by its vertices, and where these begin in the arena.
+    /// A segment or a point, by its vertices and their start in the arena.
     pub(crate) fn thin(face: u32, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(face, start as u32, vertices.len() as u32);
         vertices.iter().for_each(|vertex| piece.include(vertex.position()));
@@ -81,7 +81,7 @@ impl Piece {
         }
     }
 
-    /// How many vertices it has in the arena.
+    /// The number of its vertices in the arena.
     pub(crate) fn cut_len(&self) -> usize {
         self.len as usize
     }
@@ -93,7 +93,7 @@ impl Piece {
         (self.len > 0).then(|| &arena[start..start + self.len as usize])
     }
 
-    /// Where it lies against a plane.
+    /// Its side of a plane.
     #[inline]
     pub(crate) fn side(&self, faces: &Faces, plane: &PreparedPlane, arena: &[Vertex]) -> Side {
         plane.classify(faces, self.face, self.cut_vertices(arena))
@@ -113,8 +113,8 @@ impl Piece {
         }
     }
 
-    /// A point on the plane of its face: a vertex of the piece, as of one far away the rounding of the
-    /// normal would count.
+    /// A point on the plane of its face: a vertex of the piece, because at a distant point the rounding of
+    /// the normal would matter.
     pub(crate) fn point(&self, faces: &Faces, arena: &[Vertex]) -> DVec3 {
         DVec3::from_array(match self.cut_vertices(arena) {
             // On the plane, or within half a step of it.
@@ -162,19 +162,19 @@ impl Piece {
     }
 }
 
-/// Where the pieces of a set lie against a plane that divides them.
+/// The sides of a set's pieces on a plane that divides them.
 #[derive(Debug, Default)]
 pub(crate) struct Division {
     /// The plane; `None` if the pieces are not classified yet.
     pub(crate) plane: Option<PreparedPlane>,
     /// One for each piece.
     pub(crate) sides: Vec<Side>,
-    /// How many pieces are on each side, by its number.
+    /// The number of pieces on each side, by the side's number.
     counts: [usize; 4],
 }
 
 impl Division {
-    /// Classifies the pieces against a plane. Ends early if it cuts more than `most`, and says so.
+    /// Classifies the pieces against a plane. Stops early, and returns false, if it cuts more than `most`.
     pub(crate) fn classify(
         &mut self,
         faces: &Faces,
@@ -196,7 +196,7 @@ impl Division {
         true
     }
 
-    /// How many pieces are on a side.
+    /// The number of pieces on a side.
     pub(crate) fn count(&self, side: Side) -> usize {
         self.counts[side as usize]
     }
@@ -217,7 +217,7 @@ pub(crate) struct Splitter {
 }
 
 impl Splitter {
-    /// Cuts a piece that spans a plane. Appends the vertices of its parts to the arena, and gives the
+    /// Cuts a piece that spans a plane. Appends the vertices of its parts to the arena, and returns the
     /// parts in front and behind.
     pub(crate) fn cut(
         &mut self,

@@ -20,16 +20,16 @@ use crate::tree::parts::{RawChild, RawNode};
 /// Passes a set to another job, and returns the number of that job.
 pub(super) type HandOver<'h> = &'h mut dyn FnMut(Job) -> Result<usize, Error>;
 
-/// The smallest arena, in vertices, that is compacted. Smaller: time to copy; larger: memory.
+/// The smallest arena, in vertices, that is compacted. Too small: time to copy. Too large: memory.
 const COMPACT: usize = 1 << 13;
 
-/// What all jobs of a build share.
+/// The data shared by all jobs of a build.
 pub(in crate::build) struct Shared<'a> {
     faces: &'a Faces,
     options: &'a BuildOptions,
     rules: ChooseContext<'a>,
     budget: Budget,
-    /// The planes of all faces, where they were prepared in advance.
+    /// The planes of all faces, if they were prepared in advance.
     planes: &'a [PreparedPlane],
     /// Whether the rounded positions of vertices go into the output.
     keeps_positions: bool,
@@ -54,44 +54,44 @@ impl<'a> Shared<'a> {
         self.rules.watch.stop();
     }
 
-    /// The same, with positions in the output.
+    /// The same data, with positions in the output.
     pub(in crate::build) fn with_positions(self) -> Self {
         Self { keeps_positions: true, ..self }
     }
 
-    /// The same, with the planes of all faces.
+    /// The same data, with the planes of all faces.
     pub(in crate::build) fn with_planes(self, planes: &'a [PreparedPlane]) -> Self {
         Self { planes, ..self }
     }
 }
 
-/// A set of pieces that is still to be divided: a range of the stack of pieces.
+/// A set of pieces still to be divided: a range of the stack of pieces.
 struct Pending {
     range: Range<usize>,
     /// The length of the arena that it needs.
     arena: usize,
-    /// How many nodes lie above it.
+    /// The number of nodes above it.
     depth: usize,
-    /// Whether peeling has just been tried on this set. Then a small set is divided by a plane first.
+    /// Whether peeling has just been tried on this set. If so, a small set is divided by a plane first.
     is_peeled: bool,
-    /// The job that builds it, if that is not this one.
+    /// The other job that builds it, if any.
     job: Option<usize>,
 }
 
-/// Builds the subtrees of jobs, one after the other, in lists that it keeps.
+/// Builds the subtrees of jobs, one after the other, in reused lists.
 #[derive(Default)]
 pub(in crate::build) struct Builder {
     chooser: Chooser,
     /// A stack of the sets still to be divided, the next one on top.
     pub(in crate::build) pieces: Vec<Piece>,
-    /// The vertices of cut pieces, in the order of the cuts. Those of sets that are built are
-    /// truncated from the end.
+    /// The vertices of cut pieces, in the order of the cuts. Vertices of finished sets are truncated from
+    /// the end.
     pub(in crate::build) arena: Vec<Vertex>,
     pending: Vec<Pending>,
     /// The length at which the arena is next compacted.
     compact_at: usize,
     pub(in crate::build) output: Output,
-    /// Where the pieces of the current set lie.
+    /// The sides of the current set's pieces.
     division: Division,
     /// The pieces of the current set on its plane, in front of it, and across.
     own: Vec<Piece>,
@@ -101,7 +101,7 @@ pub(in crate::build) struct Builder {
 }
 
 impl Builder {
-    /// Builds the subtree of a job. Large sets are handed over to other jobs, if there may be any.
+    /// Builds the subtree of a job. Hands large sets over to other jobs, if allowed.
     pub(super) fn build(
         &mut self,
         shared: &Shared<'_>,
@@ -129,7 +129,7 @@ impl Builder {
         Ok(take(&mut self.output))
     }
 
-    /// Notes that the pieces on top of the stack are still to be divided, or that another job divides them.
+    /// Records that the pieces on top of the stack are still to be divided, here or by another job.
     fn push_pending(&mut self, start: usize, depth: usize, is_peeled: bool, job: Option<usize>) {
         let (range, arena) = (start..self.pieces.len(), self.arena.len());
         self.pending.push(Pending { range, arena, depth, is_peeled, job });
@@ -163,8 +163,8 @@ impl Builder {
         };
         settle(&shared.rules, &set, division, plane)?;
         if !is_leaf(set.pieces) && !division.makes_progress() {
-            // Free planes are counted by rounded distances, so exact decisions can show that one
-            // separates nothing. A piece's own plane always does.
+            // Free planes are counted by rounded distances, so exact decisions can show that one separates
+            // nothing. A piece's own plane always separates that piece.
             division.plane = None;
             settle(&shared.rules, &set, division, own)?;
         }
@@ -172,11 +172,11 @@ impl Builder {
         self.emit(shared, start, pending.depth + 1, hand_over)
     }
 
-    /// Removes the vertices of pieces that have since been cut. The arena so stays within twice the
-    /// size that the sets still to be divided need, however often one piece is cut.
+    /// Removes the vertices of pieces that have since been cut. So the arena stays within twice the size
+    /// that the sets still to be divided need, however often one piece is cut.
     fn compact(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
         let mut arena = Vec::new();
-        // The pieces of sets that other jobs build are gone.
+        // The pieces of sets that other jobs build have been removed.
         reserve(&mut arena, self.pieces.iter().map(Piece::cut_len).sum())?;
         for pending in &mut self.pending {
             for piece in &mut self.pieces[pending.range.clone()] {
@@ -191,7 +191,7 @@ impl Builder {
         if self.arena.len() > 1 << 31 { Err(Kind::Fragments(limit).error()) } else { Ok(()) }
     }
 
-    /// Removes the set on top of the stack and gives it an arena of its own.
+    /// Removes the set on top of the stack and gives it a separate arena.
     fn take(&mut self, start: usize, depth: usize) -> Result<Job, Error> {
         let mut arena = Vec::new();
         let mut pieces =
@@ -226,13 +226,13 @@ impl Builder {
         piece.map_or(Ok(()), |piece| self.store(shared, &piece))
     }
 
-    /// Divides the set on top of the stack: pieces behind the plane stay on the stack, pieces in front go to
-    /// `front`, and pieces on the plane to `own`. Those across are cut.
+    /// Divides the set on top of the stack: pieces behind the plane stay on the stack, pieces in front go
+    /// to `front`, and pieces on the plane to `own`. Pieces that span it are cut.
     fn divide(&mut self, shared: &Shared<'_>, start: usize) -> Result<(), Error> {
         let Self { division, own, front, spanning, pieces, arena, splitter, .. } = self;
         let Some(plane) = &division.plane else { return Ok(()) };
         let cuts = division.count(Side::Spanning);
-        // The budget is checked before the cuts, so that a set that explodes is stopped in time.
+        // The budget is checked before the cuts, so that a set with too many is stopped in time.
         shared.budget.count(cuts)?;
         shared.rules.watch.work(cuts * CUT)?;
         own.clear();
@@ -280,7 +280,7 @@ impl Builder {
         let (back, front) = (self.pieces.len() - start, self.front.len());
         let back_is_leaf = is_leaf(&self.pieces[start..]);
         let front_is_leaf = is_leaf(&self.front);
-        // Leaves are stored here, right behind the node's own fragments and front before back: orders
+        // Leaves are stored here, directly after the node's own fragments and front before back: orders
         // rely on these numbers.
         if front_is_leaf && let Some(piece) = self.front.pop() {
             self.store(shared, &piece)?;
@@ -292,10 +292,11 @@ impl Builder {
             |is_leaf, len: usize| if is_leaf { RawChild::Leaf(len as u32) } else { RawChild::Node };
         let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
         self.output.push_node(RawNode { plane, own, front: front_child, back: back_child })?;
-        // The back goes below the front, so that the front is built first, as nodes stand depth first.
+        // The back goes below the front on the stack, so that the front is built first, because nodes are
+        // stored depth first.
         if !back_is_leaf {
-            // The back is handed over because it is on top of the stack just now; this thread goes on
-            // with the front.
+            // The back is handed over because it is on top of the stack now; this thread continues with the
+            // front.
             let job = match hand_over {
                 Some(hand_over) if is_worth_a_job(back, front) => {
                     Some(hand_over(self.take(start, depth)?)?)
@@ -306,7 +307,7 @@ impl Builder {
         }
         if !front_is_leaf {
             let start = self.pieces.len();
-            // An empty stack takes the list as it is, so that a large set is not in memory twice.
+            // An empty stack takes over the whole list, so that a large set is not in memory twice.
             if start == 0 {
                 std::mem::swap(&mut self.pieces, &mut self.front);
             } else {
@@ -318,8 +319,8 @@ impl Builder {
         Ok(())
     }
 
-    /// Writes one node for each layer of pieces that is peeled off a set, and puts the rest of the set
-    /// on the stack. Each layer's node is the only child of the one before.
+    /// Writes one node for each layer of pieces that is peeled off a set, and puts the rest of the set on
+    /// the stack. Each layer's node is the only child of the one before.
     fn emit_peeled(
         &mut self,
         shared: &Shared<'_>,
@@ -333,7 +334,7 @@ impl Builder {
         for layer in peeled.layers() {
             self.own.clear();
             reserve(&mut self.own, peeled.pieces(layer).len())?;
-            // Pieces are marked and not removed yet: all layers name them by their places in the set.
+            // Pieces are marked and not removed yet: all layers refer to them by their places in the set.
             for &piece in peeled.pieces(layer) {
                 left[piece as usize] = false;
                 self.own.push(self.pieces[start + piece as usize]);
@@ -375,14 +376,14 @@ const CUT: usize = 64;
 /// The faces whose planes were given up for a set. None is tried again, so the search ends.
 type Tried = SmallVec<[u32; 4]>;
 
-/// Classifies a set by a plane, or by the one that divides it instead: polygons that are treated as
-/// coplanar do not cut each other.
+/// Classifies a set by a plane, or by a replacement: polygons that are treated as coplanar do not cut each
+/// other.
 ///
-/// The corners of a small polygon are rounded by as much as those of a large one, so its plane is
-/// less certain: extended across a large polygon in the same plane, it can leave the tolerance on
-/// both sides. The plane of the large one has the small one within the tolerance, and divides the
-/// set instead. In frames it also does where the plane of the small one passes beside the large one
-/// and cuts nothing: it would come between the large one and others of its plane.
+/// The corners of a small polygon are rounded by as much as those of a large one, so its plane is less
+/// certain: extended across a large polygon in the same plane, it can leave the tolerance on both sides.
+/// The small polygon is within the tolerance of the large one's plane, which divides the set instead. In
+/// frames this is also done if the small one's plane passes beside the large polygon and cuts nothing: it
+/// would come between the large one and others of its plane.
 fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -396,7 +397,8 @@ fn settle(
             set.divide(plane, usize::MAX, division);
         }
         let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-        // The plane may not pass beside a piece that is larger than its own: outside of frames it may.
+        // In frames the plane may not pass beside a piece that is larger than its own; in other trees it
+        // may.
         let least = match rules.tuning.frames {
             Some(_) => {
                 let own = set.pieces.iter().filter(|piece| piece.face == face);
@@ -425,7 +427,7 @@ fn size(piece: &Piece) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
 }
 
-/// The largest of some pieces on whose own plane a face lies.
+/// The largest of some pieces whose own plane contains a face.
 fn larger<'p>(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -438,7 +440,7 @@ fn larger<'p>(
         rules.watch.work(1)?;
         let lies_on = || {
             let plane = set.prepare(PlaneId::face(piece.face));
-            // Most planes are far off the first corner.
+            // Most planes are far from the first corner.
             plane.distance(faces.corners(face)[0]).abs() <= plane.slack()
                 && plane.classify(faces, face, None) == Side::Coplanar
         };
@@ -449,16 +451,16 @@ fn larger<'p>(
     Ok(best.map(|(_, piece)| piece))
 }
 
-/// What all jobs of a build may use together.
+/// The budget shared by all jobs of a build.
 struct Budget {
-    /// The pieces that exist by now, over all jobs.
+    /// The number of pieces so far, over all jobs.
     fragments: AtomicUsize,
     max_fragments: usize,
     max_depth: usize,
 }
 
 impl Budget {
-    /// The budgets of a build that begins with so many faces.
+    /// The budget of a build that begins with `faces` faces.
     fn new(options: &BuildOptions, faces: usize) -> Result<Self, Error> {
         let budget = Self {
             fragments: AtomicUsize::new(faces),

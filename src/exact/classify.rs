@@ -1,13 +1,13 @@
-//! On which side of a plane a piece of a face lies: by rounded distances where their sign is certain
-//! (a floating-point filter: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-//! geometric predicates", 1997), and by integers elsewhere.
+//! The side of a plane on which a piece of a face lies: by rounded distances where their sign is certain (a
+//! floating-point filter: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+//! predicates", 1997), and by integers elsewhere.
 //!
 //! These rules classify a piece against a plane. τ is the coplanar tolerance, and *corners* are those of
 //! the whole face:
 //!
 //! - if no corner is further than τ from the plane, the piece is coplanar;
-//! - if corners are further than τ in front, but none behind, the piece is in front, and likewise
-//!   behind: it is not cut for less than τ;
+//! - if corners are further than τ in front, but none behind, the piece is in front, and likewise behind:
+//!   it is not cut for less than τ;
 //! - otherwise the exact signs of the piece's own vertices decide, and it is cut where they differ.
 //!
 //! With τ = 0 every decision is that of real arithmetic.
@@ -20,16 +20,16 @@ use super::plane::RoundedNormal;
 use super::split::Vertex;
 use super::{Faces, Int};
 
-/// Where a piece of a face lies against a plane.
+/// The side of a plane on which a piece of a face lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// No part of it is behind the plane.
     Front,
     /// No part of it is in front of the plane.
     Back,
-    /// All of it is on the plane.
+    /// It lies entirely on the plane.
     Coplanar,
-    /// It has to be cut.
+    /// It must be cut.
     Spanning,
 }
 
@@ -94,8 +94,8 @@ impl PreparedPlane {
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
     }
 
-    /// The side of the plane, of every piece whose rounded
-    /// vertices lie in a box; `None` if the box does not tell.
+    /// The side of the plane of every piece whose rounded vertices lie in a box; `None` if the box does not
+    /// decide.
     pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
         let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
         let highest = std::array::from_fn(|i| if self.normal[i] > 0.0 { high[i] } else { low[i] });
@@ -111,7 +111,7 @@ impl PreparedPlane {
         }
     }
 
-    /// On which side of the plane a lattice point lies further off than the tolerance.
+    /// The side of the plane on which a lattice point lies further off than the tolerance.
     #[cfg(feature = "drawing")]
     pub(crate) fn side_beyond(&self, faces: &Faces, point: &[f64; 3]) -> Ordering {
         let (distance, far) = (self.distance(*point), self.band + 2.0 * self.bound);
@@ -142,8 +142,8 @@ impl PreparedPlane {
         self.bound + self.band
     }
 
-    /// Where a piece of a face lies against the plane, by the rules at the head of this file. `cut` has the
-    /// vertices of a piece that was cut, in order around it; it is `None` for the whole face.
+    /// The side of the plane on which a piece of a face lies, by the rules at the head of this file. `cut`
+    /// has the vertices of a piece that was cut, in order; it is `None` for the whole face.
     #[inline]
     pub fn classify(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
         if self.plane == PlaneId::face(face) {
@@ -151,7 +151,7 @@ impl PreparedPlane {
         }
         let (low, high) = match (cut, faces.corners(face)) {
             (Some(vertices), _) => self.extent(vertices.iter().map(|vertex| vertex.position)),
-            // Without a loop, as most faces have three or four corners.
+            // Without a loop, because most faces have three or four corners.
             (None, &[a, b, c]) => self.extent([a, b, c].into_iter()),
             (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
             (None, corners) => self.extent(corners.iter().copied()),
@@ -185,18 +185,18 @@ impl PreparedPlane {
         )
     }
 
-    /// The same, with every comparison certified.
+    /// Like [`classify`](Self::classify), with every comparison certified.
     #[cold]
     fn classify_exactly(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
         let corners = faces.corners(face);
         let corner = |k: usize, threshold| {
             compare(faces, self, face, VertexId::corner(k as u32), corners[k], threshold)
         };
-        // The third corner of a segment is no part of it.
+        // The third corner of a segment does not belong to it.
         let count = faces.reach(face);
         let band = self.band;
-        // First the whole face decides, so that all of its pieces are treated alike: pieces that are
-        // tested one by one would be coplanar here and spanning there.
+        // First the whole face decides, so that all of its pieces are treated alike: tested one by one,
+        // some would be coplanar and others spanning.
         let in_front = (0..count).any(|k| corner(k, band).is_gt());
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
         let of_face = Side::of(in_front, behind);
@@ -212,7 +212,7 @@ impl PreparedPlane {
         Side::of(in_front, behind)
     }
 
-    /// On which side of the plane a vertex of a face's piece lies, exactly.
+    /// The side of the plane on which a vertex of a face's piece lies, exactly.
     #[inline]
     pub fn side(&self, faces: &Faces, face: u32, vertex: &Vertex) -> Ordering {
         compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0)
@@ -254,8 +254,8 @@ fn floor(value: f64) -> f64 {
 ///   4 − x − 2|b − a| + 3b, with a and b at most 1 − x. That is at most 4 + 2x and 7 − 4x.
 ///
 /// Together they make 9 επm. A corner moved onto its face's plane has another error instead of the
-/// vertex's: half a step along one axis, which is 2ε of m. A tolerance of m/128 adds at most 1/32,
-/// and moves vertices out to 1.014 m. Smaller: wrong decisions pass. Larger: integers decide what
+/// vertex's: half a step along one axis, which is 2ε of m. A tolerance of m/128 adds at most 1/32, and
+/// moves vertices out to 1.014 m. Too small: wrong decisions pass. Too large: integers decide cases that
 /// floats could have decided.
 const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
@@ -265,8 +265,8 @@ const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 /// difference of two numbers this close is exact.
 const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// How a vertex's distance from a plane compares with a threshold: by the filter where it is
-/// certain, otherwise by integers.
+/// Compares a vertex's distance from a plane with a threshold: by the filter where it is certain, otherwise
+/// by integers.
 #[inline]
 pub(super) fn compare(
     faces: &Faces,
@@ -288,7 +288,7 @@ pub(super) fn compare(
     }
 }
 
-/// As [`compare`], by integers alone.
+/// Like [`compare`], by integers alone.
 #[cold]
 fn compare_exactly(
     faces: &Faces,
@@ -303,8 +303,8 @@ fn compare_exactly(
     let plane = faces.plane(prepared.plane);
     let threshold = Int::<3>::from_f64(threshold);
     let value = |x: &[f64; 3]| plane.at(x) - threshold;
-    // A vertex on an edge was made between the edge's ends. Where both are on one side of the
-    // plane, so is the vertex, and its weights need not be computed.
+    // A vertex on an edge was made between the edge's ends. If both are on one side of the plane, so is the
+    // vertex, and its weights are not needed.
     if let Some([a, b]) = faces.edge_ends(face, vertex) {
         // Not `map`, which calls a function for each end.
         match (value(&a).sign(), value(&b).sign()) {

@@ -1,5 +1,4 @@
-//! A viewpoint on the lattice, and on which side of a plane it lies; a ray in integers, and where it meets
-//! planes.
+//! A viewpoint on the lattice and its sides of planes; a ray in integers and its intersections with planes.
 
 use std::cmp::Ordering;
 
@@ -26,8 +25,7 @@ pub struct Eye {
 /// The largest magnitude of an eye's integers is two to this power: eyes this near need no shift.
 const NEAR_BITS: i32 = 61;
 const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
-/// The largest shift. For eyes further away the planes' offsets no longer matter: only the
-/// direction does.
+/// The largest shift. For eyes further away the planes' offsets no longer matter: only the direction does.
 const LARGEST_SHIFT: u32 = 360;
 
 /// The largest component of a direction is from two to this power to the next one.
@@ -45,7 +43,7 @@ impl Eye {
         }
     }
 
-    /// The eye at a point in lattice units, each coordinate a number and what its rounding has lost.
+    /// The eye at a point in lattice units, each coordinate a number and its rounding error.
     fn at(point: [[f64; 2]; 3]) -> Self {
         // Not less than the exact size, and beyond the same powers of two.
         let size = largest(point.map(|[c, lost]| {
@@ -69,7 +67,7 @@ impl Eye {
         };
         let size = largest(finite);
         let direction = if size > 0.0 { finite } else { [0.0, 0.0, 1.0] };
-        // By a power of two: a direction of short numbers stays along the planes that it is along.
+        // By a power of two: a direction of short numbers stays exactly along the same planes.
         let exponent = DIRECTION_BITS - exponent_of(largest(direction));
         let integer = direction.map(|c| scaled(c, exponent).round() as i64);
         let unit = (1i64 << DIRECTION_BITS) as f64;
@@ -95,14 +93,14 @@ impl Eye {
 }
 
 impl Faces {
-    /// On which side of a plane an eye lies.
+    /// The side of a plane on which an eye lies.
     pub fn eye_side(&self, plane: PlaneId, eye: &Eye) -> Ordering {
         self.plane(plane).at_eye(eye)
     }
 }
 
 impl Plane {
-    /// On which side of the plane an eye lies: `Greater` is in front.
+    /// The side of the plane on which an eye lies: `Greater` is in front.
     pub(crate) fn at_eye(&self, eye: &Eye) -> Ordering {
         let p = self.point();
         match eye.shift() {
@@ -123,8 +121,8 @@ impl Plane {
         }
     }
 
-    /// Which side of the plane an eye sees: `Greater` is the front, and `Equal` is neither. That is
-    /// the side on which the eye lies, but an eye at infinity along the plane sees it edge-on.
+    /// The side of the plane that an eye sees: `Greater` is the front, and `Equal` is neither. It is the
+    /// side on which the eye lies, but an eye at infinity along the plane sees it edge-on.
     pub(crate) fn facing(&self, eye: &Eye) -> Ordering {
         match eye.shift() {
             Some(_) => self.at_eye(eye),
@@ -133,7 +131,7 @@ impl Plane {
     }
 }
 
-/// The least power of two to divide a size by, so that it is [`NEAR`] at most; `None` if that is larger
+/// The least power of two by which to divide a size, so that it is [`NEAR`] at most; `None` if it is larger
 /// than [`LARGEST_SHIFT`].
 fn shift_of(size: f64) -> Option<u32> {
     if size <= NEAR {
@@ -149,10 +147,10 @@ fn largest(v: [f64; 3]) -> f64 {
     v.into_iter().fold(0.0, |max, c| max.max(c.abs()))
 }
 
-/// The integer nearest to a number and what its rounding has lost, ties away from zero.
+/// The integer nearest to a number and its rounding error, ties away from zero.
 fn nearest_integer(rounded: f64, lost: f64) -> i64 {
     let whole = rounded.trunc();
-    // Of a number that is not whole, less than the distance to the next number was lost.
+    // A number that is not whole has a rounding error of less than the distance to the next number.
     let (rest, lost) = two_sum(rounded - whole, lost);
     let nearest = match (rest - rest.trunc()).abs() == 0.5 {
         true if lost > 0.0 || lost == 0.0 && rounded > 0.0 => rest.ceil(),
@@ -165,7 +163,7 @@ fn nearest_integer(rounded: f64, lost: f64) -> i64 {
 /// A ray on the finest grid that its coordinates allow.
 ///
 /// Its points are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is that of
-/// [`Ray`]; the direction of an endless ray has a scale of its own.
+/// [`Ray`]; the direction of an endless ray has a separate scale.
 ///
 /// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so a
 /// plane at a point of the ray, and along its direction, takes 236 bits, and a product of two such 472.
@@ -183,7 +181,7 @@ pub(crate) struct ExactRay {
 const RAY_BITS: i32 = 123;
 
 impl ExactRay {
-    /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
+    /// A ray on a scene's lattice. `None` if it meets nothing: see [`Ray`].
     pub(crate) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
         match ray {
             Ray::Segment { from, to } => {
@@ -214,7 +212,7 @@ impl ExactRay {
         (self.origin, self.direction, self.bits)
     }
 
-    /// Whether a parameter is one of the ray: 0 or more, and of a segment 1 or less.
+    /// Whether a parameter belongs to the ray: 0 or more, and for a segment 1 or less.
     pub(crate) fn has(&self, t: &Parameter) -> bool {
         !t.numerator.is_negative()
             && (self.is_endless || !(t.denominator - t.numerator).is_negative())
@@ -241,8 +239,8 @@ impl ExactRay {
         AtRay { start: along(arm), slope: along(self.direction) }
     }
 
-    /// The point of a parameter in lattice units; each coordinate is the nearest `f64`, or its neighbour
-    /// where these are about as near.
+    /// The point of a parameter in lattice units; each coordinate is the nearest `f64`, or its neighbour if
+    /// both are about equally near.
     pub(crate) fn point(&self, t: &Parameter) -> [f64; 3] {
         std::array::from_fn(|i| {
             let start = t.denominator.times::<2, 6>(&Int::from(self.origin[i]));
@@ -251,13 +249,13 @@ impl ExactRay {
         })
     }
 
-    /// A parameter in the unit of [`Ray`], rounded as a coordinate of [`point`](Self::point) is.
+    /// A parameter in the unit of [`Ray`], rounded like a coordinate of [`point`](Self::point).
     pub(crate) fn parameter(&self, t: &Parameter) -> f64 {
         scaled(t.to_f64(), self.exponent)
     }
 
-    /// A parameter of an endless ray if its direction's largest coordinate had so many bits before the
-    /// point, in lattice units.
+    /// A parameter of an endless ray whose direction's largest coordinate has `bits` bits before the point,
+    /// in lattice units.
     pub(crate) fn rescaled(&self, t: &Parameter, bits: i32) -> f64 {
         let up = RAY_BITS - bits - self.bits as i32;
         scaled(t.to_f64(), if self.is_endless { up } else { 0 })
@@ -272,17 +270,17 @@ pub(crate) struct AtRay {
 }
 
 impl AtRay {
-    /// Which side of the plane the ray begins on.
+    /// The side of the plane on which the ray begins.
     pub(crate) fn start(&self) -> Ordering {
         self.start.sign()
     }
 
-    /// To which side of the plane the ray goes; `Equal` if it runs along it.
+    /// The side of the plane to which the ray runs; `Equal` if it runs along the plane.
     pub(crate) fn slope(&self) -> Ordering {
         self.slope.sign()
     }
 
-    /// Where the line of the ray meets the plane; it must not run along it.
+    /// The parameter where the line of the ray meets the plane; it must not run along it.
     pub(crate) fn zero(&self) -> Parameter {
         if self.slope.is_negative() {
             Parameter { numerator: self.start, denominator: -self.slope }
@@ -291,14 +289,14 @@ impl AtRay {
         }
     }
 
-    /// On which side of the plane a point of the ray is.
+    /// The side of the plane on which a point of the ray lies.
     pub(crate) fn side(&self, t: &Parameter) -> Ordering {
         let start = self.start.times::<4, 8>(&t.denominator);
         (start + self.slope.times::<4, 8>(&t.numerator)).sign()
     }
 }
 
-/// How far along a ray a point is: a fraction, with a denominator above 0.
+/// The parameter of a point of a ray: a fraction, with a denominator above 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Parameter {
     numerator: Int<4>,
@@ -313,7 +311,7 @@ impl Parameter {
         denominator: Int::from_limbs([1, 0, 0, 0]),
     };
 
-    /// How two parameters compare: exact.
+    /// Compares two parameters, exactly.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
         let left = self.numerator.times::<4, 8>(&other.denominator);
         (left - other.numerator.times::<4, 8>(&self.denominator)).sign()
@@ -325,7 +323,7 @@ impl Parameter {
 }
 
 /// A quotient, of at most 2¹³⁰ and a denominator above 0, rounded almost as if once: the quotient of the
-/// rounded numbers, and that of what it leaves. So fractions of one value have one result.
+/// rounded numbers, plus that of the remainder. So fractions of one value have one result.
 fn quotient(numerator: Int<6>, denominator: Int<4>) -> f64 {
     let below = denominator.to_f64();
     let first = numerator.to_f64() / below;
@@ -359,7 +357,7 @@ mod tests {
         }
     }
 
-    /// Whatever power of two they are multiplied by.
+    /// For every power of two as a factor.
     #[test]
     fn directions_of_short_numbers_are_kept() {
         for short in [[3i32, 2, 1], [-7, 5, 0], [0, 0, 11], [1023, -1, 640]] {
@@ -376,7 +374,7 @@ mod tests {
         }
     }
 
-    /// At and beside every power of two, and at random.
+    /// At and near every power of two, and at random.
     #[test]
     fn a_far_eye_is_halved_until_it_is_near() {
         let halved = |mut size: f64| {

@@ -20,10 +20,10 @@ use crate::memory::{collect, push, reserve};
 /// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
 /// polygon.
 ///
-/// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane
-/// becomes one face; any other becomes triangles. A corner that does not lie exactly on the plane
-/// of its face's reference triangle is *defined* to lie on it, moved along the axis in which the
-/// plane is least steep. Stored is the lattice point nearest to the moved corner.
+/// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane becomes
+/// one face; any other becomes triangles. A corner that does not lie exactly on the plane of its face's
+/// reference triangle is *defined* to lie on it, moved along the axis in which the plane is least steep.
+/// The lattice point nearest to the moved corner is stored.
 #[derive(Clone, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,
@@ -33,14 +33,14 @@ pub struct Faces {
     /// set if the edge to the next corner is not an edge of the polygon. The corners of all other
     /// faces are numbered 0, 1, 2, ….
     pub(crate) numbers: Vec<u32>,
-    /// Faces with explicit corner numbers, and where these begin in `numbers`.
+    /// Faces with explicit corner numbers, and the first of these in `numbers`.
     pub(crate) numbered: Vec<(u32, u32)>,
     pub(crate) faces: Vec<Face>,
-    /// The corners, counted over all faces, that were moved onto their face's plane, and where they
-    /// were. In ascending order.
+    /// The corners, counted over all faces, that were moved onto their face's plane, with their positions
+    /// before. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
-    /// For each face, the three corners that define its plane, where some are of other faces; empty if
-    /// each face's plane is that of its own reference triangle.
+    /// For each face, the three corners that define its plane, if some belong to other faces; empty if each
+    /// face's plane is that of its own reference triangle.
     pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
 }
@@ -56,11 +56,10 @@ impl fmt::Debug for Faces {
     }
 }
 
-/// How many of the last faces have no area: first segments, then points.
+/// The number of faces at the end that have no area: first segments, then points.
 ///
-/// A segment has three corners: its ends, and one that is on it with no line through both. The third
-/// is never drawn: it only says which plane through the segment is meant by the face's. A point has
-/// one corner, and no plane.
+/// A segment has three corners: its ends, and one that is not collinear with them. The third is never
+/// drawn: it selects one of the planes through the segment. A point has one corner, and no plane.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thin {
     pub(crate) segments: usize,
@@ -70,7 +69,7 @@ pub(crate) struct Thin {
 /// Marks a corner if the edge from it to the next is not an edge of the polygon.
 pub(crate) const INNER: u32 = 1 << 31;
 
-/// Where a face's corners begin, what it came from, and which of its corners span its plane.
+/// The first of a face's corners, its polygon, and the corners that span its plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face {
     pub(crate) start: u32,
@@ -109,12 +108,12 @@ impl Frame {
 }
 
 impl Faces {
-    /// How many faces there are.
+    /// The number of faces.
     pub fn len(&self) -> usize {
         self.faces.len()
     }
 
-    /// Whether there is no face.
+    /// Whether there are no faces.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
@@ -235,7 +234,7 @@ impl Faces {
         if start + corners.len() >= MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
-        // Both at first: corners without a face would be those of the face before.
+        // Both first: corners without a face would belong to the face before.
         reserve(&mut self.corners, corners.len())?;
         reserve(&mut self.faces, 1)?;
         self.corners.extend(corners);
@@ -249,7 +248,7 @@ impl Faces {
         self.reference_triangle(face).map(|corner| self.corner(corner))
     }
 
-    /// The numbers of the polygons that have no face; `polygons` is how many were prepared.
+    /// The numbers of the polygons that have no face, out of `polygons` prepared ones.
     #[doc(hidden)]
     pub fn dropped(&self, polygons: usize) -> impl Iterator<Item = usize> + Clone {
         let mut faces = (0..self.len() as u32).map(|face| self.polygon(face)).peekable();
@@ -260,7 +259,7 @@ impl Faces {
         })
     }
 
-    /// How many corners all faces have together.
+    /// The number of corners of all faces.
     #[doc(hidden)]
     pub fn corner_count(&self) -> usize {
         self.corners.len()
@@ -280,9 +279,9 @@ impl Faces {
         self.number(face, k) & !INNER
     }
 
-    /// The number of the polygon's edge that a face's edge `k` lies on: the number of the corner
-    /// where it begins. `None` for an edge made by triangulation. If a polygon touches itself or
-    /// runs along an edge twice, those edges may be `None` as well.
+    /// The number of the polygon's edge that contains a face's edge `k`: the number of the corner where it
+    /// begins. `None` for an edge made by triangulation. If a polygon touches itself or runs along an edge
+    /// twice, those edges may be `None` as well.
     #[doc(hidden)]
     pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
         let number = self.number(face, k);
@@ -306,13 +305,13 @@ impl Faces {
         self.thin = Thin::default();
     }
 
-    /// No faces, with the same lattice and tolerance.
+    /// An empty set of faces with the same lattice and tolerance.
     pub(crate) fn without_faces(&self) -> Self {
         let Self { lattice, tolerance, .. } = *self;
         Self { lattice, tolerance, ..Self::default() }
     }
 
-    /// A copy, or an error where there is no memory for it.
+    /// A copy, or an error if memory runs out.
     pub(crate) fn try_clone(&self) -> Result<Self, Error> {
         let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
         let Self { ref faces, ref moved, ref planes, thin, .. } = *self;
@@ -329,7 +328,7 @@ impl Faces {
         })
     }
 
-    /// Gives memory back that is not needed.
+    /// Frees unused capacity.
     pub(crate) fn shrink_to_fit(&mut self) {
         self.corners.shrink_to_fit();
         self.numbers.shrink_to_fit();
@@ -362,7 +361,7 @@ impl Faces {
         Ok(())
     }
 
-    /// Removes the faces from number `faces` on, and with them all that have no area.
+    /// Removes the faces from number `faces` on, and all faces without area.
     pub(crate) fn truncate(&mut self, faces: usize) {
         self.thin = Thin::default();
         self.planes.truncate(faces);
@@ -389,36 +388,36 @@ impl Faces {
     }
 }
 
-// A cell of a larger scene: a box between lattice planes, to which faces are cut. The box's two corners come
-// before the corners of all faces, and belong to none. So planes through them have names as those through
-// corners of faces.
+// A cell of a larger scene: a box between lattice planes, to which faces are cut. The box's two corners
+// come before the corners of all faces, and belong to none, so planes through them have names like planes
+// through corners of faces.
 
 /// A box by its lower and its upper corner, in lattice units.
 pub(crate) type CellBox = [[f64; 3]; 2];
 
-/// The coordinate, with either sign, of a side without a plane. Beyond all lattice points, and within
-/// what the predicates hold.
+/// The magnitude of the coordinate of a side without a plane. Beyond all lattice points, and within the
+/// limits of the predicates.
 const OPEN: f64 = LIMIT + MAX_TOLERANCE;
 /// A cell without planes: all of the lattice.
 pub(crate) const EVERYWHERE: CellBox = [[-OPEN; 3], [OPEN; 3]];
 
 impl Faces {
-    /// No faces so far: those to come are to be cut to a cell.
+    /// An empty set of faces that are to be cut to a cell.
     pub(crate) fn of_cell(lattice: Lattice, tolerance: f64, cell: CellBox) -> Self {
         Self { lattice, tolerance, corners: cell.to_vec(), ..Self::default() }
     }
 
-    /// The number of corners that belong to no face: they come first.
+    /// The number of corners that belong to no face; they come first.
     pub(crate) fn corners_of_cell(&self) -> usize {
         self.faces.first().map_or(self.corners.len(), |face| face.start as usize)
     }
 
-    /// The two corners of the cell; none if these faces are not of one.
+    /// The two corners of the cell; none without a cell.
     pub(crate) fn cell(&self) -> &[[f64; 3]] {
         &self.corners[..self.corners_of_cell()]
     }
 
-    /// The planes that bound the cell, and on which side of each it lies.
+    /// The planes that bound the cell, and its side of each.
     pub(crate) fn planes_of_cell(&self) -> impl Iterator<Item = (PlaneId, Side)> {
         self.cell().iter().zip([(0, Side::Front), (1, Side::Back)]).flat_map(
             |(corner, (k, side))| {
@@ -428,7 +427,7 @@ impl Faces {
         )
     }
 
-    /// Whether some corners can be those of a cell.
+    /// Whether these can be the corners of a cell.
     #[cfg(feature = "save")]
     pub(crate) fn is_cell(corners: &[[f64; 3]]) -> bool {
         let is_side = |c: f64, open: f64| c.abs() <= LIMIT || c == open;
@@ -440,7 +439,7 @@ impl Faces {
         }
     }
 
-    /// Removes all faces but those listed, in ascending order.
+    /// Removes all faces except those listed, in ascending order.
     pub(crate) fn keep(&mut self, kept: &[u32]) -> Result<(), Error> {
         let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
         let mut start = self.corners_of_cell();
@@ -471,16 +470,16 @@ impl Faces {
 
 #[cfg(feature = "layers")]
 impl Faces {
-    /// Puts the faces of some polygons into one plane: that of three of their corners, far apart. The
-    /// other corners are moved onto it, as those of one polygon are onto its own plane.
+    /// Puts the faces of some polygons into one plane: that of three of their corners, far apart. The other
+    /// corners are moved onto it, like the corners of one polygon onto its own plane.
     ///
-    /// Corners are rounded, so polygons of one plane have planes of their own. Extended to another
-    /// polygon, the plane of a small one is off by the rounding times the ratio of their sizes. Corners
-    /// that are far apart bound that ratio for all of the polygons.
+    /// Corners are rounded, so polygons meant for one plane have different planes. Extended to another
+    /// polygon, the plane of a small one is off by the rounding error times the ratio of their sizes.
+    /// Corners that are far apart bound that ratio for all of the polygons.
     ///
-    /// A face that is not convex as seen along the plane's main axis keeps its own plane: it is so thin
-    /// that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file, which
-    /// know frames of a face's own corners alone.
+    /// A face that is not convex in a projection along the plane's main axis keeps its own plane: it is so
+    /// thin that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file,
+    /// because these use only frames of a face's own corners.
     pub(crate) fn put_into_one_plane(&mut self, polygons: &[u32]) -> Result<(), Error> {
         let Some(triangle) = self.far_apart(polygons) else { return Ok(()) };
         if self.planes.is_empty() {
@@ -525,7 +524,7 @@ impl Faces {
         }
         let [_, second, third] = self.faces[face as usize].frame.triangle().map(|k| k as usize);
         self.faces[face as usize].frame = Frame::new(second, third, Some(axis));
-        // Both have their fronts on one side.
+        // Both have their fronts on the same side.
         let [a, b, c] = triangle;
         let [p, q, r] = own;
         let is_reversed = (cross(p, q, r)[axis] > 0) != (plane.normal()[axis] > 0);
@@ -539,8 +538,8 @@ impl Faces {
         first as u32..(first + faces.count()) as u32
     }
 
-    /// Three corners of some polygons that span a large triangle; `None` if the polygons have one face
-    /// at most, or all corners are on one line.
+    /// Three corners of some polygons that span a large triangle; `None` if the polygons have at most one
+    /// face, or all corners are collinear.
     fn far_apart(&self, polygons: &[u32]) -> Option<[u32; 3]> {
         let faces = || polygons.iter().flat_map(|&polygon| self.faces_of(polygon));
         let corners = || faces().flat_map(|face| self.corner_range(face));

@@ -1,9 +1,10 @@
-//! On which side of any plane the vertices of a fragment lie, and whether a fragment meets several half-spaces.
+//! The sides of any plane on which a fragment's vertices lie, and whether a fragment meets several
+//! half-spaces.
 //!
-//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so a half-space at a
-//! lattice point takes 182 bits. A vertex is a combination of lattice points with weights of up to 320
-//! bits, where it is one of the fragment's own (see `vertex`), and of up to 364, where the half-spaces
-//! themselves made it: then the sum takes 548 bits.
+//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so a half-space at a lattice point
+//! takes 182 bits. A vertex is a combination of lattice points with weights of up to 320 bits if it is a
+//! vertex of the fragment (see `vertex`), and of up to 364 if the half-spaces made it: then the sum takes
+//! 548 bits.
 
 use std::cmp::Ordering;
 
@@ -16,7 +17,7 @@ use super::plane::dot;
 use super::vertex::Weights;
 use super::{Faces, Int};
 
-/// The points on the front of a plane, and on the plane.
+/// The points in front of a plane, and on the plane.
 #[derive(Clone, Debug)]
 pub(crate) struct ExactHalfSpace {
     exact: HalfSpaceNumbers,
@@ -40,8 +41,8 @@ impl ExactHalfSpace {
         dot(self.exact.normal, point.map(|c| c as i64)) - self.exact.offset
     }
 
-    /// How far in front a point is that is off by up to some lengths along the axes: the least and the most,
-    /// in a unit of its own.
+    /// The distance in front of a point that is off by up to the given lengths along the axes: the least
+    /// and the greatest, in a unit of the half-space.
     pub(crate) fn range(&self, point: &[f64; 3], off: [f64; 3]) -> [f64; 2] {
         let (mut sum, mut size, mut slack) = (-self.offset, self.offset.abs(), 0.0);
         for axis in 0..3 {
@@ -49,15 +50,15 @@ impl ExactHalfSpace {
             size += (self.normal[axis] * point[axis]).abs();
             slack += self.normal[axis].abs() * off[axis];
         }
-        // Three products and sums, of numbers that are rounded once; twice that.
+        // Three products and sums of numbers that are rounded once; twice that.
         let error = slack * (1.0 + 1e-9) + size * (8.0 * f64::EPSILON);
         [sum - error, sum + error]
     }
 }
 
-/// Whether a fragment of a face, by its vertices and the lines from each to the next, has a point in
-/// all of some half-spaces: it is cut by one after the other (Sutherland and Hodgman 1974), and every
-/// vertex is named by what defines it. Exact.
+/// Whether a fragment of a face, given by its vertices and the lines from each to the next, has a point in
+/// all of some half-spaces. It is cut by one after the other (Sutherland and Hodgman 1974), and every
+/// vertex is named by its definition. Exact.
 pub(crate) fn meets(
     faces: &Faces,
     face: u32,
@@ -88,7 +89,7 @@ pub(crate) fn meets(
 /// A part of a fragment: its vertices, each with the number of the line to the next.
 type Part = SmallVec<[(Weights<6>, usize); 8]>;
 
-/// The part of an outline that is in front of a line or on it, which may be a point or an edge alone.
+/// The part of an outline that is in front of a line or on it; it may be only a point or an edge.
 fn clip(
     outline: Part,
     sides: &[Ordering],

@@ -12,8 +12,8 @@ pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
 
 /// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
 ///
-/// The predicates know in advance how many bits their results take (see the table in `vertex.rs`),
-/// so nothing here checks for overflow in release builds: each product names its own width.
+/// The predicates know in advance the number of bits of their results (see the table in `vertex.rs`), so
+/// nothing here checks for overflow in release builds: each product states its width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Int<const N: usize>([u64; N]);
 
@@ -32,7 +32,7 @@ impl<const N: usize> Int<N> {
         (self.0[N - 1] as i64) < 0
     }
 
-    /// How the value compares with zero.
+    /// The sign of the value.
     #[inline]
     pub(crate) fn sign(&self) -> Ordering {
         if self.is_negative() {
@@ -67,8 +67,8 @@ impl<const N: usize> Int<N> {
         let mut limbs = [0u64; R];
         for (i, &x) in a.iter().enumerate().take(R) {
             let mut carry = 0u128;
-            // At most (2⁶⁴ − 1)² + 2 (2⁶⁴ − 1) = 2¹²⁸ − 1: the sum cannot overflow. Limbs beyond
-            // `R` are not computed, as the caller knows that the product fits.
+            // At most (2⁶⁴ − 1)² + 2 (2⁶⁴ − 1) = 2¹²⁸ − 1: the sum cannot overflow. Limbs beyond `R` are
+            // not computed: the caller knows that the product fits.
             for (limb, &y) in limbs[i..].iter_mut().zip(&b) {
                 carry += u128::from(x) * u128::from(y) + u128::from(*limb);
                 *limb = carry as u64;

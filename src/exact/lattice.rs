@@ -1,5 +1,5 @@
-//! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and half-spaces
-//! of queries are rounded more finely.
+//! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and
+//! half-spaces of queries are rounded more finely.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -9,9 +9,9 @@ use super::Int;
 /// The largest magnitude of a lattice coordinate.
 pub const LIMIT: f64 = (1u64 << 51) as f64;
 
-/// This many steps from the world's origin, two neighbouring `f64` are further apart than the scene
-/// is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Larger: coordinates that no longer fit integers are treated as if
-/// they did; smaller: a scene far out loses coordinates that differ.
+/// At this many steps from the world's origin, two neighbouring `f64` are further apart than the scene is
+/// wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Too large: coordinates that no longer fit integers are treated as if they did.
+/// Too small: a scene far out loses coordinates that differ.
 pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
@@ -33,8 +33,8 @@ pub struct Lattice {
     pub(super) steps: PowerOfTwo,
     /// In steps; integers.
     pub(super) origin: [f64; 3],
-    /// Per axis: if the scene lies so far out along it, for its size, that all corners must have
-    /// the same coordinate, that coordinate; otherwise 0.
+    /// For each axis along which the scene lies so far out, for its size, that all corners must have the
+    /// same coordinate: that coordinate; otherwise 0.
     pub(super) far: [f64; 3],
 }
 
@@ -82,14 +82,14 @@ impl Lattice {
         })
     }
 
-    /// Any point in lattice units, exactly: each coordinate as a number and what its rounding has lost. Of one
-    /// that is infinite, or beyond the range of `f64`, nothing is lost; NaN counts as 0.
+    /// Any point in lattice units, exactly: each coordinate as a number and its rounding error. An infinite
+    /// coordinate, or one beyond the range of `f64`, has no error; NaN counts as 0.
     pub(super) fn exactly(&self, point: DVec3) -> [[f64; 2]; 3] {
         let steps = self.in_steps(point);
         std::array::from_fn(|axis| match steps[axis] {
             [whole, _] if whole.is_nan() => [0.0; 2],
             [whole, _] if whole.is_infinite() => [whole, 0.0],
-            // Where the scene is far out, the origin is 0; elsewhere nothing is lost so far.
+            // If the scene is far out, the origin is 0; otherwise there is no rounding error so far.
             [whole, lost] => two_sum(whole, lost - self.origin[axis]).into(),
         })
     }
@@ -104,8 +104,8 @@ impl Lattice {
         }))
     }
 
-    /// The world coordinates of a box in lattice units, rounded outwards: all of its points are
-    /// inside, and so are these as [`to_world`](Self::to_world) rounds them.
+    /// The world coordinates of a box in lattice units, rounded outwards: all of its points are inside,
+    /// also after rounding by [`to_world`](Self::to_world).
     pub(crate) fn enclose(&self, low: [f64; 3], high: [f64; 3]) -> [DVec3; 2] {
         let bound = |lattice: [f64; 3], outwards: fn(f64) -> f64, sign: f64| {
             DVec3::from_array(std::array::from_fn(|axis| {
@@ -138,7 +138,7 @@ impl Lattice {
     }
 }
 
-/// A sum and what its rounding has lost (Knuth 1969).
+/// A sum and its rounding error (Knuth 1969).
 pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
@@ -149,7 +149,7 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// an instruction for it.
 #[inline]
 pub(super) fn nearest(value: f64) -> f64 {
-    /// From here on, numbers are integers, and up to the double of it they are 1 apart.
+    /// From here on, numbers are integers, and up to twice this they are 1 apart.
     const WHOLE: f64 = (1u64 << 52) as f64;
     let shift = if value.abs() < WHOLE { WHOLE.copysign(value) } else { 0.0 };
     value + shift - shift
@@ -216,12 +216,12 @@ pub(crate) struct FinePoints<const N: usize> {
     pub(crate) bits: u32,
 }
 
-/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so that they
-/// take as many bits of an `i128`. A difference of two points, and of two such, takes three more.
+/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take as
+/// many bits of an `i128`. A difference of two points, and of two such, takes three more.
 const FINE_BITS: i32 = 123;
 
 impl Lattice {
-    /// Points in the finest unit in which they all are below 2¹²⁴, rounded to the nearest. `None` if a
+    /// Points in the finest unit in which all of them are below 2¹²⁴, rounded to the nearest. `None` if a
     /// coordinate is NaN, infinite, or 2¹²³ lattice steps or more.
     pub(crate) fn fine_points<const N: usize>(&self, points: [DVec3; N]) -> Option<FinePoints<N>> {
         let largest = self.largest_in_steps(&points)?;
@@ -237,8 +237,8 @@ impl Lattice {
         Some(FinePoints { points, bits })
     }
 
-    /// The largest of the coordinates that say how fine the grid of some points is: it has steps of at
-    /// most 2⁻¹²² of this. `None` where [`fine_points`](Self::fine_points) has none.
+    /// The largest of the coordinates that define the finest grid of some points: its steps are at most
+    /// 2⁻¹²² of this. `None` where [`fine_points`](Self::fine_points) returns `None`.
     pub(crate) fn largest_in_steps(&self, points: &[DVec3]) -> Option<f64> {
         let mut largest = self.origin.iter().fold(2.0 * LIMIT, |largest, c| largest.max(c.abs()));
         for [c, _] in points.iter().flat_map(|&point| self.in_steps(point)) {
@@ -255,8 +255,8 @@ impl Lattice {
         self.steps.factors.map(exponent_of).iter().sum()
     }
 
-    /// A point in lattice steps from the world's origin, or along an axis along which the scene is far
-    /// out, from the scene: each coordinate as a number and what its rounding has lost.
+    /// A point in lattice steps from the world's origin, or along an axis along which the scene is far out,
+    /// from the scene: each coordinate as a number and its rounding error.
     fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
@@ -281,9 +281,9 @@ pub(crate) struct HalfSpaceNumbers {
 
 /// The largest component of a normal is from 2¹¹⁶ to 2¹¹⁷.
 const NORMAL_BITS: i32 = 116;
-/// Offsets beyond two to this power are cut to it: normal·p is below 2¹⁷¹ at all points of a scene.
+/// Offsets beyond two to this power are clamped to it: normal·p is below 2¹⁷¹ at all points of a scene.
 const FAR_BITS: u32 = 180;
-/// Offsets beyond two to this power stay far beyond, whatever the lattice's origin takes off: it is below
+/// Offsets beyond two to this power stay far beyond when the lattice's origin is subtracted: it is below
 /// 2¹¹⁰, so its part is below 2²³⁰.
 const BEYOND: f64 = (1u128 << 120) as f64 * (1u128 << 120) as f64;
 
@@ -297,8 +297,8 @@ impl Lattice {
         let up = if size > 0.0 { -exponent_of(size) } else { 0 };
         let unit = normal.to_array().map(|c| scaled(c, up));
         let normal = unit.map(|c| scaled(c, NORMAL_BITS).round() as i128);
-        // The offset less the far coordinates' part: in a unit in which none of them is beyond 1, so that
-        // no product is beyond the range of `f64`, and none that matters below it.
+        // The offset minus the part of the far coordinates, in a unit in which none of them is beyond 1, so
+        // that no product is beyond the range of `f64`, and none that matters below it.
         let exponent = |value: f64, up| (value != 0.0).then(|| exponent_of(value.abs()) + up);
         let far = self.far.into_iter().map(|far| exponent(far, 0));
         let most = far.chain([exponent(offset, up)]).flatten().max().unwrap_or(0) + 1;
@@ -339,7 +339,7 @@ fn add(sum: &mut SmallVec<[f64; 7]>, mut value: f64) {
     sum.push(value);
 }
 
-/// An offset, cut to what all points of a scene are this side of.
+/// An offset, clamped to a bound that no point of a scene exceeds.
 fn cut(offset: Int<5>) -> Int<3> {
     let far = Int::<2>::from(1_i128).shifted::<5>(FAR_BITS);
     let within = if (offset - far).is_negative() { offset } else { far };

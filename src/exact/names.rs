@@ -41,7 +41,7 @@ impl PlaneId {
         Self((AXIS + axis as u32) << TAG_SHIFT | corner)
     }
 
-    /// Whether the plane is that of a face or perpendicular to an axis, and which.
+    /// The kind of the plane: that of a face, or perpendicular to an axis.
     #[inline]
     pub const fn kind(self) -> PlaneKind {
         let payload = self.0 & PAYLOAD;
@@ -74,13 +74,13 @@ impl EdgeLine {
         Self(plane.0 | if behind { BEHIND } else { 0 })
     }
 
-    /// The number of the face's edge, if it is one.
+    /// The number of the face's edge, or `None` for a cut.
     #[inline]
     pub const fn as_edge(self) -> Option<u32> {
         if self.0 >> TAG_SHIFT == EDGE { Some(self.0) } else { None }
     }
 
-    /// The plane that cut the face here, if one did.
+    /// The plane that cut the face here, or `None` for an edge.
     #[inline]
     pub const fn as_cut(self) -> Option<PlaneId> {
         if self.0 >> TAG_SHIFT == EDGE { None } else { Some(PlaneId(self.0 & !BEHIND)) }
@@ -103,9 +103,9 @@ impl fmt::Debug for EdgeLine {
     }
 }
 
-/// A vertex of a piece of a face: where two lines of that face meet.
+/// A vertex of a piece of a face: the intersection of two lines of that face.
 ///
-/// Only input points enter its definition, so it is as exact after a thousand cuts as after one.
+/// Its definition uses only input points, so it is as exact after a thousand cuts as after one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VertexId {
     a: EdgeLine,
@@ -117,9 +117,9 @@ pub struct VertexId {
 pub enum VertexKind {
     /// A corner of the face.
     Corner(u32),
-    /// Where a plane cuts an edge of the face.
+    /// The intersection of a plane and an edge of the face.
     OnEdge(u32, PlaneId),
-    /// Where two planes cut the face's plane.
+    /// The intersection of two planes and the face's plane.
     Inside(PlaneId, PlaneId),
 }
 
@@ -144,7 +144,7 @@ impl VertexId {
         self.a.as_cut() == Some(plane) || self.b.as_cut() == Some(plane)
     }
 
-    /// Which kind of vertex it is.
+    /// The kind of vertex.
     #[inline]
     pub const fn kind(self) -> VertexKind {
         match (self.a.as_edge(), self.b.as_cut()) {

@@ -1,4 +1,4 @@
-//! Planes of faces, in integers and rounded; and how corners are moved onto them.
+//! Planes of faces, in integers and rounded; moving corners onto them.
 
 use std::cmp::Ordering;
 
@@ -19,8 +19,8 @@ pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
     })
 }
 
-/// Components of a normal are divided into parts of so many bits. Products of these with differences
-/// of coordinates fit 128 bits, three of them added.
+/// Components of a normal are divided into parts of this many bits. Products of these with differences of
+/// coordinates fit 128 bits, three of them added.
 pub(super) const LOW_BITS: u32 = 56;
 pub(super) const LOW: i128 = (1 << LOW_BITS) - 1;
 
@@ -87,7 +87,7 @@ impl Plane {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
-    /// The same in 128 bits: right but for multiples of 2¹²⁸, whatever its parts are.
+    /// The same in 128 bits: right up to multiples of 2¹²⁸.
     #[inline]
     pub(super) fn last_bits_at(&self, x: &[f64; 3]) -> i128 {
         let terms = self.normal.iter().zip(x).zip(self.point);
@@ -96,13 +96,13 @@ impl Plane {
         })
     }
 
-    /// Whether the signed distance of a lattice point times the length of the normal is at most `most`
-    /// in magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal in `f64`.
+    /// Whether the signed distance of a lattice point times the length of the normal is at most `most` in
+    /// magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal in `f64`.
     #[cfg(feature = "save")]
     #[inline]
     pub(crate) fn is_within(&self, most: u128, rounded: &[f64; 3], x: &[f64; 3]) -> bool {
-        // The products are below 2¹⁵⁸, and all of their roundings together below 2¹¹⁰. So this tells what
-        // 128 bits cannot hold; what is left, they do.
+        // The products are below 2¹⁵⁸, and all of their rounding errors together below 2¹¹⁰. So this
+        // decides the cases that do not fit 128 bits.
         let terms = rounded.iter().zip(x).zip(self.point);
         let off: f64 = terms.map(|((n, x), through)| n * (x - through as f64)).sum();
         off.abs() < (1u128 << 120) as f64 && self.last_bits_at(x).unsigned_abs() <= most
@@ -150,10 +150,10 @@ pub(crate) fn relative_to(numerator: Ordering, denominator: Ordering) -> Orderin
     if denominator.is_lt() { numerator.reverse() } else { numerator }
 }
 
-/// A rounded normal is used if its `size` is at most this many times its longest component; of others,
-/// too many bits were cancelled, and integers compute them. Larger: normals are taken that
-/// are off by more than the bounds of those who use them allow, such as the 10⁻⁹ by which the coplanar
-/// tolerance may be off; smaller: more are computed in integers.
+/// A rounded normal is used if its `size` is at most this many times its longest component; otherwise too
+/// many bits were cancelled, and integers compute it. Too large: normals are used whose errors exceed the
+/// bounds that their users allow, such as 10⁻⁹ for the coplanar tolerance. Too small: more are computed in
+/// integers.
 const CANCELLED: f64 = (1u64 << 18) as f64;
 
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.
@@ -195,7 +195,7 @@ pub(super) fn largest<T: PartialOrd>([x, y, z]: [T; 3]) -> usize {
     if z > size { 2 } else { axis }
 }
 
-/// Whether three lattice points are not on one line: exact.
+/// Whether three lattice points are not collinear: exact.
 #[inline]
 pub(crate) fn have_area(corners: [[f64; 3]; 3]) -> bool {
     let RoundedNormal { normal, size } = RoundedNormal::through(corners);
@@ -222,7 +222,7 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
     for then in (2..n + 2).map(point) {
         let (a, b) = (step(here, next), step(next, then));
         (here, next) = (next, then);
-        // The projection puts two corners in a row on one point: no direction to turn from.
+        // The projection puts two consecutive corners on one point: no direction to turn from.
         if a == [0.0; 2] || b == [0.0; 2] {
             return false;
         }
@@ -235,7 +235,7 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
         }
         rises += u32::from(!ascending(a) && ascending(b));
     }
-    // It turns one way only. Each time round it changes once from descending to ascending.
+    // It turns only one way. Each time around it changes once from descending to ascending.
     rises == 1
 }
 
@@ -244,12 +244,12 @@ fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     [to[0] - from[0], to[1] - from[1]]
 }
 
-/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half
-/// a turn, and all four together are a whole number of turns.
+/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half a
+/// turn, and all four together are a whole number of turns.
 #[inline]
 pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
     let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
-    // No branches: for most faces they could not be foretold.
+    // No branches: for most faces they would be unpredictable.
     let (mut left, mut right) = (true, true);
     for k in 0..4 {
         let (a, b) = (steps[k], steps[(k + 1) % 4]);
@@ -261,7 +261,7 @@ pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
     left | right
 }
 
-/// Which way an outline turns from one step to the next; `None` if it turns back.
+/// The direction in which an outline turns from one step to the next; `None` if it turns back.
 #[inline]
 fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
     let (left, right) = (a[0] * b[1], a[1] * b[0]);
@@ -292,7 +292,7 @@ impl Faces {
     /// The length of the normal of a face's plane, within 2⁻³⁴ of it, from the rounded normal.
     #[inline]
     pub(super) fn normal_length(&self, face: u32, rounded: &RoundedNormal) -> f64 {
-        // Not by the longest component, which takes more time to find.
+        // Not by the longest component, which takes longer to find.
         let length = DVec3::from_array(rounded.normal).length();
         if rounded.size <= CANCELLED * length { length } else { self.exact_normal(face).length() }
     }
@@ -303,8 +303,8 @@ impl Faces {
     }
 }
 
-/// A plane at a lattice point certainly fits 128 bits if it is below this, rounded. Larger, up to half
-/// the range: values that do not fit are taken; smaller: more are computed in full.
+/// A plane's value at a lattice point certainly fits 128 bits if it is below this, rounded. Too large, up
+/// to half the range: values that do not fit are used. Too small: more are computed in full.
 const FITS: f64 = (1u128 << 124) as f64;
 
 /// Moves lattice points onto a plane, along the plane's dominant axis.
@@ -316,12 +316,12 @@ pub(crate) struct Flattener {
     normal: DVec3,
 }
 
-/// How far a point is off a plane.
+/// The distance of a point from a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Off {
     /// The distance in lattice units, rounded; 0 only if the point is exactly on the plane.
     pub(crate) distance: f64,
-    /// How many whole steps along the axis it is moved towards the plane.
+    /// The number of whole steps along the axis that move it towards the plane.
     pub(crate) steps: f64,
 }
 
@@ -334,20 +334,21 @@ impl Flattener {
         Self { plane, axis: plane.dominant_axis(), through, normal }
     }
 
-    /// How far a point is off.
+    /// The distance of a point.
     #[inline]
     pub(crate) fn off(&self, point: &[f64; 3]) -> Off {
         let Self { plane, axis, normal, .. } = self;
         let slope = plane.normal()[*axis];
         let last_bits = plane.last_bits_at(point);
-        // Most are so near the plane that 128 bits hold its value there. This is off by less than 2¹¹⁰.
+        // Most points are so near the plane that 128 bits hold its value there. This is off by less than
+        // 2¹¹⁰.
         let near = normal.dot(DVec3::from(*point) - self.through).abs();
         let value = if near < FITS { rounded(last_bits) } else { plane.at(point).to_f64() };
         if value == 0.0 {
             return Off { distance: 0.0, steps: 0.0 };
         }
-        // The plane is value / slope steps away. Both are rounded here, and the quotient, but within
-        // the largest tolerance it is below 2⁴⁵, so the nearest integer is this or the next.
+        // The plane is value / slope steps away. Both are rounded here, and the quotient, but within the
+        // largest tolerance it is below 2⁴⁵, so the nearest integer is this or the next.
         let mut steps = nearest(value / normal[*axis]);
         // Less than the slope, so no more bits are needed.
         let rest = last_bits.wrapping_sub(slope.wrapping_mul(i128::from(steps as i64)));
@@ -362,7 +363,7 @@ impl Flattener {
 mod tests {
     use super::Plane;
 
-    /// Of every size, and of both signs: components near 0 as well.
+    /// Of every size, and of both signs, including components near 0.
     #[test]
     fn rounded_normals_are_off_by_two_roundings_at_most() {
         let mut random = crate::random::SplitMix64::new(3);
@@ -381,7 +382,7 @@ mod tests {
         }
     }
 
-    /// Corners at every distance from their plane, 128 bits and more of it, against `at`.
+    /// Corners at every distance from their plane, within 128 bits and beyond, against `at`.
     #[cfg(feature = "save")]
     #[test]
     fn within_is_exact() {
@@ -443,8 +444,8 @@ mod normal_tests {
     use crate::exact::{Faces, PlaneId};
     use crate::random::SplitMix64;
 
-    /// Triangles of every thickness: the third corner is near a point of the line of the others, or
-    /// on it.
+    /// Triangles of every thickness: the third corner is near a point of the line through the others, or on
+    /// it.
     fn thin(random: &mut SplitMix64) -> [[f64; 3]; 3] {
         let p = (random.point(-1.0, 1.0) * (LIMIT / 4.0)).round();
         let arm = (random.point(-1.0, 1.0) * 2f64.powf(random.range(1.0, 48.0))).round();
@@ -478,7 +479,7 @@ mod normal_tests {
             if faces.is_empty() {
                 continue;
             }
-            // On a lattice of its own.
+            // On its own lattice.
             let exact = faces.plane(PlaneId::face(0)).normal_f64();
             let off = (faces.normal(0) - exact).abs().max_element();
             let most = exact.abs().max_element();
@@ -562,7 +563,7 @@ mod convex_outline_tests {
             assert!(one_way || !found, "{points:?}");
             told[usize::from(found)] += 1;
             let corners = points.map(|[x, y]| [x, y, 0.0]);
-            // Without area, a turn that is not one way can still be convex.
+            // A projection without area can be convex although it does not turn one way.
             if !turns.contains(&0) {
                 assert_eq!(is_convex(4, |k| corners[k], 2), one_way, "{points:?}");
             }
@@ -570,7 +571,7 @@ mod convex_outline_tests {
         assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
     }
 
-    /// Steps that all but run on in one line, or back, by integers of 128 bits.
+    /// Steps that almost continue in one line, or turn back, by integers of 128 bits.
     #[test]
     fn turns_are_exact() {
         let mut random = SplitMix64::new(4);

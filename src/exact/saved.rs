@@ -1,4 +1,4 @@
-//! Lattices, names of planes and faces in files, and what a file must not say of them.
+//! Writes and reads lattices, names of planes, and faces, and checks them after reading.
 
 use std::io::{self, Read, Write};
 use std::ops::Range;
@@ -22,7 +22,7 @@ impl Lattice {
         file.items(self.origin.into_iter().chain(self.far), |file, number| file.f64(number))
     }
 
-    /// Reads a lattice, which has to be checked.
+    /// Reads a lattice, which must be checked.
     pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, Error> {
         let exponent = file.u32("grid")? as i32;
         // Clamped, so that the step is a finite number. `check` refuses exponents outside of the range.
@@ -34,7 +34,7 @@ impl Lattice {
         Ok(Self { steps, origin, far })
     }
 
-    /// An error unless the lattice is one that some scene could have.
+    /// An error unless some scene could have the lattice.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let exponent = self.exponent();
         let is_possible = |axis: usize| {
@@ -50,7 +50,7 @@ impl Lattice {
     }
 }
 
-/// How many faces one thread checks at a time.
+/// The number of faces that one thread checks at a time.
 const FACES_A_THREAD: usize = 4096;
 
 impl Faces {
@@ -75,8 +75,8 @@ impl Faces {
         })
     }
 
-    /// Reads faces, which have to be [checked](Self::check), once the file's checksum is known to be
-    /// right. Before the corners of all faces come so many of their cell.
+    /// Reads faces, which must be [checked](Self::check) after the file's checksum. The corners of all
+    /// faces follow those of their cell, `of_cell` in number.
     pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, Error> {
         let point = |bytes: &[u8], at: usize| {
             let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);
@@ -116,12 +116,12 @@ impl Faces {
         Ok(read)
     }
 
-    /// An error unless all faces are what the exact predicates take them for: convex, with area, on
+    /// An error unless all faces fulfil the requirements of the exact predicates: convex, with area, on
     /// their planes, within the lattice. O(corners).
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
-            return Err(damaged("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or NaN"));
         }
         if !Self::is_cell(self.cell()) {
             return Err(damaged("cell", "is outside the grid"));
@@ -143,7 +143,7 @@ impl Faces {
     fn check_face(&self, face: usize) -> Result<(), Error> {
         let range = self.corner_range(face as u32);
         let corners = &self.corners[range.clone()];
-        // Before all else: what follows is computed in integers that hold these.
+        // First, because the integers of the later checks hold only these.
         let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > MAX_CORNER);
         if let Some(k) = corners.iter().position(is_outside) {
             return Err(invalid("corner", range.start + k, "is outside the grid"));
@@ -194,7 +194,7 @@ impl Faces {
     }
 }
 
-/// Whether corners are what a face with this frame may have.
+/// Whether a face with this frame may have these corners.
 fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str> {
     let [_, second, third] = frame.triangle().map(|k| k as usize);
     if !(3..=Frame::MAX_CORNERS).contains(&corners.len()) {

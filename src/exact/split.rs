@@ -1,4 +1,4 @@
-//! The vertices of a piece, how a plane cuts a piece in two, and how faces are cut to a cell.
+//! The vertices of a piece, cutting a piece by a plane, and cutting faces to a cell.
 
 use std::cmp::Ordering;
 
@@ -59,14 +59,14 @@ impl Vertex {
         Self { line, ..self }
     }
 
-    /// The vertex as a finished tree keeps it.
+    /// The vertex in the form of a finished tree.
     #[inline]
     pub fn stored(&self) -> StoredVertex {
         StoredVertex { vertex_id: self.vertex_id, line: self.line }
     }
 }
 
-/// A vertex by its definition alone. Its position is computed when it is used.
+/// A vertex by its definition alone. Its position is computed when used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredVertex {
     pub(super) vertex_id: VertexId,
@@ -98,7 +98,7 @@ impl StoredVertex {
 /// strictly on opposite sides. Both parts define it by the same line and plane, so they share it
 /// bit for bit. A convex piece gets at most two new vertices. O(n) for a piece of `n` vertices.
 ///
-/// A piece of two vertices is one of a segment, whose ends are on different sides.
+/// A piece of two vertices belongs to a segment, whose ends are on different sides.
 pub fn split(
     faces: &Faces,
     plane: &PreparedPlane,
@@ -121,8 +121,8 @@ pub fn split(
     for (i, vertex) in vertices.iter().enumerate() {
         let j = if i + 1 == vertices.len() { 0 } else { i + 1 };
         let (here, next) = (sides[i], sides[j]);
-        // At a vertex on the plane, the part that does not contain `next` leaves the piece's
-        // outline and follows the cut from here on.
+        // At a vertex on the plane, the part that does not contain `next` leaves the piece's outline and
+        // follows the cut from here on.
         let along = |side: Ordering| {
             let leaves = here.is_eq() && next == side.reverse();
             if leaves { vertex.with_line(cut(side)) } else { *vertex }
@@ -137,8 +137,8 @@ pub fn split(
             let crossing = vertex.cut(faces, face, plane);
             let (leaving, entering) =
                 (crossing.with_line(cut(here)), crossing.with_line(vertex.line()));
-            // The outline goes from one part to the other here. The part it leaves follows the cut
-            // next; the part it enters goes on along this edge.
+            // The outline goes from one part to the other here. The part it leaves follows the cut next;
+            // the part it enters continues along this edge.
             let forward = here.is_gt();
             front.push(if forward { leaving } else { entering });
             back.push(if forward { entering } else { leaving });
@@ -148,10 +148,10 @@ pub fn split(
 
 /// Cuts faces to their cell.
 ///
-/// Each plane of the cell decides as a partition plane of a tree does, by the rules of [`classify`](super::classify). What
-/// is coplanar with it belongs to the cell in front. So do the planes of all cells of a scene, which
-/// therefore have each point of each face in one cell; and both cells beside a plane name the vertices
-/// that it makes by the same points.
+/// Each plane of the cell decides like a partition plane of a tree, by the rules of
+/// [`classify`](super::classify). Parts that are coplanar with it belong to the cell in front. The same
+/// holds for all cells of a scene, so each point of each face is in one cell. Both cells beside a plane
+/// name the vertices that it makes by the same points.
 pub(crate) struct Clipper<'f> {
     faces: &'f Faces,
     planes: SmallVec<[(PreparedPlane, Side); 6]>,

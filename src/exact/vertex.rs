@@ -1,4 +1,4 @@
-//! Vertices of pieces: on which side of a plane each lies, decided in integers, and where it is, rounded.
+//! Vertices of pieces: their sides of planes, decided in integers, and their rounded positions.
 //!
 //! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
 //! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
@@ -10,10 +10,10 @@
 //! | edge `ab` cut by h | a, b | −h(b), h(a): 160 bits | h(a)·g(b) − h(b)·g(a): 320 bits |
 //! | h₁ and h₂ in the face's plane | its reference triangle | h₁ × h₂ over A, B, C: 320 bits | 482 bits |
 //!
-//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the
-//! axis `e` in which the plane is least steep. Its edges then lie in the planes through their two
-//! lattice points and along `e`, which stand for h above; its own weights over A, B, C are the
-//! areas of triangles seen along `e`.
+//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the axis `e` in
+//! which the plane is least steep. Its edges then lie in the planes through their two lattice points and
+//! along `e`, which stand for h above; its own weights over A, B, C are the areas of triangles seen along
+//! `e`.
 
 use std::cmp::Ordering;
 
@@ -31,7 +31,7 @@ use super::plane::{LOW, LOW_BITS, Plane, cross, largest, relative_to, rounded};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights<const W: usize> {
     points: [[f64; 3]; 3],
-    /// Those beyond the number of points are 0.
+    /// Weights beyond the number of points are 0.
     weights: [Int<W>; 3],
     len: usize,
 }
@@ -43,7 +43,8 @@ impl<const W: usize> Weights<W> {
         Self { points: [a, b, b], weights, len: 2 }
     }
 
-    /// The point where three planes meet: that of a triangle, and two that have these values at its corners.
+    /// The point where three planes meet: the plane of a triangle, and two with these values at its
+    /// corners.
     pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
         // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
         // their vector product.
@@ -54,7 +55,7 @@ impl<const W: usize> Weights<W> {
         Self { points, weights, len: 3 }
     }
 
-    /// The sign that a linear function has at the vertex, by its values at lattice points: exact.
+    /// The sign of a linear function at the vertex, from its values at lattice points: exact.
     pub(crate) fn sign(&self, value: impl Fn(&[f64; 3]) -> Int<3>) -> Ordering {
         // The value at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
         // of the quotient is needed, and the numerator and the denominator are exact.
@@ -88,7 +89,7 @@ impl Weights<5> {
         Fraction { numerator, denominator: self.total() }
     }
 
-    /// The place in lattice units, each coordinate within three roundings of the exact one.
+    /// The position in lattice units, each coordinate within three roundings of the exact one.
     pub(crate) fn position(&self) -> [f64; 3] {
         std::array::from_fn(|axis| {
             let Fraction { numerator, denominator } = self.along(axis);
@@ -113,7 +114,7 @@ impl Faces {
         }
     }
 
-    /// The ends of the edge that a vertex was cut into, if they lie on the face's plane as they are.
+    /// The ends of the edge that contains a vertex, if they lie exactly on the face's plane.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
         if self.moved_axis(face).is_some() {
@@ -159,8 +160,8 @@ impl Faces {
         }
     }
 
-    /// Where a plane cuts the segment between two lattice points; `None` unless they are strictly on
-    /// its two sides.
+    /// The point where a plane cuts the segment between two lattice points; `None` unless they are strictly
+    /// on its two sides.
     pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
         let plane = self.plane(plane);
         let values = ends.map(|end| plane.at(&end));
@@ -185,8 +186,8 @@ impl Faces {
             VertexKind::Corner(k) => smallvec![(k, 1.0)],
             VertexKind::OnEdge(k, _) if weights.len == 2 => weights.shares([k, (k + 1) % len]),
             VertexKind::OnEdge(k, _) => {
-                // The edge of a face that is planar only by definition: the exact weights are over
-                // the reference triangle, so take the rounded position's share of the edge.
+                // The edge of a face that is planar only by definition: the exact weights are over the
+                // reference triangle, so use the rounded position's share of the edge.
                 let edge = [k, (k + 1) % len];
                 let [a, b] = edge.map(|k| DVec3::from(self.corners(face)[k as usize]));
                 let arm = b - a;
@@ -215,7 +216,7 @@ impl Faces {
     }
 }
 
-/// A coordinate of a point, in lattice units. The denominator is not zero, and of either sign.
+/// A coordinate of a point, in lattice units. The denominator is not zero, and has either sign.
 ///
 /// Both are sums over the weights of [`Weights`].
 #[derive(Clone, Copy, Debug)]
@@ -230,7 +231,7 @@ impl Fraction {
         Self { numerator: Int::from(value as i64), denominator: Int::from(1_i64) }
     }
 
-    /// How two coordinates compare: exact.
+    /// Compares two coordinates, exactly.
     pub(crate) fn compare(&self, other: &Self) -> Ordering {
         let left = self.numerator.times::<5, 12>(&other.denominator);
         let right = other.numerator.times::<5, 12>(&self.denominator);
@@ -239,7 +240,7 @@ impl Fraction {
         relative_to((left - right).sign(), denominators)
     }
 
-    /// Which share of the way from one lattice coordinate to another has been gone here, rounded.
+    /// The rounded share of the way from one lattice coordinate to another.
     pub(crate) fn share(&self, from: f64, to: f64) -> f64 {
         let before = self.denominator.times::<1, 6>(&Int::from(from as i64));
         (self.numerator - before).to_f64() / (self.denominator.to_f64() * (to - from))
@@ -265,15 +266,15 @@ impl Faces {
 struct ExactEdge {
     /// The lattice points of its two corners.
     ends: [[f64; 3]; 2],
-    /// How they are moved onto the face's plane; `None` if both are on it.
+    /// The move of its ends onto the face's plane; `None` if both are on it.
     moved: Option<Moved>,
 }
 
-/// How the ends of an edge are moved: along an axis, by half a step at most.
+/// The move of an edge's ends: along an axis, by half a step at most.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     axis: usize,
-    /// The face's plane at the ends, and what it gains with a step along the axis.
+    /// The face's plane at the ends, and its increase with a step along the axis.
     offs: [i128; 2],
     slope: i128,
 }
@@ -317,8 +318,8 @@ impl Faces {
 }
 
 // Positions. The exact one is a quotient of integers of up to 380 bits, whose leading bits nearly always
-// suffice. So numbers are cut off to 124 bits as they arise, with a bound on what that loses. Where
-// the quotient could be off by more than `OFF`, because terms cancel, it is computed in full.
+// suffice. So numbers are truncated to 124 bits as they arise, with a bound on the loss. If the quotient
+// could be off by more than `OFF`, because terms cancel, it is computed in full.
 
 /// Bits that are kept of a number, the sign aside.
 const KEPT: u32 = 124;
@@ -327,22 +328,22 @@ const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
 /// 1 in numbers of which a half is below it.
 const UNIT: f64 = (1u64 << HALF) as f64;
-/// The sum of the weights must be 2⁷⁰ times the error of one. Smaller: positions are off by more;
-/// larger: more of them are computed in full.
+/// The sum of the weights must be 2⁷⁰ times the error of one. Too small: positions are off by more. Too
+/// large: more of them are computed in full.
 const MARGIN: u32 = 70;
-/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with
-/// a larger margin than that, no position could be computed from them.
+/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with a
+/// larger margin than that, no position could be computed from them.
 const EDGE_MARGIN: u32 = 60;
-/// What cutting off adds to the error of a position, at most, in lattice units: on an edge as long as
-/// the lattice is wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is
-/// less: 6 · 2⁻⁷⁰ of its size, as three weights are in the numerator and three in the denominator.)
+/// The largest error of a position from truncation, in lattice units: on an edge as long as the lattice is
+/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of its size,
+/// because three weights are in the numerator and three in the denominator.)
 pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {
     /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
-    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to
-    /// that axis defines the vertex. All pieces, of any face, that define the vertex by the same
-    /// points and planes get the same bits, whichever way their faces run.
+    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to that
+    /// axis defines the vertex. All pieces, of any face, that define the vertex by the same points and
+    /// planes get the same bits, in either orientation of their faces.
     pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
             VertexKind::Corner(k) => return self.corners(face)[k as usize],
@@ -366,7 +367,7 @@ impl Faces {
     }
 }
 
-/// Where a plane meets an edge; `None` if the leading bits do not tell.
+/// Where a plane meets an edge; `None` if the leading bits do not decide.
 fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     let ExactEdge { ends, moved } = edge;
     let ends = ends.map(integers);
@@ -405,7 +406,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     }))
 }
 
-/// Where two planes meet that of a triangle; `None` if the leading bits do not tell.
+/// Where two planes meet that of a triangle; `None` if the leading bits do not decide.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     let triangle = triangle.map(integers);
     let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));
@@ -443,8 +444,8 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     Some(position)
 }
 
-/// A plane at some lattice points, without the last bits, and how many were dropped. Each is rounded
-/// towards 0: so those of a plane and its reverse differ in sign alone. Below 2¹²⁴ in magnitude.
+/// A plane's values at some lattice points, without the last bits, and the number of bits dropped. Each is
+/// rounded towards 0, so those of a plane and its reverse differ only in sign. Below 2¹²⁴ in magnitude.
 #[inline]
 fn leading(plane: &Plane, points: [[i64; 3]; 3]) -> ([i128; 3], u32) {
     let parts = points.map(|point| at(plane, point));
@@ -494,7 +495,7 @@ fn at(plane: &Plane, point: [i64; 3]) -> HighLow<LOW_BITS> {
     HighLow { high: high + (low >> LOW_BITS), low: low & LOW }
 }
 
-/// How many bits the largest magnitude of some numbers has.
+/// The number of bits of the largest magnitude.
 #[inline]
 fn bits_of<const K: usize>(numbers: [i128; K]) -> u32 {
     let all = numbers.iter().fold(0, |all, number| all | number.unsigned_abs());
@@ -527,7 +528,7 @@ impl Product {
 #[inline]
 fn nearest(high: i128, low: u64) -> f64 {
     if high.unsigned_abs() >> HALF > 0 {
-        // The last bit set if any bit below is: then the conversion rounds once, as if it saw all.
+        // The last bit is set if any bit below is: then the conversion rounds once, as if it saw all bits.
         return (high | i128::from(low > 0)) as f64;
     }
     ((high << HALF | i128::from(low)) as f64) / (1u64 << HALF) as f64

@@ -1,5 +1,5 @@
-//! Preparation: from input polygons to convex planar faces on the lattice. It reads the polygons, chooses the
-//! lattice and the tolerance, and makes faces of them.
+//! Preparation: turns input polygons into convex planar faces on the lattice. It reads the polygons,
+//! chooses the lattice and the tolerance, and makes the faces.
 
 mod polygon;
 mod tolerance;
@@ -23,47 +23,47 @@ pub(crate) use tolerance::{Precision, empty_faces};
 /// Polygons that one thread prepares as one job. Too small: overhead per job; too large: threads wait
 /// for each other.
 const POLYGONS_A_THREAD: usize = 1024;
-/// Polygons that are prepared before the jobs' faces are put together and a cancel is noticed.
-/// Too small: threads wait for each other; too large: a cancel takes longer, and more memory is used.
+/// Polygons prepared between two polls for cancellation, after which the jobs' faces are put together. Too
+/// small: threads wait for each other. Too large: a cancel takes longer, and more memory is used.
 const POLYGONS_AT_ONCE: usize = 16 * POLYGONS_A_THREAD;
 
-/// How far the third corner of a segment is, if the segment's neighbours give none: a quarter of the
+/// The distance of a segment's third corner, if the segment's neighbours give none: a quarter of the
 /// lattice. Any distance gives the same plane.
 const ARM: f64 = LATTICE_LIMIT / 2.0;
 
-/// What became of the polygons of an input.
+/// A report on the preparation of an input's polygons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
-    /// Polygons without area, which become no face: those with fewer than three different corners,
-    /// or with all corners on one line. This is decided exactly, after the corners are rounded to
-    /// the lattice. Corners that are on one line as decimal numbers need not be on one as `f64`. In a
-    /// tree of a cell, polygons of which nothing is in the cell are counted too.
+    /// Polygons without area, which become no face: polygons with fewer than three different corners, or
+    /// with collinear corners. This is decided exactly, after the corners are rounded to the lattice.
+    /// Corners that are collinear as decimal numbers may not be so as `f64`. In the tree of a cell,
+    /// polygons outside the cell count too.
     pub dropped: usize,
     /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
-    /// Of the triangulated polygons, those that cross themselves, or whose winding number is not
-    /// the same in all of what they enclose, seen along the main axis of their vector area; decided
-    /// exactly. If the polygon's edges meet at corners only, the triangles cover everything that it
-    /// winds around. Otherwise each two edges that cross are first replaced by two edges between
-    /// the same four ends that do not cross: of the two ways to do so, the one that changes less
-    /// area. Then the triangles cover the inside by the even-odd rule. If that takes too long,
-    /// or nothing is left, the triangles fan out from the first corner.
+    /// The triangulated polygons that cross themselves, or whose winding number is not the same everywhere
+    /// inside, in a projection along the main axis of their vector area; decided exactly. If the polygon's
+    /// edges meet only at corners, the triangles cover every point with a winding number other than 0.
+    /// Otherwise each two edges that cross are first replaced by two edges between the same four ends that
+    /// do not cross: of the two ways to do so, the one that changes less area. Then the triangles cover the
+    /// inside by the even-odd rule. If that takes too long, or nothing is left, the triangles fan out from
+    /// the first corner.
     pub crossing: usize,
-    /// Polygons with a corner off the plane of the others, but within the tolerance: they are kept
-    /// whole, and those corners count as on the plane.
+    /// Polygons with a corner off the plane of the others, but within the tolerance: they stay whole, and
+    /// those corners count as on the plane.
     pub flattened: usize,
-    /// How far such a corner is off at most, a length.
+    /// The largest distance of such a corner from the plane, a length.
     pub flattened_by: f64,
-    /// Of the triangulated polygons, those that are convex, with a corner off the plane of the
-    /// others by more than the tolerance, but by no more than 10⁻⁵ of the width of the grid (which is
-    /// one to two extents) or the polygon's own [`precision`](crate::Polygon::precision) (or 1/256 of the
-    /// width, if that is less): bent by a rounding, as it seems. With a tolerance of `bent_by` they would
-    /// be whole.
+    /// The triangulated polygons that are probably planar, but bent by rounding. They are convex, and a
+    /// corner is off the plane of the others by more than the tolerance, but by no more than the larger of
+    /// 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
+    /// [`precision`](crate::Polygon::precision), and by no more than 1/256 of the width. With a tolerance
+    /// of `bent_by` they would be whole.
     pub bent: usize,
-    /// How far such a corner is off at most, a length.
+    /// The largest distance of such a corner from the plane, a length.
     pub bent_by: f64,
 }
 
@@ -90,9 +90,9 @@ impl Preparation {
 }
 
 impl Faces {
-    /// Prepares polygons: turns them into convex planar faces.
+    /// Prepares polygons: converts them to convex planar faces.
     ///
-    /// Instead of a [`Tolerance`], a length may be given, or `None` for the default.
+    /// `tolerance` is a [`Tolerance`], a length, or `None` for the default.
     ///
     /// # Errors
     ///
@@ -116,21 +116,21 @@ impl Faces {
     }
 }
 
-/// Prepares polygons, and keeps its lists for the next time.
+/// Prepares polygons, and keeps its lists for reuse.
 #[derive(Debug, Default)]
 pub(crate) struct Preparer {
     input: InputPolygons,
     corners: Corners,
-    /// A box that the lattice holds besides the polygons.
+    /// A box that the lattice contains besides the polygons.
     room: Option<[DVec3; 2]>,
     /// Whether all polygons are flat by definition.
     pub(crate) are_flat: bool,
 }
 
 impl Preparer {
-    /// Replaces faces by those of some polygons, as [`Faces::new`] does, with a limit on the number of
-    /// polygons. Progress is reported to `watch`, which can cancel. After an error, some of the faces may
-    /// be there.
+    /// Replaces faces by those of other polygons, as [`Faces::new`] does, with a limit on the number of
+    /// polygons. Reports progress to `watch`, which can cancel. After an error, some of the faces may be
+    /// present.
     pub(crate) fn prepare<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -143,21 +143,21 @@ impl Preparer {
         tolerance.check()?;
         self.input.read(polygons, limit, watch)?;
         let [min, max] = self.input.bounds(self.room);
-        // The room does not say how precise the polygons are.
+        // The added box says nothing about the precision of the polygons.
         let own = if self.room.is_some() { self.input.bounds(None) } else { [min, max] };
         let precision = Precision::new(self.input.precision, own);
         let lattice = Lattice::new(min, max);
         let mut params = SnapParams::new(lattice, [min, max], tolerance, precision);
         if self.are_flat {
-            // Any distance from the plane is rounding.
+            // Any distance from the plane is a rounding error.
             params.bend = MAX_TOLERANCE;
         }
         (faces.lattice, faces.tolerance) = (params.lattice, params.tolerance);
         self.add_all(faces, &params, watch)
     }
 
-    /// Adds the faces of all polygons: few on this thread, more in parts, which are put together in input
-    /// order.
+    /// Adds the faces of all polygons: few on this thread, many as parallel jobs, whose results are put
+    /// together in input order.
     fn add_all(
         &mut self,
         faces: &mut Faces,
@@ -196,7 +196,7 @@ impl Preparer {
         Ok(report.in_world(&params.lattice))
     }
 
-    /// Makes later lattices hold a box, given by its lower and upper corner, besides the polygons.
+    /// Makes later lattices contain a box, given by its lower and upper corner, besides the polygons.
     ///
     /// # Errors
     ///
@@ -230,9 +230,9 @@ impl Preparer {
         report
     }
 
-    /// Appends the segments of lines, on the lattice of the faces, and lists their numbers in their
-    /// lines. Segments whose ends are rounded to one lattice point are left out. There may be no points
-    /// yet. After an error, some segments may have been appended.
+    /// Appends the segments of lines, on the lattice of the faces, and lists their numbers in their lines.
+    /// Segments whose ends are rounded to one lattice point are left out. No points may have been appended
+    /// before. After an error, some segments may have been appended.
     pub(crate) fn append_lines<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -292,8 +292,8 @@ impl Preparer {
     }
 }
 
-/// The corner behind a segment's end, and the one ahead of its beginning. Where a line is closed, they
-/// are those on the other side of the closing corner.
+/// The corner before a segment's start, and the corner after its end. In a closed line these may lie on the
+/// other side of the closing corner.
 fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
     let segments = corners.len() - 1;
     let is_closed = corners[0].0 == corners[segments].0;
@@ -308,13 +308,13 @@ fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
     [after, before].map(|corner| corner.map(|corner| corners[corner].0))
 }
 
-/// A lattice point that is not on the line through two others.
+/// A lattice point that is not collinear with two others.
 ///
-/// If a neighbour is such a point, it is taken: all segments of a planar polyline then have its plane, and
+/// A neighbour is used if it is such a point: then all segments of a planar polyline have its plane, and
 /// none of them cuts another.
 fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
-    // Without a neighbour, the plane is upright. Upright planes cut each other as lines do, which makes
-    // fewer pieces than planes in all directions.
+    // Without a neighbour, the plane is vertical. Vertical planes cut each other like lines in the plane,
+    // which makes fewer pieces than planes in all directions.
     let along = |axis: usize| {
         let mut third = p;
         third[axis] -= if p[axis] < 0.0 { -ARM } else { ARM };
@@ -326,26 +326,26 @@ fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]
 
 const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "so that it is noticed");
 
-/// The most polygons for which memory is reserved on the word of an iterator's size hint. Too large:
-/// a wrong hint wastes memory; too small: polygons are copied more often as lists grow.
+/// The largest number of polygons for which memory is reserved because of an iterator's size hint. Too
+/// large: a wrong hint wastes memory. Too small: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
 
-/// An iterator's hint that it has too many polygons is believed after this many polygons. Too small: a
-/// hint that is wrong is an error more often; too large: an iterator without end is noticed later.
+/// After this many polygons, a size hint that is above the limit is an error. Too small: wrong hints are
+/// errors more often. Too large: an endless iterator is noticed later.
 const DOUBTED: usize = 1 << 20;
 
 /// A polygon with at most this many corners by its size hint is read at once. Too large: memory is reserved
-/// on the word of a wrong hint.
+/// because of a wrong hint.
 const AT_HAND: usize = 64;
 
-/// All corners, and where those of each polygon end.
+/// All corners, and the end of each polygon's corners.
 #[derive(Debug, Default)]
 struct InputPolygons {
     points: Vec<DVec3>,
     ends: Vec<u32>,
-    /// The largest of the polygons' [`precision`](Polygon::precision): how far corners may be off.
+    /// The largest [`precision`](Polygon::precision) of the polygons.
     precision: f64,
-    /// That of each polygon.
+    /// The precision of each polygon.
     precisions: Vec<f64>,
 }
 
@@ -370,8 +370,7 @@ impl InputPolygons {
         self.precisions[polygon]
     }
 
-    /// The corners of the bounding box of the polygons and the corners of a box, if one is given;
-    /// zero if there is nothing.
+    /// The bounding box of the polygons and, if given, of a box; zero if there is nothing.
     fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
         let first = self.points.first().copied().or(room.map(|[corner, _]| corner));
         let start = [first.unwrap_or_default(); 2];
@@ -460,14 +459,14 @@ impl InputPolygons {
             push(&mut self.points, point)?;
         }
         self.check_count()?;
-        // Of NaN and the other, `max` returns the other.
+        // `max` ignores NaN.
         let precision = polygon.precision().max(0.0);
         push(&mut self.precisions, precision)?;
         self.precision = self.precision.max(precision);
         push(&mut self.ends, self.points.len() as u32)
     }
 
-    /// An error if there are more corners than can be named.
+    /// An error if there are more corners than `u32` numbers.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());

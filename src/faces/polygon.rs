@@ -1,5 +1,5 @@
-//! Decides whether a polygon becomes one face, triangles or nothing. Every decision is exact, on the lattice,
-//! except the comparison of distances with the tolerance. And which polygons are the same.
+//! Decides exactly, on the lattice, whether a polygon becomes one face, triangles or nothing; only the
+//! comparison of distances with the tolerance is rounded. Also finds equal polygons.
 
 use std::cmp::Ordering;
 use std::collections::HashSet;
@@ -26,7 +26,7 @@ pub(super) struct FaceBuilder<'a> {
     pub(super) corners: &'a mut Corners,
     pub(super) params: &'a SnapParams,
     pub(super) watch: &'a Watch<'a>,
-    /// Lengths in it are in lattice units.
+    /// Its lengths are in lattice units.
     pub(super) report: Preparation,
 }
 
@@ -104,14 +104,14 @@ impl FaceBuilder<'_> {
         Ok(())
     }
 
-    /// Reports a polygon that became one face, with a corner so far off its plane.
+    /// Reports a polygon that became one face, with a corner at this distance from its plane.
     fn report_flat(&mut self, off: f64) {
         self.report.flattened += usize::from(off > 0.0);
         self.report.flattened_by = self.report.flattened_by.max(off);
     }
 
-    /// Adds four corners as one face, the one that [`add`](Self::add) would make, in less time. Returns
-    /// whether it has: only if floats are certain that the corners are convex, and one face is allowed.
+    /// Adds four corners as one face, the same as [`add`](Self::add) but faster. Returns false, and adds
+    /// nothing, if floats cannot prove that the corners are convex, or one face is not allowed.
     fn add_quad(&mut self, polygon: usize, mut corners: [[f64; 3]; 4]) -> Result<bool, Error> {
         let Some([far, best]) = widest(4, |k| corners[k].into()) else { return Ok(false) };
         let (second, third) = (far.min(best), far.max(best));
@@ -167,7 +167,7 @@ impl FaceBuilder<'_> {
     ) -> Result<(), Error> {
         let corners = kept.clone().map(|k| self.corners.kept[k].0);
         self.faces.push(polygon, corners, frame)?;
-        // Most polygons become one face with the same corners, which needs no numbers.
+        // Most polygons become one face with the same corners, which needs no corner numbers.
         if kept.len() < self.corners.given {
             self.number_last(kept)?;
         }
@@ -195,8 +195,8 @@ impl FaceBuilder<'_> {
 /// A corner on the lattice, and its number.
 pub(super) type Corner = ([f64; 3], u32);
 
-/// Replaces `kept` by the corners of an outline or a polyline. Of equal corners in a row, only the last is
-/// kept: its edge leads to the next corner.
+/// Replaces `kept` by the corners of an outline or a polyline. Of equal consecutive corners only the last
+/// is kept: its edge leads to the next corner.
 pub(super) fn keep_distinct(points: &[DVec3], lattice: &Lattice, kept: &mut Vec<Corner>) {
     kept.clear();
     for (number, &point) in (0..).zip(points) {
@@ -211,12 +211,12 @@ pub(super) fn keep_distinct(points: &[DVec3], lattice: &Lattice, kept: &mut Vec<
 /// The corners of a polygon on the lattice.
 #[derive(Debug, Default)]
 pub(super) struct Corners {
-    /// The corners, each with its number. Of equal corners in a row one is kept.
+    /// The corners, each with its number. Of equal consecutive corners one is kept.
     kept: Vec<Corner>,
     /// The number of corners in the input.
     given: usize,
-    /// For each kept corner, how many corners the straight run of the outline that begins there
-    /// passes or ends at; at least 1. Empty if the polygon is not triangulated.
+    /// For each kept corner, the number of corners that the straight run of the outline from there passes
+    /// or ends at; at least 1. Empty if the polygon is not triangulated.
     runs: Vec<u32>,
 }
 
@@ -231,7 +231,7 @@ impl Corners {
         }
     }
 
-    /// Two corners that span a large triangle with corner 0; `None` if all corners lie on one line.
+    /// Two corners that span a large triangle with corner 0; `None` if all corners are collinear.
     fn widest_triangle(&self) -> Option<[usize; 2]> {
         let [far, best] = widest(self.kept.len(), |k| self.kept[k].0.into())?;
         let exact = |third: usize| {
@@ -257,11 +257,11 @@ impl Corners {
         let n = self.kept.len();
         self.runs.clear();
         self.runs.resize(n, 1);
-        // Twice round, backwards: the run of the last corner depends on that of the first.
+        // Twice around, backwards: the run of the last corner depends on that of the first.
         for k in (0..2 * n).rev() {
             let [a, b, c] = [k, k + 1, k + 2].map(|k| self.kept[k % n].0);
             let is_straight = cross(a, b, c) == [0; 3];
-            // This ends, because a polygon with area has corners that are not on one line.
+            // This ends, because a polygon with area has corners that are not collinear.
             self.runs[k % n] = if is_straight { self.runs[(k + 1) % n] + 1 } else { 1 };
         }
     }
@@ -285,10 +285,10 @@ fn widest(n: usize, point: impl Fn(usize) -> DVec3) -> Option<[usize; 2]> {
 }
 
 impl Faces {
-    /// How many polygons have the corners of an earlier one, in the same cyclic order or its reverse.
-    /// Exact; takes O(n log n) time and O(n) memory for n corners.
+    /// The number of polygons that have the corners of an earlier one, in the same cyclic order or its
+    /// reverse. Exact; takes O(n log n) time and O(n) memory for n corners.
     ///
-    /// A polygon's corners are those of its faces, before any was moved. Corners that no face has are
+    /// A polygon's corners are taken from its faces, before any was moved. Corners that no face has are
     /// unknown.
     #[doc(hidden)]
     pub fn duplicates(&self) -> usize {
@@ -302,7 +302,7 @@ impl Faces {
         is_known.filter(|&is_known| is_known).count()
     }
 
-    /// The corners of a polygon as they were given, by its faces.
+    /// The given corners of a polygon, taken from its faces.
     fn outline(&self, faces: Range<u32>) -> Outline {
         let mut corners = Vec::new();
         for face in faces {
@@ -319,8 +319,7 @@ impl Faces {
 /// The lattice points of a polygon's corners.
 type Outline = Vec<[i64; 3]>;
 
-/// The canonical form of an outline: the same list wherever the outline starts and in whichever
-/// direction it runs.
+/// The canonical form of an outline: the same list for every start and either direction.
 fn canonical(corners: Outline) -> Outline {
     let reverse: Outline = corners.iter().rev().copied().collect();
     let least = |mut corners: Outline| {

@@ -1,5 +1,5 @@
-//! Chooses the coplanar tolerance of a scene: the one that the user sets, or a default from the extent and the
-//! precision of the input.
+//! Chooses the coplanar tolerance of a scene: the user's, or a default from the extent and the precision of
+//! the input.
 
 use glam::DVec3;
 
@@ -11,23 +11,23 @@ use crate::input::STEPS;
 /// The least default tolerance as a share of the scene's extent, the longest side of its bounding
 /// box; see [`Tolerance::Default`].
 ///
-/// Too large: thin layers that are meant to be apart count as coplanar. Too small: faces that are
-/// coplanar except for the rounding of a computation in `f64` cut each other into slivers.
+/// Too large: thin layers that are meant to be apart count as coplanar. Too small: faces that are coplanar
+/// except for the rounding of a computation in `f64` cut each other into slivers.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
-/// The largest default tolerance as a share of the extent, unless it is the [`Precision`] of a type of
-/// numbers. Too large: coordinates written so coarsely would merge what they still tell apart; too small:
+/// The largest default tolerance as a share of the extent, except for the rounding of a number type (see
+/// [`Precision`]). Too large: coarsely written coordinates are merged although they differ. Too small:
 /// polygons bent by such a rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
-/// The coplanar tolerance: how far polygons may reach from a plane and yet count as lying on it.
+/// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on it.
 ///
-/// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an
-/// error. One that is too large, infinity included, is reduced to a fixed share of the extent
-/// between 1/256 and 1/128. [`BspTree`](crate::BspTree#which-tolerance) says which to take.
+/// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. A
+/// tolerance that is too large, infinity included, is reduced to a fixed share of the extent between 1/256
+/// and 1/128. [`BspTree`](crate::BspTree#which-tolerance) helps to choose one.
 ///
-/// The extent is the longest side of the bounding box of all corners. One stray vertex makes it
-/// larger; where that can happen, give a length.
+/// The extent is the longest side of the bounding box of all corners. One stray vertex makes it larger; if
+/// that can happen, give a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Tolerance {
@@ -40,10 +40,10 @@ pub enum Tolerance {
     /// | `f32` | four steps of the largest coordinate: between 2·10⁻⁷ and 5·10⁻⁷ of the extent |
     /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need, zeros at the end aside; at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
-    /// Far from the origin `f32` and `f64` have coarser steps: there it is four steps of the largest
-    /// coordinate, however large a share of the extent they are. For `f64` that is more than 10⁻⁹ beyond a
-    /// million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as
-    /// `f32` if nearly all of their numbers are `f32`, written with more digits than these have.)
+    /// Far from the origin `f32` and `f64` have coarser steps. There the default is four steps of the
+    /// largest coordinate, however large a share of the extent they are. For `f64` this is more than 10⁻⁹
+    /// beyond a million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated
+    /// as `f32` if nearly all of their numbers are `f32`, written with more digits than these have.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -70,10 +70,10 @@ impl Tolerance {
     }
 }
 
-/// How precise polygons are.
+/// The precision of polygons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Precision {
-    /// How far a corner may be off the plane that it was meant to be on, in the world.
+    /// The largest distance of a corner from its intended plane, in world units.
     length: f64,
     /// Whether `length` is the rounding of the number type. Such numbers cannot express anything finer, so
     /// the default tolerance has no upper limit. Other polygons only state a precision, and it is limited.
@@ -81,7 +81,7 @@ pub(crate) struct Precision {
 }
 
 impl Precision {
-    /// Of polygons with this largest [`precision`](crate::Polygon::precision), in a box.
+    /// The precision of polygons with this largest [`precision`](crate::Polygon::precision), in a box.
     pub(crate) fn new(length: f64, [min, max]: [DVec3; 2]) -> Self {
         let largest = min.abs().max(max.abs()).max_element();
         let [single, double] =
@@ -96,8 +96,8 @@ pub(super) struct SnapParams {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// How far a corner of a convex polygon that becomes one face may be off the plane of others, in
-    /// lattice units.
+    /// The largest distance of a convex polygon's corner from the plane of the others at which the polygon
+    /// still becomes one face, in lattice units.
     pub(super) bend: f64,
 }
 
@@ -140,7 +140,7 @@ impl SnapParams {
     }
 }
 
-/// No faces, on the grid and with the tolerance of polygons in a box.
+/// An empty set of faces on the grid and with the tolerance of polygons in a box.
 ///
 /// # Errors
 ///

@@ -1,18 +1,19 @@
-//! From a layer to its polygon on the screen.
+//! Clips a layer to its polygon on the screen.
 
 use glam::{DVec2, DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::piece::{ClippedCorner, Layer, LayerVertex};
 
-/// A layer counts as seen along its edge if its area on the screen is less than so many roundings of
-/// its matrix. Smaller: cards turned by a rounded right angle cut others; larger: thin cards vanish.
+/// A layer counts as seen edge-on if its area on the screen is less than this many rounding errors of its
+/// matrix. Too small: cards turned by a rounded right angle cut others. Too large: thin cards vanish.
 const EDGE_ON: f64 = 8.0;
-/// How many roundings of a matrix a corner may be off its plane; see `Polygon::precision`.
-/// Smaller: cards that matrices put into one plane cut each other; larger: thin layers are merged.
+/// The number of rounding errors of a matrix by which a corner may be off its plane; see
+/// `Polygon::precision`. Too small: cards that matrices put into one plane cut each other. Too large: thin
+/// layers are merged.
 const STEPS: f64 = 4.0;
 
-/// A point of the layer's plane on the way through the clipper.
+/// A point of the layer's plane in the clipper.
 #[derive(Clone, Copy)]
 struct Point {
     local: DVec2,
@@ -24,15 +25,17 @@ pub(super) const MOST_CORNERS: usize = 10;
 
 type Points = SmallVec<[Point; MOST_CORNERS]>;
 
-/// Appends the corners of a layer's part in a box of the screen, and returns how far rounding may
-/// have moved them off their plane. `None`, and nothing appended, if nothing of it is seen.
+/// Appends the corners of a layer's part in a box of the screen, and returns the largest distance by which
+/// rounding may have moved them off their plane. Returns `None`, and appends nothing, if no part is
+/// visible.
 ///
-/// Rounding may put a corner outside of the box by a little. It is moved onto the sides that lie in
-/// `viewport`, but not onto those that are a million sizes of the viewport away: there the last bit of its
-/// place in the layer is a tenth of a pixel on the screen, so it would leave its plane by as much.
+/// Rounding may put a corner slightly outside the box. The corner is moved onto the sides that lie in
+/// `viewport`, but not onto sides that are a million sizes of the viewport away: there the last bit of its
+/// place in the layer is a tenth of a pixel on the screen, so moving it would take it off its plane by as
+/// much.
 ///
-/// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners
-/// lie in one plane up to the rounding of their last computation, however they were clipped.
+/// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners lie
+/// in one plane up to the rounding of their last computation, whatever clipped them.
 pub(super) fn clip(
     layer: &Layer,
     limits: [DVec3; 2],
@@ -50,7 +53,7 @@ pub(super) fn clip(
     for Point { local, edge } in points {
         let at = local.extend(1.0);
         let [x, y, z, w] = rows.map(|row| row.dot(at));
-        // A w that rounding alone decides: the layer is in the eye's own plane.
+        // Rounding alone decides such a w: the layer is in the eye's own plane.
         if w <= 0.0 || !(w / scale).is_normal() {
             corners.truncate(begin);
             return None;
@@ -66,12 +69,12 @@ pub(super) fn clip(
     Some(STEPS * precision)
 }
 
-/// The plane of a layer in homogeneous coordinates, its normal of length 1; `None` if the layer is
-/// seen along its edge, or is no plane.
+/// The plane of a layer in homogeneous coordinates, its normal of length 1; `None` if the layer is seen
+/// edge-on, or has no plane.
 fn plane(layer: &Layer, rows: [DVec3; 4]) -> Option<DVec4> {
     let [x, y, z, w] = layer.centred(rows);
     let terms = [rows[0], rows[1], rows[3]].map(|row| layer.terms(row));
-    // The area on the screen, and what its rounding may be.
+    // The area on the screen, and a bound on its rounding error.
     let area = determinant([x, y, w]);
     let is_seen = area.abs() > EDGE_ON * layer.step() * permanent(terms);
     let plane =
@@ -83,7 +86,8 @@ fn determinant([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(b.cross(c))
 }
 
-/// The determinant with every sign positive: of absolute values, a bound on its terms' sum.
+/// The determinant with every sign positive (permanent): of absolute values, a bound on the sum of its
+/// terms.
 fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
     let sums = DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
     a.dot(sums)
@@ -93,7 +97,7 @@ fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
 fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
     let corners = layer.corners();
     let [low, high] = limits;
-    // Two opposite sides together keep w from being negative.
+    // Two opposite sides together imply w ≥ 0.
     let sides = [
         x - w * low.x,
         w * high.x - x,
@@ -113,8 +117,8 @@ fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Optio
     (points.len() >= 3).then_some(points)
 }
 
-/// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974), and
-/// what the side is as an edge.
+/// The part of a convex polygon where side · (u, v, 1) is not negative (Sutherland & Hodgman 1974). `made`
+/// labels the edges on that side.
 fn keep_inside(points: Points, side: DVec3, made: Option<u8>) -> Points {
     let at: SmallVec<[f64; MOST_CORNERS]> =
         points.iter().map(|p| side.dot(p.local.extend(1.0))).collect();
@@ -129,15 +133,15 @@ fn keep_inside(points: Points, side: DVec3, made: Option<u8>) -> Points {
             kept.push(here);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            // Weighted by the distances, not stepped from one end: either end gives the same point.
+            // Weighted by the distances, not stepped from one end: the result is the same from either end.
             let mut local = here.local * (b / (b - a)) + next.local * (a / (a - b));
-            // Sides along u or v are met exactly.
+            // Points on sides along u or v are exact.
             if side.y == 0.0 {
                 local.x = -side.z / side.x;
             } else if side.x == 0.0 {
                 local.y = -side.z / side.y;
             }
-            // Where the outline leaves the inside, an edge begins that clipping makes.
+            // Where the outline leaves the inside, an edge made by clipping begins.
             let edge = if a >= 0.0 { made } else { here.edge };
             kept.push(Point {
                 local: local.clamp(here.local.min(next.local), here.local.max(next.local)),

@@ -11,44 +11,44 @@ use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::viewpoint::Viewpoint;
 
-/// How far a page reaches in depth, and if it is not clipped to its viewport across as well, in
-/// sizes of the viewport. Larger: coordinates are rounded to more than the least tolerance. Smaller:
-/// layers that pass near the eye lose a part that is seen.
+/// The reach of a page in depth, and across as well if it is not clipped to its viewport, in sizes of the
+/// viewport. Too large: coordinates are rounded to more than the least tolerance. Too small: layers that
+/// pass near the eye lose a visible part.
 const REACH: f64 = (1 << 20) as f64;
-/// The least and the largest tolerance, as shares of the viewport's size; as
-/// [`Tolerance::Default`](crate::Tolerance::Default) has them of the extent (the second is
-/// `LARGEST_ROUNDING` there). Smaller: cards meant to be in one plane cut each other; larger: thin
-/// layers are merged, or, for one layer of few digits, those of the whole page.
+/// The least and the largest tolerance, as shares of the viewport's size, like those of
+/// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
+/// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers
+/// are merged, or, because of one layer with few digits, those of the whole page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
-/// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, which is 2⁻⁵² of
-/// the page's extent. It is more than the least share of the viewport only if a layer reaches further than
-/// 35 000 times the viewport's longer side. Smaller: there a step is more than the tolerance, and layers that
-/// matrices of their own put into one plane come out of document order (without it 8 of 2000 pages that are
-/// not clipped); larger: thin layers are merged there.
+/// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
+/// 2⁻⁵² of the page's extent. It exceeds the least share of the viewport only if a layer reaches further
+/// than 35 000 times the viewport's longer side. Too small: there a step is more than the tolerance, and
+/// layers that separate matrices put into one plane come out of document order (without it 8 of 2000
+/// unclipped pages). Too large: thin layers are merged there.
 const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
-/// A point counts as in a piece if it is outside by no more than this share of the viewport's size.
-/// Smaller: points fall through between pieces; larger: an edge is hit before it is reached.
+/// A point outside a piece counts as inside up to this share of the viewport's size. Too small: points fall
+/// through between pieces. Too large: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
 
-/// The layers of a page, cut and in paint order, from frame to frame.
+/// The layers of a page, cut and in paint order, reused from frame to frame.
 ///
-/// Give every frame's layers to [`update`](Self::update). It does nothing if they are those of the
-/// last frame, and takes the time of a [`BspTree`](crate::BspTree) of as many polygons if not. Then read the pieces.
-/// [The module](super) has an example and says what becomes of every layer.
+/// Give every frame's layers to [`update`](Self::update). Unchanged frames take no time; others take the
+/// time of building a [`BspTree`](crate::BspTree) of as many polygons. Then read the pieces. [The
+/// module](super) has an example and lists the result for every kind of layer.
 #[derive(Clone, Debug)]
 pub struct Layers {
     viewport: [DVec2; 2],
     is_clipped: bool,
     /// The last frame, if a tree was built of it.
     layers: Vec<Layer>,
-    /// What is seen of them.
+    /// The visible parts of the layers.
     outlines: Vec<Outline>,
     /// The corners of all outlines.
     corners: Vec<ClippedCorner>,
-    /// All outlines, those of one plane in a row.
+    /// All outlines, those of one plane consecutively.
     by_plane: Vec<u32>,
     builder: FrameBuilder,
-    /// Whether the builder's tree is of the last frame.
+    /// Whether the builder's tree belongs to the last frame.
     is_built: bool,
     /// The tree's fragments, back to front.
     order: Vec<u32>,
@@ -61,14 +61,14 @@ struct Outline {
     layer: usize,
     /// Equal for layers of one plane.
     plane_key: u64,
-    /// Where its corners begin; they end where the next outline's begin.
+    /// The first of its corners; they end where the next outline's begin.
     corners: usize,
     pieces: usize,
 }
 
 impl Layers {
-    /// An empty page on a screen from the `low` to the `high` corner of its viewport. If that has no
-    /// area, nothing is ever seen.
+    /// An empty page on a screen from the `low` to the `high` corner of its viewport. If that has no area,
+    /// nothing is ever visible.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
             viewport: [low.into(), high.into()],
@@ -84,8 +84,8 @@ impl Layers {
         }
     }
 
-    /// An empty page that is not clipped to the viewport, for pages that are painted once and scrolled. What
-    /// is outside is cut as well, which takes time. The viewport still gives the scale.
+    /// An empty page that is not clipped to the viewport, for pages that are painted once and scrolled.
+    /// Layers outside the viewport are cut as well, which takes time. The viewport still gives the scale.
     #[must_use]
     pub fn unclipped(mut self) -> Self {
         self.clear();
@@ -93,8 +93,8 @@ impl Layers {
         self
     }
 
-    /// Changes the viewport, from its `low` to its `high` corner, as when a window is resized. If it is
-    /// another, the page is empty until its next [`update`](Self::update). Memory is kept.
+    /// Sets the viewport, from its `low` to its `high` corner, for example when a window is resized. If it
+    /// changes, the page is empty until the next [`update`](Self::update). Memory is kept.
     pub fn set_viewport(&mut self, [low, high]: [[f64; 2]; 2]) {
         let viewport = [low.into(), high.into()];
         if self.viewport != viewport {
@@ -103,19 +103,19 @@ impl Layers {
         }
     }
 
-    /// Takes the layers of a frame, and tells whether anything had to be done: not if they are equal
-    /// to the last frame's. Memory of the last frame is used again.
+    /// Sets the layers of a frame. Returns false, and does nothing, if they are equal to the last frame's.
+    /// Memory of the last frame is reused.
     ///
     /// # Errors
     ///
-    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the
-    /// error is the layer's index), the pieces would be more than a tree may have, or memory runs
-    /// out. Then the page has no pieces.
+    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the error
+    /// is the layer's index), if a tree may not have as many pieces, or if memory runs out. Then the page
+    /// has no pieces.
     pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
         if self.is_built && self.layers == layers {
             return Ok(false);
         }
-        // The page is empty until its tree is there, so after an error as well.
+        // The page is empty until its tree is built, so also after an error.
         self.clear();
         self.replace(layers).map(|()| true)
     }
@@ -136,7 +136,7 @@ impl Layers {
         self.layers.extend_from_slice(layers);
         let precision = self.clip()?;
         let [least, most] = TOLERANCES.map(|share| share * self.size());
-        // Coordinates that reach far are rounded to a coarse grid.
+        // Large coordinates are rounded to a coarse grid.
         let reach = self
             .corners
             .iter()
@@ -153,7 +153,7 @@ impl Layers {
         Ok(())
     }
 
-    /// Clips all layers; the coarsest precision of any.
+    /// Clips all layers. Returns the coarsest precision of any.
     fn clip(&mut self) -> Result<f64, Error> {
         let (limits, viewport) = (self.limits(), self.is_clipped.then_some(self.viewport));
         let mut coarsest = 0.0f64;
@@ -205,25 +205,24 @@ impl Layers {
         [(low - across).extend(-reach), (high + across).extend(reach)]
     }
 
-    /// How many layers are seen, each as one piece or more. [The module](super#what-becomes-of-a-layer)
-    /// lists why others are not.
+    /// The number of visible layers, each with one piece or more. [The module](super#pieces-of-a-layer)
+    /// lists why others have none.
     pub fn visible(&self) -> usize {
         self.visible
     }
 
-    /// How many pieces there are. If they are as many as [visible](Self::visible) layers, no layer
-    /// is cut.
+    /// The number of pieces. If it equals the number of [visible](Self::visible) layers, no layer is cut.
     pub fn len(&self) -> usize {
         self.order.len()
     }
 
-    /// Whether nothing is seen.
+    /// Whether nothing is visible.
     pub fn is_empty(&self) -> bool {
         self.order.is_empty()
     }
 
-    /// The pieces in paint order: none hides one that comes later. From its end, or by `rev()`, front
-    /// to back.
+    /// The pieces in paint order: none hides one that comes later. Front to back from its end, or with
+    /// `rev()`.
     pub fn back_to_front(
         &self,
     ) -> impl DoubleEndedIterator<Item = LayerPiece<'_>> + ExactSizeIterator + Clone {
@@ -243,25 +242,25 @@ impl Layers {
         }
     }
 
-    /// The nearest layer at a point of the screen, by its index, and the point (u, v) of it that
-    /// appears there: the first of its [`hits`](Self::hits).
+    /// The nearest layer at a point of the screen: its index, and its point (u, v) that appears there. The
+    /// first of the [`hits`](Self::hits).
     pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         self.hits(point).next()
     }
 
-    /// Lists all layers at a point of the screen, front to back, each once: its index, and the point (u, v) of
-    /// it that appears there.
+    /// Lists all layers at a point of the screen, front to back, each once: its index, and its point (u, v)
+    /// that appears there.
     ///
-    /// O(pieces). The order is that of the pieces, and exact. Whether a piece covers the point is decided in
-    /// `f64`, by its [vertices](LayerPiece::vertices): points outside count as inside within 10⁻⁹ of the
+    /// O(pieces). The order is that of the pieces, and exact. Whether a piece covers the point is decided
+    /// in `f64`, by its [vertices](LayerPiece::vertices): points outside count as inside within 10⁻⁹ of the
     /// viewport's longer side of its edge. Where pieces of one layer meet, the nearer one counts.
     pub fn hits(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);
-        // Where two pieces of a layer meet, both are near enough.
+        // Where two pieces of a layer meet, the point touches both.
         let mut listed: SmallVec<[usize; 8]> = SmallVec::new();
         self.back_to_front().rev().filter_map(move |piece| {
-            // Most pieces are ruled out by their layer, without computing a vertex.
+            // Most pieces are excluded by their layer, without computing a vertex.
             if !(piece.is_near(at, slack) && piece.covers(at, slack)) {
                 return None;
             }

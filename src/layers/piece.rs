@@ -4,12 +4,12 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
 use crate::tree::Fragment;
 
-/// A convex piece of a layer, or all that is seen of it.
+/// A convex piece of a layer, or its whole visible part.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerPiece<'p> {
     pub(super) number: usize,
     pub(super) layer: &'p Layer,
-    /// The layer as clipped, of which the fragment is a piece.
+    /// The clipped layer, of which the fragment is a piece.
     pub(super) outline: &'p [ClippedCorner],
     pub(super) fragment: Fragment<'p>,
     pub(super) is_whole: bool,
@@ -21,16 +21,16 @@ impl<'p> LayerPiece<'p> {
         self.number
     }
 
-    /// Whether no other layer cuts its layer: it is all that is seen of it.
+    /// Whether no other layer cuts its layer, so that this is its whole visible part.
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }
 
-    /// The vertices, in the layer's own orientation: as u runs towards v, clockwise on the screen if
-    /// the layer is seen from its front.
+    /// The vertices, in the layer's own orientation: like the rotation from u to v, clockwise on the screen
+    /// if the layer is seen from its front.
     ///
-    /// Pieces of one layer that share a vertex get the same bits for its position. The place in the
-    /// layer is u = Σ λ u/w ÷ Σ λ/w, with the weights λ of the vertex over the corners on the screen.
+    /// Pieces of one layer that share a vertex have the same bits for its position. The place in the layer
+    /// is u = Σ λ u/w ÷ Σ λ/w, with the weights λ of the vertex over the corners on the screen.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = LayerVertex> + use<'p> {
         let Self { layer, outline, fragment, .. } = *self;
         fragment.vertices().zip(fragment.weights()).map(move |(position, weights)| {
@@ -41,21 +41,21 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// For each edge, from a vertex to the next: which edge of the layer it lies on, or `None` if a cut or
-    /// the viewport made it. Edges of the layer are those to [antialias](super#antialiasing): where pieces
-    /// of one layer meet, antialiasing would let the background through.
+    /// For each edge, from a vertex to the next, the edge of the layer that it lies on, or `None` if a cut
+    /// or the viewport made it. [Antialias](super#antialiasing) only edges of the layer: where pieces of
+    /// one layer meet, antialiasing would let the background through.
     ///
-    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
-    /// are those of the [ancestor](Layer::clipped_by) that cuts the layer, in the same order; edges 8 and up,
-    /// those of the ancestors that cut this one and of further ones, in the order of the calls. Those of the
-    /// 64th and of later ancestors are `None`.
+    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to
+    /// 7 belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Edges 8 and up
+    /// belong to the ancestors that cut this ancestor and to further ones, in the order of the calls. Edges
+    /// of the 64th and later ancestors are `None`.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
     }
 
-    /// Whether its layer's part on the screen has a point of the screen in its bounding box, or comes
-    /// as near to it as `slack`.
+    /// Whether a point of the screen is in the bounding box of its layer's visible part, or within `slack`
+    /// of it.
     pub(super) fn is_near(&self, at: DVec2, slack: f64) -> bool {
         let corners = self.outline.iter().map(|corner| corner.vertex.position.truncate());
         let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
@@ -63,17 +63,17 @@ impl<'p> LayerPiece<'p> {
         at.cmpge(bounds[0] - slack).all() && at.cmple(bounds[1] + slack).all()
     }
 
-    /// Whether it covers a point of the screen, or comes as near to it as `slack`.
+    /// Whether it covers a point of the screen, or comes within `slack` of it.
     ///
-    /// By a ray along x, which the outline crosses an odd number of times, and by distances from the
-    /// edges: not by sides of lines, as that of an edge no longer than its rounding points anywhere.
+    /// Tests a ray along x, which the outline crosses an odd number of times, and distances from the edges.
+    /// It does not test sides of lines: an edge no longer than its rounding error points anywhere.
     pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
         let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());
         let Some(first) = vertices.next() else { return false };
         let (mut from, mut is_inside) = (first, false);
         for to in vertices.chain([first]) {
             let (edge, arm) = (to - from, at - from);
-            // Where on the edge the nearest point is; NaN of an edge without length.
+            // The nearest point of the edge; NaN for an edge without length.
             let share = (arm.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
             let nearest = if share > 0.0 { edge * share } else { DVec2::ZERO };
             if arm.distance_squared(nearest) <= slack * slack {
@@ -90,16 +90,16 @@ impl<'p> LayerPiece<'p> {
 /// A corner of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerVertex {
-    /// Its place on the screen, and its depth: (x/w, y/w, z/w).
+    /// Its position on the screen and its depth: (x/w, y/w, z/w).
     pub position: DVec3,
-    /// The w that it was divided by; positive.
+    /// The positive w that it was divided by.
     pub w: f64,
-    /// Its place (u, v) in the layer's own rectangle.
+    /// Its position (u, v) in the layer's own rectangle.
     pub local: DVec2,
 }
 
 impl LayerVertex {
-    /// (x, y, z, w), for a graphics card that divides by w itself.
+    /// (x, y, z, w), for a GPU, which divides by w itself.
     pub fn homogeneous(&self) -> DVec4 {
         (self.position * self.w).extend(self.w)
     }
@@ -115,7 +115,7 @@ impl LayerVertex {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedCorner {
     pub(super) vertex: LayerVertex,
-    /// Which edge of the rectangle begins here, if clipping did not make it.
+    /// The edge of the rectangle that begins here, if clipping did not make it.
     pub(super) edge: Option<u8>,
 }
 
@@ -127,7 +127,7 @@ pub(super) fn interpolated(
     weights: &[(u32, f64)],
 ) -> LayerVertex {
     let corner = |k: u32| outline[k as usize].vertex;
-    // As shares of one corner's w, so that no w is too small or too large.
+    // As multiples of one corner's w, so that no w is too small or too large.
     let unit = weights.first().map_or(1.0, |&(k, _)| corner(k).w);
     let term =
         |&(k, weight): &(u32, f64)| corner(k).local.extend(1.0) * (weight * (unit / corner(k).w));
@@ -136,16 +136,17 @@ pub(super) fn interpolated(
     LayerVertex { position, w: unit / sum.z, local }
 }
 
-/// A rectangle in coordinates of its own, and a matrix that maps it to the screen. Rectangles of ancestors may cut it.
+/// A rectangle in its own coordinates, and a matrix that maps it to the screen. Rectangles of ancestors may
+/// cut it.
 ///
 /// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     low: DVec2,
     high: DVec2,
-    /// What x, y, z and w are made of: coefficients of u, of v and of 1.
+    /// The coefficients of u, v and 1 in x, y, z and w.
     rows: [DVec3; 4],
-    /// The distance from 1 to the next number that the matrix could hold.
+    /// The distance from 1 to the next number of the matrix's number type.
     step: f64,
     /// Half planes that cut the rectangle: where their products with (u, v, 1) are not negative.
     clips: Vec<DVec3>,
@@ -159,8 +160,8 @@ pub fn perspective(distance: f64, origin: [f64; 2]) -> DMat4 {
     about(origin, matrix)
 }
 
-/// Returns a matrix that does about the point `origin` what another does about (0, 0): that of CSS `transform` with
-/// its `transform-origin`, which is by default the middle of the element's box.
+/// Returns a matrix that does about the point `origin` what another does about (0, 0): that of CSS
+/// `transform` with its `transform-origin`, by default the middle of the element's box.
 pub fn about([x, y]: [f64; 2], matrix: DMat4) -> DMat4 {
     let origin = DVec3::new(x, y, 0.0);
     DMat4::from_translation(origin) * matrix * DMat4::from_translation(-origin)
@@ -173,14 +174,14 @@ impl Layer {
         Self::with_step([low, high], matrix, f64::EPSILON)
     }
 
-    /// The rectangle from (0, 0) to (width, height): the box of a CSS element, with u to the right and v downwards from
-    /// its upper left corner. [The module](super#matrices) says what makes up its matrix.
+    /// The rectangle from (0, 0) to (width, height): the box of a CSS element, with u to the right and v
+    /// downwards from its upper left corner. [The module](super#matrices) shows how to compute its matrix.
     pub fn rect([width, height]: [f64; 2], matrix: DMat4) -> Self {
         Self::new([[0.0, 0.0], [width, height]], matrix)
     }
 
-    /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers that it puts into
-    /// one plane up to its rounding count as coplanar.
+    /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers in one plane up to its
+    /// rounding count as coplanar.
     pub fn from_f32([low, high]: [[f64; 2]; 2], matrix: Mat4) -> Self {
         Self::with_step([low, high], matrix.as_dmat4(), f64::from(f32::EPSILON))
     }
@@ -191,14 +192,14 @@ impl Layer {
         Self { low: low.into(), high: high.into(), rows, step, clips: Vec::new() }
     }
 
-    /// Cuts the layer by the rectangle of an ancestor that hides what overflows it (CSS `overflow: hidden`), and by
-    /// the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor need not be in the
-    /// page; it is only painted if it is.
+    /// Cuts the layer by the rectangle of an ancestor that hides its overflow (CSS `overflow: hidden`), and
+    /// by the rectangles that cut the ancestor. Call it again for further ancestors. The page paints the
+    /// ancestor only if it contains it.
     ///
-    /// CSS flattens the content of such an ancestor: both layers lie in one plane, and what remains is the intersection
-    /// of both outlines, up to the rounding of `f64`. If both have the same matrix, it is exact. Layers in
-    /// different planes are cut along the ancestor's outline on the screen: nothing is seen outside of that. If the
-    /// ancestor is seen edge-on, nothing remains.
+    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the intersection
+    /// of both outlines remains, up to the rounding of `f64`; it is exact if both have the same matrix.
+    /// Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor is
+    /// seen edge-on, nothing remains.
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};
@@ -250,12 +251,11 @@ impl Layer {
         &self.clips
     }
 
-    /// The point (u, v) of the layer's plane that appears at a point of the screen: by this, a layer
-    /// is drawn pixel by pixel. It may be outside the layer's rectangle. `None` where the plane does
-    /// not appear or appears as a line.
+    /// The point (u, v) of the layer's plane that appears at a point of the screen, for drawing a layer
+    /// pixel by pixel. It may be outside the layer's rectangle. `None` where the plane does not appear or
+    /// appears as a line.
     ///
-    /// Where u and v run linearly over the screen, as without perspective, so does this; otherwise
-    /// u/w, v/w and 1/w do.
+    /// It is linear over the screen without perspective; otherwise u/w, v/w and 1/w are.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let [of_x, of_y, _, of_w] = self.rows;
         // Both are 0 at (u, v, 1): the point is where their lines meet.
@@ -291,7 +291,7 @@ impl Layer {
         local.clamp(self.low, self.high)
     }
 
-    /// Whether its numbers are finite, and what it is made of as well.
+    /// Whether its numbers, and the numbers computed from them, are finite.
     pub(super) fn is_finite(&self) -> bool {
         let numbers = self.low.is_finite() && self.high.is_finite();
         let clips = self.clips.iter().all(|clip| clip.is_finite());
@@ -305,13 +305,13 @@ impl Layer {
         !(self.low.x < self.high.x && self.low.y < self.high.y)
     }
 
-    /// The most that the terms of a row add up to in the rectangle.
+    /// The largest sum of the absolute terms of a row in the rectangle.
     fn size_of(&self, row: DVec3) -> f64 {
         let largest = self.low.abs().max(self.high.abs()).extend(1.0);
         row.abs().dot(largest)
     }
 
-    /// What (x, y, z, w) are made of, scaled by a power of two so that the largest is about 1: no
+    /// The coefficients of (x, y, z, w), scaled by a power of two so that the largest is about 1: no
     /// product overflows. Homogeneous coordinates mean the same at any scale. The scale comes last.
     pub(super) fn scaled_rows(&self) -> ([DVec3; 4], f64) {
         let largest = self.rows.iter().fold(0.0, |size: f64, &row| size.max(self.size_of(row)));
@@ -332,13 +332,13 @@ impl Layer {
         rows.map(|row| (row.truncate() * half).extend(row.dot(middle.extend(1.0))))
     }
 
-    /// Bounds on the rounding of x, y, z and w in a point, made of rows as the matrix has them.
+    /// Bounds on the rounding error of x, y, z and w at a point, for rows as in the matrix.
     pub(super) fn rounding(&self, rows: [DVec3; 4], local: DVec2) -> DVec4 {
         let largest = local.abs().extend(1.0);
         DVec4::from_array(rows.map(|row| row.abs().dot(largest))) * self.step
     }
 
-    /// The distance from 1 to the next number that the matrix could hold.
+    /// The distance from 1 to the next number of the matrix's number type.
     pub(super) fn step(&self) -> f64 {
         self.step
     }

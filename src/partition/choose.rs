@@ -1,5 +1,5 @@
 //! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search
-//! trees used for associative searching", 1975), along the axis on which these reach furthest.
+//! trees used for associative searching", 1975), along the axis of their largest extent.
 
 use super::{CellRange, Extent, Partition, SplitPlane};
 use crate::Error;
@@ -29,7 +29,7 @@ impl Partition {
         let mut points: Vec<[f64; 3]> = Vec::new();
         for sample in samples {
             let point = sample.to_dvec3();
-            // Samples choose planes and no more: those that say nothing are left out.
+            // Samples only choose planes, so NaN and infinite ones are left out.
             if point.is_finite() {
                 let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
                 points.push(lattice.snap(point).map(limit));
@@ -40,7 +40,7 @@ impl Partition {
     }
 }
 
-/// A subtree to come: where its samples are, and the box that it divides.
+/// A subtree still to be divided: the range of its samples, and its box.
 struct Samples {
     subtree: CellRange,
     samples: std::ops::Range<usize>,
@@ -69,8 +69,8 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
     planes
 }
 
-/// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, as
-/// that often is a corner, which cuts fewer polygons. The same in whatever order the samples are.
+/// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, because
+/// that often is a corner, which cuts fewer polygons. Independent of the order of the samples.
 fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {
@@ -81,7 +81,7 @@ fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitP
     }
     let axis = longest(&reach);
     let least = reach[0][axis];
-    // With one sample or none, or all in one place, the middle is as good as any other.
+    // Without two different samples, use the middle.
     if samples.is_empty() || reach[1][axis] == least {
         let axis = longest(room);
         let middle = 0.5 * room[0][axis] + 0.5 * room[1][axis];
@@ -90,7 +90,7 @@ fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitP
     let place = (samples.len() as u128 * (count / 2) as u128 / count as u128) as usize;
     let by_axis = |a: &[f64; 3], b: &[f64; 3]| a[axis].total_cmp(&b[axis]);
     let at = samples.select_nth_unstable_by(place, by_axis).1[axis];
-    // One of many at the lower end would leave nothing behind it: the next larger does.
+    // If many samples are at the lower end, that plane would have nothing behind it; use the next larger.
     let next = || {
         let above = samples.iter().map(|sample| sample[axis]).filter(|&c| c > least);
         above.fold(f64::INFINITY, f64::min)
@@ -98,7 +98,7 @@ fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitP
     SplitPlane { axis, at: if at > least { at } else { next() } }
 }
 
-/// The axis on which a box reaches furthest, the first of equals.
+/// The axis of a box's largest extent, the first of equals.
 fn longest([low, high]: &CellBox) -> usize {
     let length = |axis: usize| high[axis] - low[axis];
     (1..3).fold(0, |best, axis| if length(axis) > length(best) { axis } else { best })

@@ -16,36 +16,36 @@ use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
 ///
-/// It is for scenes too large for one tree, or for one machine. Each cell has a tree of its own, of what
-/// is in it of the polygons that reach in, and is built anywhere and at any time; in the
-/// [order](Self::back_to_front) of the cells for a viewpoint, the orders of their trees are one order of
-/// the whole scene, as right as that of one tree.
+/// Use it for scenes too large for one tree, or for one machine. Each cell has its own tree of the
+/// polygons' parts in the cell, which can be built anywhere and at any time. Concatenated in the
+/// [order](Self::back_to_front) of the cells for a viewpoint, the orders of the trees are one order of the
+/// whole scene, as exact as that of one tree.
 ///
 /// ```
 /// use binspace::partition::Extent;
 /// use binspace::{BuildOptions, Viewpoint, scene};
 ///
 /// let (scene, options) = (scene::terrain(2000, 1), BuildOptions::DEFAULT);
-/// // What all have to agree on: the extent, and some of the corners.
+/// // All processes must agree on these: the extent, and some of the corners.
 /// let mut extent = Extent::default();
 /// scene.polygons().for_each(|polygon| extent.include(&polygon));
 /// let samples = scene.polygons().map(|polygon| polygon.points()[0]);
 /// let partition = options.partition(&extent, samples, 6)?;
 ///
-/// // Which polygons reach into which cells.
+/// // The polygons that reach into each cell.
 /// let mut given = vec![vec![]; partition.cells()];
 /// let mut reached = Vec::new();
 /// for number in 0..scene.len() {
 ///     partition.reached_by(scene.polygon(number), &mut reached);
 ///     reached.iter().for_each(|&cell| given[cell].push(number));
 /// }
-/// // Here, or elsewhere: a tree of each cell.
+/// // Here or elsewhere: a tree of each cell.
 /// let eye = Viewpoint::eye([100.0, 30.0, 60.0]);
 /// for cell in partition.back_to_front(eye) {
 ///     let polygons = given[cell].iter().map(|&number| scene.polygon(number));
 ///     let tree = options.build_cell(&partition, cell, polygons)?;
 ///     for fragment in tree.back_to_front(eye) {
-///         // The fragment's polygon is known by its place among those that the cell was given.
+///         // The fragment's polygon is its place in the list given to the cell.
 ///         let number = given[cell][fragment.polygon()];
 ///         # assert!(number < scene.len());
 ///     }
@@ -55,43 +55,43 @@ use crate::viewpoint::Viewpoint;
 ///
 /// # Cells
 ///
-/// Polygons are cut by the planes of a cell first, exactly, as by the planes of a tree. The two cells
-/// beside a plane have the vertices that it makes bit for bit in common, and so have faces on one side of
-/// it that share an edge, where both are cut and the tolerance moved no corner of one. (As in one tree,
-/// further cuts end in T-junctions.) Each point of each polygon is
-/// in one cell: what lies in a plane between two, or within the tolerance of it, is in the one on the side
-/// of larger coordinates.
+/// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of
+/// a plane have bit for bit the same vertices on it. So do two faces on one side that share an edge, if
+/// both are cut and the tolerance moved no corner of either. (As in one tree, further cuts end in
+/// T-junctions.) Each point of each polygon is in one cell: points in a plane between two cells, or within
+/// the tolerance of it, belong to the cell on the side of larger coordinates.
 ///
-/// All cells have the same grid and tolerance, and so prepare a polygon in the same way: where it is
-/// triangulated or moved onto its plane, it is so in all of them.
+/// All cells have the same grid and tolerance, so all prepare a polygon in the same way: a polygon that is
+/// triangulated or moved onto its plane in one cell is so in all of them.
 ///
 /// # Tolerance
 ///
-/// It is one length for all cells, that of the [options](crate::BuildOptions::partition) with which the
-/// partition was made: by default it follows the extent and the precision of all polygons, as in one tree
-/// of them. The options with which a cell is built have no say in it. Across the planes between cells,
-/// orders are right up to the tolerance as across those of a tree: polygons that are nearer to one another
-/// than that without lying in one plane may be exchanged, as they may in another tree of the scene.
+/// All cells have one tolerance, a length: that of the [options](crate::BuildOptions::partition) with which
+/// the partition was made. By default it follows the extent and the precision of all polygons, as in one
+/// tree of them. The options with which a cell is built do not affect it. Across the planes between cells,
+/// orders are right up to the tolerance as across those of a tree: polygons nearer to one another than
+/// that, and not coplanar, may be exchanged, as in another tree of the scene.
 ///
 /// # Trees of cells
 ///
-/// A tree of a cell gives orders, fragments, meshes, boxes and hits as any other, of what is in the cell.
-/// What is made of whole polygons is not for it: `drawing`, where it is an error, and the depth buffer of
-/// `raster`, so `verify` as well. Its [`dropped`](crate::BspTree::dropped) polygons are also those of which
-/// nothing is in the cell; other counts of its [preparation](crate::BspTree::preparation) are of all that it
-/// was given, and [`preparation`](Self::preparation) counts for all cells.
-/// [`BspTree::extend`](crate::BspTree::extend) cuts what it adds to the cell. An
-/// [`Overlay`](crate::overlay::Overlay) on it is not cut: what moves there is in each cell that is given it.
+/// The tree of a cell gives orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
+/// It cannot be used where whole polygons are needed: for a `drawing`, which is an error, for the depth
+/// buffer of `raster`, and so for `verify`. Its [`dropped`](crate::BspTree::dropped) polygons include those
+/// outside the cell. Other counts of its [preparation](crate::BspTree::preparation) are of all polygons
+/// given to it, and [`preparation`](Self::preparation) counts for all cells.
+/// [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
+/// [`Overlay`](crate::overlay::Overlay) on it is not cut: its polygons are in each cell to which you give
+/// them.
 ///
-/// With the feature `save`, a partition is written and read, `Partition::write` and `Partition::read`, to
-/// send it to others.
+/// With the feature `save`, `Partition::write` and `Partition::read` store a partition, for instance to
+/// send it to other machines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partition {
     lattice: Lattice,
     /// The tolerance in lattice units.
     tolerance: f64,
-    /// The planes, depth first, what is behind a plane before what is in front. A plane over n cells has
-    /// half of them behind it, rounded down: so their numbers say which subtree is where.
+    /// The planes, depth first, the subtree behind a plane before the subtree in front. A plane over n
+    /// cells has n / 2 of them behind it, rounded down, so the numbers alone locate every subtree.
     planes: Vec<SplitPlane>,
 }
 
@@ -99,7 +99,7 @@ pub struct Partition {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SplitPlane {
     axis: usize,
-    /// Where it is on the axis, a lattice coordinate.
+    /// Its position on the axis, a lattice coordinate.
     at: f64,
 }
 
@@ -111,7 +111,7 @@ struct CellRange {
 }
 
 impl CellRange {
-    /// What is behind its plane, and what is in front. There is a plane if there are two cells or more.
+    /// The parts behind and in front of its plane. There is a plane if there are two cells or more.
     fn sides(&self) -> [Self; 2] {
         let Self { plane, cells } = self;
         let behind = cells.start + cells.len() / 2;
@@ -122,7 +122,7 @@ impl CellRange {
 }
 
 impl Partition {
-    /// How many cells there are; at least one.
+    /// The number of cells; at least one.
     pub fn cells(&self) -> usize {
         self.planes.len() + 1
     }
@@ -132,7 +132,7 @@ impl Partition {
         self.lattice.length_to_world(self.tolerance)
     }
 
-    /// The lower and the upper corner of a cell, rounded outwards; infinite on sides where no plane is.
+    /// The lower and the upper corner of a cell, rounded outwards; infinite on sides without a plane.
     ///
     /// # Panics
     ///
@@ -155,7 +155,7 @@ impl Partition {
         CellRange { plane: 0, cells: 0..self.cells() }
     }
 
-    /// No faces so far, for those of a cell.
+    /// An empty set of faces for a cell.
     pub(crate) fn faces(&self, cell: usize) -> Faces {
         Faces::of_cell(self.lattice, self.tolerance, self.cell(cell))
     }
@@ -188,7 +188,7 @@ impl Partition {
             let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
             let is_in_front = Plane::axis(axis, [at; 3]).at_eye(&eye).is_gt();
-            // The nearer side is put below the further one, so that it comes later.
+            // The nearer side is pushed first, so that it comes later.
             rest.extend(if is_in_front { [front, back] } else { [back, front] });
         }
         order
@@ -202,13 +202,13 @@ impl Partition {
         order
     }
 
-    /// Replaces `cells` by the cells that a polygon may have part in, in ascending order. All
-    /// that [`build_cell`](crate::BuildOptions::build_cell) needs of a scene are the polygons that reach the cell.
+    /// Replaces `cells` by the cells that a polygon may reach, in ascending order.
+    /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach its cell.
     ///
-    /// Conservative: a cell is listed if its box meets the polygon's, widened by the tolerance, and the
-    /// layer along its plane. So a few cells are listed that nothing of the polygon is in, which does no
-    /// harm. A polygon with a corner beyond the partition's grid, or no number, is listed for all: building
-    /// them tells about it.
+    /// Conservative: a cell is listed if its box meets both the polygon's box, widened by the tolerance,
+    /// and the layer along its plane. So a few cells are listed that contain no part of the polygon, which
+    /// does no harm. A polygon with a corner that is NaN or beyond the partition's grid is listed for all
+    /// cells, and building them returns an error.
     ///
     /// O(corners + cells reached · log cells).
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
@@ -258,9 +258,10 @@ impl Partition {
     }
 }
 
-/// The bounding box of a scene, and how precise it is: what those who build its cells have to agree on.
+/// The bounding box of a scene and its precision: the data that all builders of its cells must agree on.
 ///
-/// Each may gather it of its own polygons; together they are [merged](Self::merge), in any order.
+/// Each builder may compute it for its own polygons; [`merge`](Self::merge) combines the results, in any
+/// order.
 ///
 /// ```
 /// use binspace::partition::Extent;
@@ -280,7 +281,7 @@ pub struct Extent {
 }
 
 impl Default for Extent {
-    /// That of nothing.
+    /// The extent of no polygons.
     fn default() -> Self {
         Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, precision: 0.0 }
     }
@@ -296,14 +297,14 @@ impl Extent {
         self.precision = self.precision.max(polygon.precision());
     }
 
-    /// Includes what another has.
+    /// Includes another extent.
     pub fn merge(&mut self, other: &Self) {
         self.include_box([other.low, other.high]);
         self.precision = self.precision.max(other.precision);
     }
 
     fn include_box(&mut self, [low, high]: [DVec3; 2]) {
-        // Not `min` and `max` of the type, which pass over NaN.
+        // `f64::min` and `f64::max` would ignore NaN.
         for axis in 0..3 {
             if low[axis] < self.low[axis] || low[axis].is_nan() {
                 self.low[axis] = low[axis];
@@ -315,21 +316,21 @@ impl Extent {
     }
 }
 
-/// How far beyond its corners a polygon may reach, in tolerances and in steps of the lattice. Moving a corner
-/// onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one tolerance: together
-/// 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells get polygons that do not
-/// reach them.
+/// The distance that a polygon may reach beyond its corners, in tolerances and in steps of the lattice.
+/// Moving a corner onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one
+/// tolerance: together 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells
+/// get polygons that do not reach them.
 const MARGIN: [f64; 2] = [3.0, 2.0];
-/// What rounding adds to the distance of a corner from a plane, as a share of the lengths that it is made
-/// of. The normal is any, and taken as it is. With u = 2⁻⁵³: arms of corners are exact, so a scalar product with
-/// one is off by 3u, three for the product and the sums on the way; an end of a box by u and its difference
-/// from a corner by u, its middle and its half by u more, and their products by 3u each. Together with the sums
-/// and differences in `meets`, and the slack itself, that is less than 20u.
+/// A bound on the rounding error of a corner's distance from a plane, as a share of the lengths in its
+/// computation. Any normal is used as given. With u = 2⁻⁵³: arms of corners are exact, so a scalar product
+/// with one is off by 3u, three for the product and the sums on the way; an end of a box by u and its
+/// difference from a corner by u, its middle and its half by u more, and their products by 3u each.
+/// Together with the sums and differences in `meets`, and the slack itself, that is less than 20u.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.
 struct Layer {
-    /// The point that distances are measured from.
+    /// The origin of distances.
     from: DVec3,
     normal: DVec3,
     /// The scalar products of the normal with all points, the margin included.
@@ -338,7 +339,8 @@ struct Layer {
 }
 
 impl Layer {
-    /// Perpendicular to Newell's normal: of a planar polygon that is thin. Any normal would be right.
+    /// Perpendicular to Newell's normal, which makes the layer of a planar polygon thin. Any normal would
+    /// be right.
     fn new(corners: &[[f64; 3]], margin: f64) -> Self {
         let from = DVec3::from(corners[0]);
         // Differences of lattice coordinates are exact.
@@ -355,7 +357,7 @@ impl Layer {
         Self { from, normal, least: least - slack, most: most + slack }
     }
 
-    /// Whether some of a box, which reaches no further than the corners and the margin, is in it.
+    /// Whether the layer meets a box that reaches no further than the corners and the margin.
     fn meets(&self, [low, high]: &CellBox) -> bool {
         let [low, high] = [low, high].map(|&corner| DVec3::from(corner) - self.from);
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));

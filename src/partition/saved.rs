@@ -10,21 +10,21 @@ use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
-/// The most planes: more than anyone builds trees of cells for.
+/// The largest number of planes: more than anyone builds trees of cells for.
 const MOST: usize = 1 << 28;
 
 impl Partition {
-    /// Writes the partition, so that [`read`](Self::read) gives an equal one.
+    /// Writes the partition, so that [`read`](Self::read) returns an equal one.
     ///
     /// # Layout
     ///
     /// Version 1. All numbers are little-endian.
     ///
-    /// | part | what |
+    /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacepart`, the version as `u32` |
     /// | grid, tolerance | as in the file of a [tree](crate::BspTree::write) |
-    /// | planes | their number as `u64`, one less than the cells, depth first, and behind a plane before in front; each is the axis as `u32`, and the coordinate on the grid as `i64`. Over n cells, n / 2, rounded down, are behind |
+    /// | planes | their number as `u64`, one less than the cells, depth first, and behind a plane before in front; each is the axis as `u32`, and the coordinate on the grid as `i64`. Of n cells, n / 2, rounded down, are behind |
     /// | end | the CRC-32 of all bytes before, `u32` |
     ///
     /// # Errors
@@ -41,15 +41,16 @@ impl Partition {
         file.finish()
     }
 
-    /// Reads a partition that [`write`](Self::write) has written. Takes up no more than its bytes.
+    /// Reads a partition that [`write`](Self::write) has written. Reads only its bytes.
     ///
-    /// Any file is safe to read, and memory grows with what is read. Whatever it says, cells of the same
-    /// partition have each point of a polygon once; forged planes can leave all of them to one.
+    /// Any file is safe to read, and memory grows with the bytes read. Cells of the same partition have
+    /// each point of a polygon once, even for a forged file, but forged planes can put all of them into one
+    /// cell.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read, are no partition, of another version, cut short or damaged, or name a
-    /// plane, a grid or a tolerance that cannot be; or if memory runs out.
+    /// If the data cannot be read; if they are not a partition, have another version, are truncated or
+    /// damaged, or contain an invalid plane, grid or tolerance; or if memory runs out.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let lattice = Lattice::read(&mut file)?;
@@ -61,7 +62,7 @@ impl Partition {
         file.finish()?;
         lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&tolerance) {
-            return Err(damaged("tolerance", "is negative, too large or no number"));
+            return Err(damaged("tolerance", "is negative, too large or NaN"));
         }
         let is_wrong = |plane: &SplitPlane| plane.axis > 2 || plane.at.abs() > LATTICE_LIMIT;
         if let Some(plane) = planes.iter().position(is_wrong) {
@@ -72,7 +73,7 @@ impl Partition {
         Ok(partition)
     }
 
-    /// An error unless each plane is within the part of the scene that it divides.
+    /// An error unless each plane is inside the box that it divides.
     fn check_planes(&self) -> Result<(), Error> {
         let mut rest = vec![(self.root(), EVERYWHERE)];
         while let Some((subtree, part)) = rest.pop() {
@@ -81,7 +82,7 @@ impl Partition {
             }
             let SplitPlane { axis, at } = self.planes[subtree.plane];
             if !(part[0][axis]..=part[1][axis]).contains(&at) {
-                return Err(invalid("plane", subtree.plane, "is outside of what it divides"));
+                return Err(invalid("plane", subtree.plane, "is outside the part that it divides"));
             }
             let [mut behind, mut ahead] = [part; 2];
             behind[1][axis] = at;

@@ -1,12 +1,12 @@
 //! Decides which pixels a piece of a face covers.
 //!
-//! A pixel is covered if its ray meets the piece, which is so if it passes inside all lines that
-//! bound the piece. A ray that meets a line exactly is treated as moved by an infinitesimal step, the
-//! same for all lines (see [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So
-//! the pieces of a face tile it, and the faces of a closed surface tile its picture: no pixel is left
-//! out, none is covered twice. The moved ray lies in no partition plane, not even in one that
-//! contains the eye, so the piece that is nearer at the pixel is also later in a back-to-front order.
-//! Faces seen exactly edge-on cover nothing.
+//! A pixel is covered if its ray meets the piece: if the ray passes inside all lines that bound the piece.
+//! A ray that meets a line exactly is treated as moved by an infinitesimal step, the same for all lines
+//! (see [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So the pieces of a face
+//! tile it, and the faces of a closed surface tile its picture: no pixel is left out, none is covered
+//! twice. The moved ray lies in no partition plane, not even in one that contains the eye, so the piece
+//! that is nearer at the pixel is also later in a back-to-front order. Faces seen exactly edge-on cover
+//! nothing.
 //!
 //! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
 //! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
@@ -20,35 +20,34 @@ use super::line::{Boundary, Seen, Sheet, Source};
 use super::rays::{Rays, Window};
 use crate::exact::{EdgeLine, Faces, PlaneId};
 
-/// In windows of at most this many columns every pixel is tested; in wider ones the lines first
-/// narrow each row. Smaller: the narrowing costs more than it saves; larger: more pixels are
-/// tested.
+/// In windows of at most this many columns every pixel is tested; in wider ones the lines first narrow each
+/// row. Too small: the narrowing costs more than it saves. Too large: more pixels are tested.
 const NARROW: u32 = 8;
 
-/// A piece of a face, to be drawn.
+/// A piece of a face, for drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<'a> {
     /// The face.
     pub face: u32,
-    /// Which part of it.
+    /// The part of the face.
     pub outline: Outline<'a>,
 }
 
-/// Which part of a face a piece is.
+/// The part of a face that a piece covers.
 #[derive(Clone, Copy, Debug)]
 pub enum Outline<'a> {
-    /// All of it.
+    /// The whole face.
     Whole,
-    /// The part on the inner side of each of these lines. It is exact, however small the piece.
+    /// The part on the inner side of each of these lines. Exact, however small the piece.
     Lines {
         /// The lines that bound the piece: edges of the face, and cuts.
         lines: &'a [EdgeLine],
-        /// The piece's vertices in lattice units, each coordinate within 2 of the exact one. They
-        /// only say which pixels to look at.
+        /// The piece's vertices in lattice units, each coordinate within 2 of the exact one. They only
+        /// limit the pixels to test.
         vertices: &'a [[f64; 3]],
     },
-    /// The convex polygon of these vertices, in lattice units and in the face's orientation. They are rounded
-    /// to the lattice. For algorithms that do not keep the lines.
+    /// The convex polygon of these vertices, in lattice units and in the face's orientation. They are
+    /// rounded to the lattice. For algorithms that do not store the lines.
     Vertices(&'a [[f64; 3]]),
 }
 
@@ -108,7 +107,7 @@ impl<'a> Coverage<'a> {
         let mut certain = true;
         for line in &self.lines {
             let [k0, kx, ky] = line.k;
-            // Certainly outside one line is outside the piece, whatever the other lines say.
+            // A pixel certainly outside one line is outside the piece, whatever the other lines.
             let value = k0 + row * ky + column * kx;
             if value < -line.bound {
                 return false;
@@ -160,8 +159,8 @@ impl<'a> Coverage<'a> {
         }
     }
 
-    /// Two ranges of columns of a row: no pixel outside the first is covered, and every pixel
-    /// within the second is. The second lies within the first, or is empty at its end.
+    /// Two ranges of columns of a row: no pixel outside the first is covered, and every pixel within the
+    /// second is. The second lies within the first, or is empty at its end.
     fn narrow(&self, y: u32) -> (Range<u32>, Range<u32>) {
         let Range { start, end } = self.window.columns;
         let (mut outer, mut inner) =
@@ -177,7 +176,7 @@ impl<'a> Coverage<'a> {
                 }
                 continue;
             }
-            // A margin of one pixel is more than the rounding of the division and of the bound.
+            // A margin of one pixel is more than the rounding error of the division and of the bound.
             let (zero, margin) = (-value / kx, line.bound / kx.abs() + 1.0);
             if kx > 0.0 {
                 outer[0] = outer[0].max((zero - margin).floor());
@@ -205,8 +204,8 @@ impl<'a> Coverage<'a> {
 const LARGEST: f64 = (1u64 << 51) as f64;
 
 impl<'a> Seen<'a> {
-    /// A face as the rays see it; `None` if they run along it, or see its back and only fronts are
-    /// to be seen.
+    /// A face as seen by the rays; `None` if they run along it, or see its back and only fronts are
+    /// visible.
     pub(super) fn new(rays: &'a Rays, faces: &'a Faces, face: u32) -> Option<Self> {
         let sheet = Sheet::new(rays, faces, PlaneId::face(face));
         let side =

@@ -1,10 +1,9 @@
 //! Planes in integers, evaluated at exact rays.
 //!
-//! Planes are computed here from the lattice points that define them, by other formulas and in
-//! other integers than those that trees are built with: rows of signed digits. A product or a sum is first
-//! computed digit by digit in 128 bits, without carries; carries are propagated once, at the end.
-//! [`Int`](crate::exact::Int) is in two's complement and carries in every step, so a mistake in one is not
-//! repeated in the other.
+//! Planes are computed here from the lattice points that define them, by formulas and integers other than
+//! those for building trees: rows of signed digits. A product or a sum is first computed digit by digit in
+//! 128 bits, without carries; carries are propagated once, at the end. [`Int`](crate::exact::Int) is in
+//! two's complement and carries in every step, so a mistake in one is not repeated in the other.
 //!
 //! With coordinates below 2⁵¹, a normal has 106 bits and an offset 158; φ and κ (see [`line`](super::line))
 //! stay below 2²⁰⁷, and a determinant of both below 2³⁶⁰.
@@ -43,8 +42,8 @@ impl Plane {
         Self { normal, offset: dot(qr, p) }
     }
 
-    /// The plane through two lattice points and along an axis; seen against the axis, its front is
-    /// on the right of the way from `a` to `b`.
+    /// The plane through two lattice points and along an axis. Seen against the axis, its front is to the
+    /// right of the line from `a` to `b`.
     pub(super) fn upright(a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
         let (a, b) = (integer(a), integer(b));
         let mut along = [0; 3];
@@ -106,14 +105,14 @@ impl PlanePair {
         PlanePairAt { phis, determinant: determinant([above, below]) }
     }
 
-    /// On which side of the first plane a ray meets the second, ahead of the eye: the sign of
-    /// sgn κ_h · (κ_h φ_f − κ_f φ_h).
+    /// The side of the first plane on which a ray meets the second, ahead of the eye: the sign of sgn κ_h ·
+    /// (κ_h φ_f − κ_f φ_h).
     pub(super) fn side_of_first(&self, given: Given) -> Ordering {
         let across = self.at(given).determinant.sign();
         if self.kappas[1].sign().is_lt() { across } else { across.reverse() }
     }
 
-    /// What lengths along rays are divided by: φ for a perspective, κ for parallel rays. Rounded.
+    /// The divisors of lengths along rays: φ for a perspective, κ for parallel rays. Rounded.
     pub(super) fn divisors(&self, rays: &Rays, at: &PlanePairAt) -> [f64; 2] {
         let values = if rays.is_perspective() { at.phis } else { self.kappas };
         values.map(|value| value.to_f64())
@@ -160,11 +159,11 @@ pub(super) struct Digits<const N: usize>([i64; N]);
 
 /// Enough for a plane at an eye or at a ray: 207 bits.
 pub(super) type Short = Digits<4>;
-/// Enough for a product of two such.
+/// Enough for a product of two of these.
 pub(super) type Long = Digits<8>;
 
 impl<const N: usize> Digits<N> {
-    /// Carries: from coefficients of powers of 2⁵², each of which may be far larger than a digit.
+    /// Carries: converts coefficients of powers of 2⁵², each of which may be far larger than a digit.
     fn carried(coefficients: [i128; N]) -> Self {
         let mut carry = 0;
         let digits = coefficients.map(|coefficient| {
@@ -178,7 +177,7 @@ impl<const N: usize> Digits<N> {
         Self(digits)
     }
 
-    /// How the value compares with zero: as its leading digit, which outweighs all others, does.
+    /// The sign: that of the leading digit, which outweighs all others.
     pub(super) fn sign(&self) -> Ordering {
         self.0.iter().rev().find(|&&digit| digit != 0).map_or(Ordering::Equal, |d| d.cmp(&0))
     }

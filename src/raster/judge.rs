@@ -11,12 +11,12 @@ use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
 use crate::random::mix;
 
-/// Which face is nearest in each pixel, and how near it is.
+/// The nearest face in each pixel, and its nearness.
 #[derive(Clone, Debug)]
 pub struct DepthImage {
     image: Image,
-    /// 1/t for a perspective and −t for a parallel projection, where the ray meets the face after t
-    /// times its direction: larger is nearer.
+    /// 1/t for a perspective and −t for a parallel projection, where the ray meets the face after t times
+    /// its direction: larger is nearer.
     nearness: Vec<f64>,
     unit: f64,
     perspective: bool,
@@ -33,11 +33,11 @@ impl DepthImage {
         self.image
     }
 
-    /// The depth of the face in each pixel, rounded, in world units, row by row from the top left;
-    /// infinite where there is no face.
+    /// The depth of the face in each pixel, rounded, in world units, row by row from the top left; infinite
+    /// where there is no face.
     ///
-    /// Depth is measured along the direction in which the camera looks: from the eye, or, for
-    /// parallel rays, from the plane through the middle of the scene; then it may have either sign.
+    /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel
+    /// rays, from the plane through the middle of the scene, where it may be negative.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -51,7 +51,7 @@ impl DepthImage {
     }
 }
 
-/// How near a face is, as a rounded linear function of the pixel, with a bound on its error.
+/// The nearness of a face, as a rounded linear function of the pixel, with a bound on its error.
 #[derive(Clone, Copy)]
 struct Nearness {
     k: [f64; 3],
@@ -62,8 +62,8 @@ impl Nearness {
     fn new(seen: &Seen<'_>) -> Self {
         let sheet = &seen.sheet;
         let factor = if seen.rays.is_perspective() { -1.0 } else { 1.0 } / sheet.kappa;
-        // φ is off by 12 roundings of its size, κ by 8 of its size; the quotient and the evaluation
-        // add a few more. If κ is uncertain by a quarter, nothing is known.
+        // φ is off by 12 roundings of its size, κ by 8 of its size; the quotient and the evaluation add a
+        // few more. If κ is uncertain by a quarter, no bound is known.
         let uncertainty = 9.0 * ROUNDING * sheet.kappa_size / sheet.kappa.abs();
         let error = if uncertainty < 0.25 {
             sheet.phi_size * factor.abs() * (20.0 * ROUNDING + 2.0 * uncertainty)
@@ -78,8 +78,8 @@ impl Nearness {
     }
 }
 
-/// The nearest face in each pixel. Of faces at exactly the same distance, the later polygon's wins,
-/// as if it had been painted over the earlier one.
+/// The nearest face in each pixel. Of faces at exactly the same distance, that of the later polygon wins,
+/// as if painted over the earlier one.
 ///
 /// # Panics
 ///
@@ -88,7 +88,7 @@ pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
     zbuffer_and(rays, faces, |_, _, _| {})
 }
 
-/// The nearest face in each pixel, and all that cover it.
+/// The nearest face in each pixel, and all faces that cover it.
 pub(crate) fn zbuffer_layers(rays: &Rays, faces: &Faces) -> (DepthImage, Layers) {
     let mut layers = Layers::new(rays);
     let depth = zbuffer_and(rays, faces, |face, y, columns| layers.add(face, y, columns));
@@ -115,8 +115,8 @@ fn zbuffer_and(
             for x in columns {
                 let i = y as usize * width + x as usize;
                 let value = near.at(x, y);
-                // Rounded values decide if they differ by more than their errors; otherwise
-                // integers.
+                // Rounded values decide if they differ by more than their errors; otherwise integers
+                // decide.
                 let doubt = errors[i] + near.error;
                 let wins = if image.faces[i] == NONE || value - nearness[i] > doubt {
                     true
@@ -136,13 +136,13 @@ fn zbuffer_and(
     DepthImage { image, nearness, unit: rays.depth_unit, perspective: rays.is_perspective() }
 }
 
-/// Whether a face hides another in a pixel: it is nearer, or as near and of the later polygon.
+/// Whether a face hides another in a pixel: it is nearer, or at the same distance and of the later polygon.
 ///
 /// Nearness is ∓φ/κ, so the nearer one has the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ.
 #[cold]
 fn is_drawn_over(rays: &Rays, faces: &Faces, face: u32, other: u32, x: u32, y: u32) -> bool {
     let pair = PlanePair::new(rays, [face, other].map(|face| Plane::of(faces, face)));
-    // κ_a φ_b − κ_b φ_a: the sign is turned once more.
+    // κ_a φ_b − κ_b φ_a, so the sign is reversed once more.
     let across = pair.at(rays.pixel(x, y)).determinant.sign().reverse();
     let [a, b] = pair.kappas.map(|kappa| kappa.sign().is_lt());
     let nearer = if a ^ b ^ rays.is_perspective() { across.reverse() } else { across };
@@ -161,7 +161,7 @@ pub(crate) struct Layers {
 }
 
 impl Layers {
-    /// Without any faces.
+    /// No faces in any pixel.
     pub(crate) fn new(rays: &Rays) -> Self {
         let [width, height] = rays.size().map(|side| side as usize);
         Self { width, sums: vec![0; width * height] }
@@ -190,9 +190,9 @@ pub enum Verdict {
     Empty,
     /// The right polygon is painted.
     Right,
-    /// Another polygon is painted than the nearest, but the tolerance allows either in front.
+    /// The painted polygon is not the nearest, but the tolerance allows either order.
     Contested,
-    /// A polygon is painted that another one hides.
+    /// The painted polygon is hidden by another one.
     WrongOrder,
     /// Nothing is painted where there is a polygon.
     Hole,
@@ -200,15 +200,15 @@ pub enum Verdict {
     Spill,
 }
 
-/// How a painted picture differs from the true one.
+/// The differences between a painted picture and the true one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Comparison {
     /// Pixels in which the true picture shows a polygon.
     pub covered: usize,
-    /// Pixels that show another polygon than the nearest, where the tolerance allows for both.
+    /// Pixels that do not show the nearest polygon, where the tolerance allows either order.
     pub contested: usize,
-    /// Pixels that show a polygon which another one hides.
+    /// Pixels that show a polygon hidden by another one.
     pub wrong_order: usize,
     /// Pixels that show nothing where there is a polygon.
     pub holes: usize,
@@ -219,28 +219,28 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// How many pixels are wrong: all that differ but the contested ones.
+    /// The number of wrong pixels: all that differ, except contested ones.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
 }
 
-/// Added to the tolerance, in lattice units, for corners that are on their face's plane only by
-/// definition: each is stored rounded, off by up to 1 unit, and up to 4 such errors add up. If the
-/// tolerance is 0, no corner is moved and nothing is added.
+/// Added to the tolerance, in lattice units, for corners that are on their face's plane only by definition:
+/// each is stored rounded, off by up to 1 unit, and up to 4 such errors add up. If the tolerance is 0, no
+/// corner is moved and nothing is added.
 const MOVED_CORNERS: f64 = 4.0;
 
 /// Compares a painted picture with a true one, both made with the same rays.
 ///
-/// Polygons are compared, not faces: two faces of one polygon are the same. A pixel is *contested*
-/// if, along its ray, the painted face and the true one are at exactly the same distance, or the
-/// ray meets *each* of them within 2 τ of the plane of the other, where τ is the tolerance. For two
-/// polygons that are each within τ of a partition plane may both count as part of that plane, and
-/// then they are painted in input order. With τ = 0 only ties are contested.
+/// Polygons are compared, not faces: two faces of one polygon are the same. A pixel is *contested* if,
+/// along its ray, the painted face and the true one are at exactly the same distance, or the ray meets
+/// *each* of them within 2 τ of the plane of the other, where τ is the tolerance. The reason: two polygons
+/// that are each within τ of a partition plane may both count as part of that plane, and then they are
+/// painted in input order. With τ = 0 only ties are contested.
 ///
-/// So a view along one of the two planes excuses nothing by itself: the other polygon, which the
-/// ray meets at an angle, has to be as near. This rule knows the polygons, not the partition planes;
-/// [`verify`](crate::verify::verify()) knows both.
+/// So a view along one of the two planes excuses nothing by itself: the other polygon, which the ray meets
+/// at an angle, must be as near. This rule uses the polygons, not the partition planes;
+/// [`verify`](crate::verify::verify()) uses both.
 ///
 /// # Panics
 ///
@@ -252,9 +252,9 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
     compare_by(rays, faces, [painted, truth], allowed, |_, _| false)
 }
 
-/// As [`compare`], with a rule of its own: contested are two faces that are each met within a
-/// length, in lattice units, of the plane of the other; and what `is_open` says so of, given the
-/// nearest face, the painted one and the pixel.
+/// Like [`compare`], with its own rule: two faces are contested if each is met within a length, in lattice
+/// units, of the plane of the other, or if `is_open` returns true for the nearest face, the painted one and
+/// the pixel.
 pub(crate) fn compare_by(
     rays: &Rays,
     faces: &Faces,
@@ -290,30 +290,30 @@ pub(crate) fn compare_by(
     result
 }
 
-/// The distances from each of two planes of the point where the ray of a pixel meets the other, in
-/// lattice units, rounded.
+/// The distances from each of two planes of the point where the ray of a pixel meets the other, in lattice
+/// units, rounded.
 fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
     let at = pair.at(pixel);
     let divisors = pair.divisors(rays, &at);
-    // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the
-    // plane that it is to meet gives 0 / 0 = NaN, which compares as too far.
+    // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the plane
+    // that it should meet gives 0 / 0 = NaN, which compares as too far.
     let value = at.determinant.to_f64().abs();
     [0, 1].map(|to| value / (divisors[1 - to].abs() * pair.planes[to].normal().length()))
 }
 
-/// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the
-/// partition plane between their pieces: the nearer face and the other one, each with the side of
-/// the plane to which its piece belongs (`Greater` is the front, `Equal` the plane itself). It does if
-/// the ray meets the nearer face within the tolerance of that plane, and either meets the other face,
-/// or begins, within it as well; and if one of the two pieces reaches across the plane there.
+/// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the partition
+/// plane between their pieces. `pieces` are the nearer face and the other one, each with the side of the
+/// plane to which its piece belongs (`Greater` is the front, `Equal` the plane itself). Two conditions must
+/// hold. The ray meets the nearer face within the tolerance of that plane, and within it also meets the
+/// other face or begins. One of the two pieces reaches across the plane there.
 ///
-/// A tolerance can cause no other wrong pixels. Suppose the eye is in front of the plane, and a
-/// piece that the order puts in front is hidden by one that it puts behind. Along the ray, the
-/// height above the plane is linear. It is positive at the eye, at most τ where the ray meets the
-/// hiding piece, and at least −τ further on, at the hidden piece. If the height falls along the
-/// ray, both pieces are met within τ of the plane; if it rises, it is at most τ from the eye to the
-/// hiding piece. If neither piece reached across, the height would fall to 0 or less at the hiding
-/// piece, and not be below 0 further on. (Only along a ray within the plane can it be 0 at both.)
+/// A tolerance can cause no other wrong pixels. Suppose the eye is in front of the plane, and a piece that
+/// the order puts in front is hidden by one that it puts behind. Along the ray, the height above the plane
+/// is linear. It is positive at the eye, at most τ where the ray meets the hiding piece, and at least −τ
+/// further on, at the hidden piece. If the height falls along the ray, both pieces are met within τ of the
+/// plane; if it rises, it is at most τ from the eye to the hiding piece. If neither piece reached across,
+/// the height would fall to 0 or less at the hiding piece, and not be below 0 further on. (Only along a ray
+/// within the plane can it be 0 at both.)
 pub(crate) fn is_open(
     rays: &Rays,
     faces: &Faces,

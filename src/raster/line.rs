@@ -1,12 +1,12 @@
-//! The lines that bound a piece of a face, as the rays see them.
+//! The lines that bound a piece of a face, as functions of the pixel.
 //!
-//! Planes are functions of the pixel, too. Two numbers decide where the ray of pixel (x, y) meets a plane with
-//! normal n through p. For a perspective, κ = n·(eye − p) is constant and φ(x, y) = n·direction(x, y) is
-//! linear in the pixel; for a parallel projection κ = n·direction is constant and φ(x, y) =
-//! n·(point(x, y) − p) is linear. The ray meets the plane after −κ/φ of its direction (perspective) or
-//! −φ/κ (parallel). If the divisor is 0, the ray is within the plane or never meets it. The point where
-//! the ray meets a plane f lies in front of another plane h if sgn κ_f · (κ_f φ_h − κ_h φ_f) is positive,
-//! provided that f is met ahead of the eye.
+//! Planes are functions of the pixel, too. Two numbers decide where the ray of pixel (x, y) meets a plane
+//! with normal n through p. For a perspective, κ = n·(eye − p) is constant and φ(x, y) = n·direction(x, y)
+//! is linear in the pixel; for a parallel projection κ = n·direction is constant and φ(x, y) = n·(point(x,
+//! y) − p) is linear. The ray meets the plane after −κ/φ of its direction (perspective) or −φ/κ (parallel).
+//! If the divisor is 0, the ray is within the plane or never meets it. The point where the ray meets a
+//! plane f lies in front of another plane h if sgn κ_f · (κ_f φ_h − κ_h φ_f) is positive, provided that f
+//! is met ahead of the eye.
 
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ use super::exact::{Plane, PlanePair, volume};
 use super::rays::{Given, RayOrigin, Rays, float};
 use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 
-/// Where a boundary line comes from.
+/// The source of a boundary line.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     /// The edge from one lattice point to another, straight through both.
@@ -23,7 +23,7 @@ pub(super) enum Source {
     Upright([[f64; 3]; 2], usize),
     /// A plane that cut the face.
     Cut(EdgeLine),
-    /// The plane through the eye across the direction of view: inside is ahead of it.
+    /// The plane through the eye parallel to the picture: ahead of it is inside.
     Ahead,
 }
 
@@ -65,11 +65,11 @@ impl Seen<'_> {
         Boundary { k, bound, source }
     }
 
-    /// Whether inside is where the line's function, as [`exact`](Self::exact) has it, is negative.
+    /// Whether the line's function, as in [`exact`](Self::exact), is negative inside.
     fn is_flipped(&self, source: Source) -> bool {
         match source {
-            // Seen from the front, counter-clockwise edges have the inside on their left: there
-            // the eye, the edge and the ray span a negative volume.
+            // Seen from the front, counter-clockwise edges have the inside on their left: there the eye,
+            // the edge and the ray span a negative volume.
             Source::Edge(_) => self.positive == self.rays.is_perspective(),
             // The upright plane faces outwards where the face's normal runs with the axis.
             Source::Upright(_, axis) => {
@@ -81,14 +81,14 @@ impl Seen<'_> {
         }
     }
 
-    /// On which side of a line the ray of a pixel passes: inside is `Greater`; exactly on the line
-    /// is `Equal`.
+    /// The side of a line on which the ray of a pixel passes: inside is `Greater`; exactly on the line is
+    /// `Equal`.
     pub(super) fn exact(&self, source: Source, x: u32, y: u32) -> Ordering {
         self.oriented(source, self.rays.pixel(x, y))
     }
 
-    /// The side of a line for a ray that meets it exactly. The ray is treated as moved a little to the
-    /// right, and by much less downwards, which matters if the line runs to the right.
+    /// The side of a line for a ray that meets it exactly. The ray is treated as moved slightly to the
+    /// right, and much less downwards, which matters only for a line that runs to the right.
     pub(super) fn tie(&self, source: Source) -> Ordering {
         let right = self.oriented(source, Given::Step(self.rays.right));
         if right.is_ne() { right } else { self.oriented(source, Given::Step(self.rays.down)) }
@@ -110,10 +110,10 @@ impl Seen<'_> {
     }
 }
 
-/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b −
-/// a)), or (point − a) · ((a − b) × direction). The factor's components are off by 4.4
-/// roundings of the sum of their two products, the vectors that they are multiplied by 1, their scalar
-/// products by 3 more, the evaluation by 4.
+/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)), or (point
+/// − a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of the sum of their two
+/// products, the vectors that they are multiplied by 1, their scalar products by 3 more, the evaluation by
+/// 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
@@ -172,8 +172,8 @@ impl Sheet {
         }
     }
 
-    /// The plane through two lattice points and along an axis, as
-    /// [`Plane::upright`](crate::raster::exact::Plane::upright) has it.
+    /// The plane through two lattice points and along an axis, as in
+    /// [`Plane::upright`](crate::raster::exact::Plane::upright).
     pub(crate) fn upright(rays: &Rays, a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
         let (mut normal, (j, k)) = ([0.0; 3], ((axis + 1) % 3, (axis + 2) % 3));
         normal[j] = b[k] - a[k];

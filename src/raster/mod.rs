@@ -1,16 +1,15 @@
 //! Pictures of faces, exact in every pixel, and their comparison.
 //!
-//! A camera becomes [`Rays`]: one integer ray per pixel. Whether a ray meets a piece of a face, and
-//! which of two faces it meets first, are signs of integer polynomials. So a painter and a depth
-//! buffer that are both right make the *same* picture; if they differ, one of them is wrong. This
-//! module judges orders, so it does not know how an order was found.
+//! A camera becomes [`Rays`]: one integer ray per pixel. Whether a ray meets a piece of a face, and which
+//! of two faces it meets first, are signs of integer polynomials. So a painter and a depth buffer that are
+//! both right make the *same* picture; if they differ, one of them is wrong. This module judges orders, so
+//! it does not know how an order was computed.
 //!
-//! It shares no arithmetic with the builder either. It computes planes from the corners that define
-//! them, in integers of its own, so that a mistake in the builder's arithmetic shows as wrong
-//! pixels and is not repeated here. It takes over the input: the faces' corners on the lattice;
-//! which of them define a face's plane, and along which axis the others are moved to it; the eye on
-//! the lattice; and the labels that name the lines of a piece. Tests of the preparation compare
-//! these with the polygons as given.
+//! It shares no arithmetic with the builder. It computes planes from their defining corners in separate
+//! integers, so a mistake in the builder's arithmetic shows as wrong pixels and is not repeated here. It
+//! does share the input: the faces' corners on the lattice; the corners that define a face's plane, and the
+//! axis along which the others are moved to it; the eye on the lattice; and the labels that name the lines
+//! of a piece. Tests of the preparation compare these with the polygons as given.
 
 mod coverage;
 mod exact;
@@ -33,8 +32,8 @@ pub(crate) use rays::Window;
 #[cfg(feature = "drawing")]
 pub(crate) use rays::{RayOrigin, VERTEX_ERROR};
 
-/// For painters of other orders, which `crates/evidence` compares with the tree's. What they draw is
-/// named by faces on the lattice, which users do not see.
+/// For painters of other orders, which `crates/evidence` compares with the tree's. They name faces on the
+/// lattice, which users do not see.
 #[doc(hidden)]
 pub use self::{
     coverage::{Outline, Piece},

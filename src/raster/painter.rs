@@ -1,5 +1,5 @@
-//! The painter: a later piece covers earlier ones. And pictures in colours: RGB, 8 bits each, row by row from the
-//! top left.
+//! The painter: later pieces cover earlier ones. Also pictures in colour: RGB, 8 bits each, row by row from
+//! the top left.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::judge::{Comparison, DepthImage, Verdict};
 use super::rays::Rays;
 use crate::exact::Faces;
 
-/// Draws pieces one by one: a later piece over earlier ones.
+/// Draws pieces one by one, each over the earlier ones.
 #[derive(Debug)]
 pub struct Painter<'a> {
     rays: &'a Rays,
@@ -30,7 +30,8 @@ impl<'a> Painter<'a> {
         Self { rays, faces, is_front_to_back: false, image: Image::new(rays.size()) }
     }
 
-    /// The same for pieces that come front to back: a later piece shows only where no earlier one does.
+    /// The same painter for pieces in front-to-back order: a later piece is visible only where no earlier
+    /// one is.
     #[must_use]
     pub fn front_to_back(self) -> Self {
         Self { is_front_to_back: true, ..self }
@@ -91,7 +92,7 @@ pub(crate) fn covers(rays: &Rays, faces: &Faces, piece: Piece<'_>, [x, y]: [u32;
 /// Face number for "no face".
 pub const NONE: u32 = u32::MAX;
 
-/// Which face shows in each pixel, row by row from the top left.
+/// The visible face in each pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     pub(super) size: [u32; 2],
@@ -122,12 +123,12 @@ impl Image {
         &self.faces
     }
 
-    /// How many pixels show a face.
+    /// The number of pixels that show a face.
     pub fn covered(&self) -> usize {
         self.faces.iter().filter(|&&face| face != NONE).count()
     }
 
-    /// How many times pixels were covered by a piece, overdrawn ones included.
+    /// The number of times that pieces covered pixels, overdrawn ones included.
     pub fn drawn(&self) -> u64 {
         self.drawn
     }
@@ -140,7 +141,7 @@ impl Image {
 
 /// A colour for a polygon by its number: neighbours in number differ clearly.
 pub fn colour_of(polygon: usize) -> [u8; 3] {
-    // Steps of the golden ratio spread the hues evenly however many there are.
+    // Steps of the golden ratio spread any number of hues evenly.
     let hue = (polygon as f64 * 0.618_033_988_749_894_9).fract() * 6.0;
     let (saturation, value) = match polygon % 3 {
         0 => (0.55, 0.95),
@@ -154,15 +155,15 @@ pub fn colour_of(polygon: usize) -> [u8; 3] {
     })
 }
 
-/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is its normal and d the direction in which it is seen,
-/// both of length 1. So a surface is as bright as its colour, 1, where the viewer faces it, and 0.55 where it is seen
-/// edge-on. Both sides are equally bright.
+/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is its normal and d the direction of view,
+/// both of length 1. So a surface has its full colour, 1, where the viewer faces it, and 0.55 where it is
+/// seen edge-on. Both sides are equally bright.
 pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
 
-/// The picture in colours: each polygon in the colour that `colour` returns for its number, darker
-/// the more obliquely it is seen; `background` where there is no polygon.
+/// The picture in colours: each polygon in the colour that `colour` returns for its number, darker the more
+/// obliquely it is seen; `background` where there is no polygon.
 ///
 /// # Panics
 ///
@@ -191,14 +192,14 @@ pub(super) fn flat_normal(faces: &Faces, face: u32) -> DVec3 {
     faces.normal(face).normalize()
 }
 
-/// A colour as it is seen on a surface.
+/// The shaded colour of a surface.
 pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3] {
     let share = brightness(normal, direction);
     colour.map(|c| (f64::from(c) * share).round() as u8)
 }
 
-/// The depths as grey, from that of the nearest pixels to that of the furthest, `[255, 40]` or
-/// `[40, 255]`; black is nothing. The scale is linear in depth between the nearest and the furthest
+/// The depths as grey, from that of the nearest pixels to that of the furthest, `[255, 40]` or `[40, 255]`;
+/// pixels without a face are black. The scale is linear in depth between the nearest and the furthest
 /// hundredth of the pixels.
 pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     let depths: Vec<f64> = depth.depths().collect();
@@ -233,20 +234,19 @@ pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     colours.flatten().collect()
 }
 
-/// Paints a colour over that of a pixel, as every picture in colours of this library does. Amounts of
-/// red, green and blue are from 0 to 255. An opacity of 1 hides what is behind; 0 is invisible.
+/// Paints a colour over that of a pixel, as in every colour picture of this library. Amounts of red, green
+/// and blue are from 0 to 255. An opacity of 1 replaces the pixel's colour; 0 is invisible.
 ///
-/// Rounded, so that the order counts: pixels painted elsewhere come out the same, bit for bit, only if
-/// the same colours are painted over the same ground one by one.
+/// The result is rounded, so the order counts: pixels painted elsewhere are bit for bit the same only if
+/// the same colours are painted over the same background one by one.
 pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
     for (old, new) in pixel.iter_mut().zip(colour) {
         *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
     }
 }
 
-/// Calls `paint` with each pixel that a piece covers, by its number, row by row from the top left, and
-/// with the colour there: shaded as by [`picture`], darker the more obliquely the piece is
-/// seen.
+/// Calls `paint` with each pixel that a piece covers, by its number, row by row from the top left, and with
+/// the colour there: shaded like [`picture`], darker the more obliquely the piece is seen.
 pub(crate) fn for_each_shaded(
     rays: &Rays,
     faces: &Faces,

@@ -11,16 +11,16 @@ use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
 ///
-/// With x and y the column and row of a pixel, all vectors integers:
+/// With x and y the column and row of a pixel, and only integer vectors:
 ///
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|
 /// | perspective | from the eye, in direction base + x·right + y·down |
 /// | parallel | through the point base + x·right + y·down, in one direction for all |
 ///
-/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel
-/// unless it is more than a million extents away, and every decision after that is exact. Narrower
-/// views are refused. The eye and the direction are those of [`Eye`], for which trees are ordered too.
+/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel unless it
+/// is more than a million extents away, and every decision after that is exact. Narrower views are refused.
+/// The eye and the direction are those of [`Eye`], which trees also use for orders.
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
 /// such as the cells of a partition, may share them. A function that takes rays and faces of different
@@ -31,7 +31,7 @@ pub struct Rays {
     pub(super) size: [u32; 2],
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
-    /// The height of the picture of which these are some rows, and how many rows are above them.
+    /// The height of the whole picture of which these are some rows, and the number of rows above them.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
@@ -43,16 +43,16 @@ pub struct Rays {
     pub(crate) down: [i64; 3],
     /// The parameter of the ray through the middle of the picture.
     middle: [i64; 3],
-    /// Maps a point relative to the eye, or to the middle of the picture, to multiples of right,
-    /// down, and the direction through the middle.
+    /// Maps a point relative to the eye, or to the middle of the picture, to multiples of right, down, and
+    /// the direction through the middle.
     to_picture: [DVec3; 3],
-    /// The relative error of that.
+    /// The relative error of this map.
     rounding: f64,
-    /// The world length that a multiple of 1 of the third stands for.
+    /// The world length of one unit of the third multiple.
     pub(super) depth_unit: f64,
 }
 
-/// The start or the direction that all rays share.
+/// The start or the direction of all rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum RayOrigin {
     /// They start at the eye: an integer times 2^shift.
@@ -71,20 +71,21 @@ pub(super) enum Given {
 /// The magnitude of directions, and the largest shift of an eye (its distance in powers of two
 /// beyond 2⁶¹).
 ///
-/// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a
-/// direction 168, and the product of two such 358: [`Digits`](super::digits) hold every decision.
-/// Too large: a wide view leaves the [`REGION`], as a direction's components, and those of `right` and
-/// `down` times the picture's sides, add up to three times as much. Too small: narrow views are refused.
+/// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a direction 168,
+/// and the product of two such 358: [`Digits`](super::digits) hold every decision. Too large: a wide view
+/// leaves the [`REGION`], because a direction's components, and those of `right` and `down` times the
+/// picture's sides, add up to three times as much. Too small: narrow views are refused.
 const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
-/// Points that parallel rays go through, and directions, are below this in magnitude.
+/// The magnitude of points on parallel rays, and of directions, is below this.
 const REGION: f64 = (1u64 << 60) as f64;
-/// Pixels have at least this size for each ray of the picture's width and height. Components of `right` and
-/// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between it and the
-/// middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h is the
-/// distance of the picture's plane from the eye, and σ the smallest singular value of the matrix with the columns
-/// `right` and `down`. With the angle φ between the two, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (Of square pixels
-/// it is equal.) σ is the size meant. Too small: more than a thousandth of a pixel.
+/// The least size of a pixel for each ray of the picture's width and height. Components of `right` and
+/// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between
+/// it and the middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d|
+/// / (h · σ): h is the distance of the picture's plane from the eye, and σ the smallest singular value of
+/// the matrix with the columns `right` and `down`. With the angle φ between the two, σ² ≥
+/// min(|right|, |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the pixel's size here. Too
+/// small: rays are off by more than a thousandth of a pixel.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
@@ -92,19 +93,20 @@ impl Rays {
     ///
     /// # Errors
     ///
-    /// If a perspective camera is further from the scene than about 2³⁰ of its extents; if a parallel
-    /// one shows something as far from it as 2⁹ extents; or if the view is so narrow that rays could be off by a
-    /// thousandth of a pixel. In a picture of n pixels, width and height together, no pixel is too small that has
-    /// n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000 by 1 000 pixels, that is a
-    /// field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. An oblong pixel is as large as its shorter
-    /// side; a skewed one, as its shorter side times √(1 − |cos φ|), where φ is the angle between its sides.
+    /// If a perspective camera is further from the scene than about 2³⁰ of its extents; if a parallel one
+    /// shows something as far from it as 2⁹ extents; or if the view is so narrow that rays could be off by
+    /// a thousandth of a pixel. In a picture of n pixels, width and height together, every pixel is large
+    /// enough that has n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000
+    /// by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. The
+    /// size of an oblong pixel is its shorter side; that of a skewed pixel, its shorter side times √(1
+    /// − |cos φ|), where φ is the angle between its sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }
 
-    /// The rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a
-    /// picture that is as many times as wide and as high. A picture with several rays a pixel may
-    /// be larger than cameras allow; draw it by [`rows`](Self::rows).
+    /// The rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a picture
+    /// `samples` times as wide and as high. It may be larger than cameras allow; draw it by
+    /// [`rows`](Self::rows).
     ///
     /// # Errors
     ///
@@ -148,8 +150,8 @@ impl Rays {
         }
     }
 
-    /// Rays with pixels of the width and height `steps`, which are refused if their size is less than `finest`;
-    /// `middle` is the parameter of the middle one.
+    /// Rays with pixels of the width and height `steps`, which are refused if their size is less than
+    /// `finest`; `middle` is the parameter of the middle one.
     #[allow(clippy::too_many_arguments, reason = "both kinds of camera differ in all of them")]
     fn build(
         camera: &Camera,
@@ -177,8 +179,8 @@ impl Rays {
             return refused(problem);
         }
         let integer = |v: DVec3| v.to_array().map(|c| c.round() as i64);
-        // Even steps, so that half a step is an integer and the middle of the picture is exact,
-        // whatever the picture's size.
+        // Even steps, so that half a step is an integer and the middle of the picture is exact for every
+        // picture size.
         let even = |v: DVec3| integer(v * 0.5).map(|c| 2 * c);
         let (right, down, middle) = (even(right), even(down), integer(middle));
         let [columns, rows] = size.map(|c| i64::from(c) - 1);
@@ -209,12 +211,12 @@ impl Rays {
         })
     }
 
-    /// Whether they were made for the grid of some faces.
+    /// Whether they were made for the grid of the given faces.
     pub(crate) fn are_for(&self, faces: &Faces) -> bool {
         self.lattice == *faces.lattice()
     }
 
-    /// Panics unless they were made for the grid of some faces.
+    /// Panics unless they were made for the grid of the given faces.
     pub(crate) fn expect(&self, faces: &Faces) {
         assert!(
             self.are_for(faces),
@@ -222,8 +224,8 @@ impl Rays {
         );
     }
 
-    /// The same rays, of some rows of the picture only: row 0 of the result is the first of them.
-    /// So a large picture can be drawn in parts, each of little memory.
+    /// The same rays, restricted to some rows of the picture: row 0 of the result is the first of them. So
+    /// a large picture can be drawn in parts, each with little memory.
     ///
     /// Rows beyond the picture are left out.
     #[must_use]
@@ -235,14 +237,14 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// The same rays, restricted to meet only the fronts of faces: the sides from which their
-    /// corners run counter-clockwise.
+    /// The same rays, which meet only the fronts of faces: the sides from which their corners run
+    /// counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }
 
-    /// The same rays, with coordinates in the picture from the corner of the first pixel instead of its centre:
-    /// exact, as `right` and `down` are even.
+    /// The same rays, with coordinates in the picture from the corner of the first pixel instead of its
+    /// centre. Exact, because `right` and `down` are even.
     #[cfg(feature = "drawing")]
     pub(crate) fn with_corner_origin(self) -> Self {
         let base = std::array::from_fn(|i| self.base[i] - self.right[i] / 2 - self.down[i] / 2);
@@ -259,13 +261,13 @@ impl Rays {
         self.size
     }
 
-    /// The viewpoint to order fragments for: the camera's.
+    /// The viewpoint for ordering fragments: the camera's.
     pub fn viewpoint(&self) -> Viewpoint {
         self.viewpoint
     }
 
-    /// Where the ray of a pixel starts and its direction, in lattice units, for judges of other
-    /// arithmetic. The ray of a parallel camera goes on backwards.
+    /// The start and the direction of a pixel's ray, in lattice units, for judges with other arithmetic.
+    /// The ray of a parallel camera also continues backwards.
     #[doc(hidden)]
     pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
         let wide = |v: [i64; 3]| v.map(i128::from);
@@ -303,8 +305,8 @@ impl Rays {
         }
     }
 
-    /// The eye relative to a lattice point; for parallel rays, the point that the first pixel's ray
-    /// goes through. Each component is within 2.4 roundings.
+    /// The eye relative to a lattice point; for parallel rays, the point of the first pixel's ray. Each
+    /// component is within 2.4 roundings.
     ///
     /// (An integer beyond 2⁵³, rounded, less a coordinate of at most 2⁵¹.)
     #[inline]
@@ -327,18 +329,18 @@ pub(crate) struct Window {
     pub(crate) rows: Range<u32>,
 }
 
-/// The largest error of a vertex's coordinate, in lattice units: 2, and room for the rounding of
+/// The largest error of a vertex's coordinate, in lattice units: 2, and a margin for the rounding of
 /// coordinates beyond 2⁵³.
 pub(crate) const VERTEX_ERROR: f64 = 2.5;
 /// Margin around a polygon's projection, in pixels, for the rounding of the projection.
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Rays {
-    /// All pixels whose rays may meet the convex hull of these points, each given to within
-    /// `VERTEX_ERROR`; `None` if there are none.
+    /// All pixels whose rays may meet the convex hull of these points, each given to within `VERTEX_ERROR`;
+    /// `None` if there are none.
     ///
-    /// A polygon that reaches behind the eye may be anywhere in the picture, unless all of it is
-    /// beyond one of the picture's sides.
+    /// A polygon that reaches behind the eye may be anywhere in the picture, unless it lies entirely beyond
+    /// one of the picture's sides.
     pub(crate) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
         let [[left, top], [right, bottom]] = self.region(points, VERTEX_ERROR)?;
         let range = |axis: usize, low: f64, high: f64| {
@@ -350,12 +352,13 @@ impl Rays {
         if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
     }
 
-    /// A box in the picture that has all of the convex hull of these points, each given to within `off` lattice units
-    /// along each axis: its least and largest coordinates, in pixels, of which the first pixel's centre has `first`.
-    /// `None` if the picture shows nothing of it. It is infinite for a polygon that reaches behind the eye.
+    /// A box in the picture that contains the convex hull of these points, each given to within `off`
+    /// lattice units along each axis: its least and largest coordinates, in pixels, where the first pixel's
+    /// centre is at `first`. `None` if the hull is outside the picture. The box is infinite for a polygon
+    /// that reaches behind the eye.
     pub(crate) fn region(&self, points: &[[f64; 3]], off: f64) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
-        // The picture's sides, in pixels from the middle of the picture of which it is a part.
+        // The picture's sides, in pixels from the middle of the whole picture.
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
         let sides = [[-0.5 * width, 0.5 * width], [top, top + height]];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -383,13 +386,14 @@ impl Rays {
         if !ahead {
             return Some([[f64::NEG_INFINITY; 2], [f64::INFINITY; 2]]);
         }
-        // From the middle of the whole picture to where coordinates begin.
+        // From the middle of the whole picture to the origin of coordinates.
         let shift = [0, 1].map(|axis: usize| self.first - 0.5 - sides[axis][0]);
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
-    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, as those of
-    /// [`region`](Self::region), times the last, which is positive ahead of the eye. With bounds on their errors.
+    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, as in
+    /// [`region`](Self::region), times the last, which is positive ahead of the eye. With bounds on their
+    /// errors.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (at, error) = self.in_picture(point, VERTEX_ERROR);
@@ -404,8 +408,8 @@ impl Rays {
         ([x + shift[0] * z, y + shift[1] * z, z], errors)
     }
 
-    /// A point, given to within `off`, in multiples of right, down and the direction through the middle (the last
-    /// is 1 for parallel rays), with bounds on their errors.
+    /// A point, given to within `off`, in multiples of right, down and the direction through the middle
+    /// (the last is 1 for parallel rays), with bounds on their errors.
     #[inline]
     fn in_picture(&self, point: [f64; 3], off: f64) -> (DVec3, DVec3) {
         let (arm, parallel) = match self.pencil {
@@ -425,9 +429,9 @@ impl Rays {
     }
 }
 
-/// The length of the longest line of sight in a perspective camera's picture, at distance 1; or, if that is more, as
-/// much as keeps rays in the [`REGION`]. (That is never more if the camera is not off-axis and its pixels are not skewed:
-/// see [`DIRECTION`].)
+/// The length of the longest line of sight in a perspective camera's picture, at distance 1; or, if larger,
+/// the length that keeps rays in the [`REGION`]. (It is never larger if the camera is not off-axis and its
+/// pixels are not skewed: see [`DIRECTION`].)
 fn reach(camera: &Camera) -> f64 {
     let (middle, [x, y]) = (camera.middle(), camera.half_size());
     let (across, rise) = (camera.right() * x, camera.up() * y);
@@ -456,12 +460,13 @@ fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 /// A bound on the relative error of a product of [`inverse`]'s matrix and a rounded vector, in the norms of
 /// [`Rays::in_picture`].
 ///
-/// With ε = 2⁻⁵³ and V the volume that the columns span as unit vectors: the columns are rounded by ε, their vector
-/// products by 4 ε of the product of two lengths, the determinant by 8 ε of that of three lengths, each component. The row
-/// itself is at least V times the product of two lengths. So it is off by less than 24 ε / V of itself, and its product
-/// with a vector, which is off by 2.4 ε itself, by less than (24 / V + 6) ε of the product of both lengths. That is √3
-/// times as much in terms of the sum of the row's and the largest of the vector's components. It is less than 2⁻⁴⁶ where
-/// V ≥ 1/2, and less than 2⁻⁴⁷ / V where V is less.
+/// With ε = 2⁻⁵³ and V the volume that the columns span as unit vectors: the columns are rounded by ε,
+/// their vector products by 4 ε of the product of two lengths, the determinant by 8 ε of that of three
+/// lengths, each component. The row itself is at least V times the product of two lengths. So it is off by
+/// less than 24 ε / V of itself, and its product with a vector, which is off by 2.4 ε itself, by less than
+/// (24 / V + 6) ε of the product of both lengths. That is √3 times as much in terms of the sum of the row's
+/// and the largest of the vector's components. It is less than 2⁻⁴⁶ where V ≥ 1/2, and less than 2⁻⁴⁷ / V
+/// where V is less.
 fn rounding(columns: [DVec3; 3]) -> f64 {
     let [a, b, c] = columns.map(DVec3::normalize);
     let volume = a.dot(b.cross(c)).abs();

@@ -1,4 +1,4 @@
-//! Generated scenes by name, as the program takes them.
+//! Generated scenes by name, as arguments of the program.
 
 use super::{
     Scene, chain, city, cornell_box, crossing, layers, newell_bars, random_triangles, sphere,
@@ -13,7 +13,7 @@ use crate::error::{Error, Kind};
 /// The largest number of polygons of a generated scene: about 2 GB of corners.
 const MOST: u32 = 20_000_000;
 
-/// How a scene is generated. If it has a size: the default size, and the meaning of a size.
+/// The generator of a scene. If it has a size: the default size, and the meaning of a size.
 #[derive(Clone, Copy)]
 enum Recipe {
     OfOneSize(fn() -> Scene),
@@ -21,8 +21,8 @@ enum Recipe {
     Seeded(u32, &'static str, fn(u32, u64) -> Scene),
 }
 
-/// Makes the list of generated scenes from a table: the variant, its name, a line on what it shows, and
-/// how it is generated.
+/// Makes the list of generated scenes from a table: the variant, its name, a one-line description, and its
+/// generator.
 macro_rules! builtin {
     ($($(#[$doc:meta])* $scene:ident $name:literal $description:literal $recipe:expr;)*) => {
         /// The generated scenes, by name.
@@ -75,12 +75,12 @@ builtin! {
 }
 
 impl Builtin {
-    /// The name by which a user asks for the scene.
+    /// The name by which users select the scene.
     pub fn name(self) -> &'static str {
         self.row().0
     }
 
-    /// One line on what the scene shows.
+    /// A one-line description of the scene.
     pub fn description(self) -> &'static str {
         self.row().1
     }
@@ -95,7 +95,7 @@ impl Builtin {
         }
     }
 
-    /// What the size counts; `None` for scenes of one size.
+    /// The meaning of the size; `None` for scenes of one size.
     pub fn size_meaning(self) -> Option<&'static str> {
         self.size().map(|(_, meaning)| meaning)
     }
@@ -150,7 +150,7 @@ impl FromStr for Builtin {
     }
 }
 
-/// A generated scene with the size asked for, such as `teapot:16`.
+/// A generated scene with a size, such as `teapot:16`.
 ///
 /// ```
 /// use binspace::scene::BuiltinSpec;
@@ -172,7 +172,7 @@ impl BuiltinSpec {
         self.scene
     }
 
-    /// The size asked for, or the default; `None` for scenes of one size.
+    /// The given size, or the default; `None` for scenes of one size.
     pub fn size(self) -> Option<u32> {
         self.size.or(self.scene.default_size())
     }
@@ -217,7 +217,7 @@ impl FromStr for BuiltinSpec {
         };
         let scene: Builtin = name.parse()?;
         let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
-            let problem = format!("the scene {scene} has one size; ask for it as `{scene}`");
+            let problem = format!("the scene {scene} has one size; write `{scene}`");
             return Err(Kind::Argument(problem).error());
         };
         let size = digits.parse().ok().filter(|size| sizes.contains(size));

@@ -14,8 +14,8 @@ fn of_eight_colours(name: String) -> Scene {
     scene
 }
 
-/// Three bars in a cycle: each covers a part of the next, so that no order of whole bars is right
-/// and one must be cut. 18 rectangles; up is z.
+/// Three bars in a cycle: each covers a part of the next, so no order of whole bars is right and one must
+/// be cut. 18 rectangles; up is z.
 ///
 /// The classic counterexample to sorting by depth, after M. E. Newell, R. G. Newell and T. L.
 /// Sancha, "A solution to the hidden surface problem", ACM 1972. Here the bars are axis-aligned
@@ -26,7 +26,7 @@ pub fn newell_bars() -> Scene {
     let mut low = DVec3::new(-4.5, 0.5, -1.5);
     let mut high = DVec3::new(4.5, 1.5, -0.5);
     let hues = [[0.80, 0.25, 0.20], [0.25, 0.65, 0.30], [0.25, 0.40, 0.80]];
-    // Without lighting, opposite faces share a shade and the three axes differ.
+    // Without lighting, opposite faces share a colour and the three axes differ.
     for (bar, rgb) in ["x", "y", "z"].into_iter().zip(hues) {
         let shades = [0.7, 0.85, 1.0].map(|shade: f32| {
             let color = rgb.map(|channel: f32| channel * shade);
@@ -140,10 +140,10 @@ fn height(noise: &[Vec<f64>], u: f64, v: f64) -> f64 {
 /// A unit sphere of about `faces` faces, up is z: quads between parallels and meridians, triangles
 /// at the poles.
 ///
-/// It has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron).
-/// Every quad is an isosceles trapezium inscribed in the sphere, so all faces are planar and the
-/// body is convex, up to the rounding of the corners. The worst case for trees whose planes are the
-/// faces' own: none of them splits anything off but its own face.
+/// It has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron). Every
+/// quad is an isosceles trapezium inscribed in the sphere, so all faces are planar and the body is convex,
+/// up to the rounding of the corners. The worst case for trees whose planes are the faces' own: each plane
+/// separates only its own face from the rest.
 pub fn sphere(faces: u32) -> Scene {
     let rows = (f64::from(faces) / 2.0).sqrt().round().max(2.0) as u64;
     let columns = 2 * rows;
@@ -224,8 +224,8 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
     scene
 }
 
-/// Draws until the triangle fits. One draw in about 16 does; a thousand misses in a row are as good
-/// as impossible, and then a fixed triangle ends the loop.
+/// Repeats until the triangle fits, which one in about 16 does. A thousand misses in a row are practically
+/// impossible; then a fixed triangle ends the loop.
 fn random_triangle(random: &mut SplitMix64) -> [DVec3; 3] {
     let draw = |_| {
         let a = random.point(0.0, 1.0);
@@ -244,8 +244,8 @@ fn fits(&[a, b, c]: &[DVec3; 3]) -> bool {
 
 /// `count` parallel squares, one behind the other; up is z.
 ///
-/// Square `i` lies in the plane y = `i`, has side 10 and faces −y. No plane of one touches another;
-/// a tree of their own planes can be a list of depth `count`, which is what makes the scene hard.
+/// Square `i` lies in the plane y = `i`, has side 10 and faces −y. No plane of one touches another. The
+/// scene is hard because a tree of their own planes can be a list of depth `count`.
 pub fn chain(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("chain:{count}"));
     for index in 0..count {
@@ -257,10 +257,9 @@ pub fn chain(count: u32) -> Scene {
 
 /// `count` nested squares, `gap` above one another; up is z.
 ///
-/// Square `i` lies at height `i`·`gap`, faces up, and is centred on the z axis; the lowest has side
-/// 2 and each is smaller by a `count`-th than the one below, so that a strip of every layer stays
-/// visible from above. A gap of 0 makes all of them coplanar; a small one tells exact decisions
-/// from tolerances.
+/// Square `i` lies at height `i`·`gap`, faces up, and is centred on the z axis; the lowest has side 2 and
+/// each is smaller by a `count`-th than the one below, so that a strip of every layer stays visible from
+/// above. A gap of 0 makes all of them coplanar; a small one distinguishes exact decisions from tolerances.
 pub fn layers(count: u32, gap: f64) -> Scene {
     let mut scene = of_eight_colours(format!("layers:{count}"))
         .with_view(DVec3::new(0.8, -1.6, 2.6), DVec3::ZERO);
@@ -312,7 +311,7 @@ pub fn unit_circle(step: u64, steps: u64) -> DVec2 {
     }
 }
 
-/// Taylor series for 0 ≤ x ≤ π/4; the terms left out are below 1e-20.
+/// Taylor series for 0 ≤ x ≤ π/4; the omitted terms are below 1e-20.
 fn small_sin_cos(x: f64) -> (f64, f64) {
     let square = x * x;
     let (mut sin, mut cos) = (1.0, 1.0);

@@ -1,14 +1,12 @@
 //! Scenes: polygons with flat colours, generated or read from a file.
 //!
-//! A [`Scene`] is a plain list of polygons, in the order in which they were added, and says nothing
-//! about how they are sorted or drawn. Generated scenes have one function each ([`cornell_box`],
-//! [`teapot`], …) and are listed by [`Builtin`]; with the feature `obj`, Wavefront OBJ files are
-//! read by `Scene::read_obj`.
+//! A [`Scene`] is a plain list of polygons, in the order in which they were added; it does not sort or
+//! draw. Generated scenes have one function each ([`cornell_box`], [`teapot`], …) and are listed by
+//! [`Builtin`]. With the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
 //!
-//! The corners of a polygon run counter-clockwise as seen from its front. The front of a closed
-//! body is its outside; that of a room is its inside. Every generated scene is the same, bit for
-//! bit, on every machine: generators use `+ − × ÷` and `sqrt` alone, which IEEE 754 defines to the
-//! last bit.
+//! The corners of a polygon run counter-clockwise seen from its front. The front of a closed body is its
+//! outside; that of a room is its inside. Every generated scene is bit for bit the same on every machine:
+//! generators use only `+ − × ÷` and `sqrt`, which IEEE 754 defines to the last bit.
 
 mod builtin;
 mod cornell;
@@ -34,9 +32,9 @@ use crate::Polygon;
 
 /// Polygons with colours.
 ///
-/// Polygons are numbered from 0 in the order in which they were pushed. A scene accepts everything:
-/// the tree builder decides about polygons of fewer than three corners, without area or with
-/// non-finite coordinates.
+/// Polygons are numbered from 0 in the order in which they were pushed. A scene accepts every polygon: the
+/// tree builder handles polygons with fewer than three corners, without area or with non-finite
+/// coordinates.
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -50,7 +48,7 @@ use crate::Polygon;
 /// assert_eq!(scene.material(0).name, "red");
 /// ```
 ///
-/// Two scenes are equal if they hold the same, even if it is from different lines of a file.
+/// Two scenes are equal if their contents are, even if these come from different lines of a file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     name: String,
@@ -67,8 +65,8 @@ pub struct Scene {
     view: Option<(DVec3, DVec3)>,
 }
 
-/// What a file says of corners besides their positions. A list is empty if the file says nothing of
-/// that kind; otherwise it has an entry for each corner that was read.
+/// Attributes of corners that a file gives besides positions. A list is empty if the file has no attribute
+/// of that kind; otherwise it has an entry for each corner that was read.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Attributes {
     uvs: Vec<Option<DVec2>>,
@@ -76,7 +74,7 @@ struct Attributes {
     colors: Vec<Option<[f32; 3]>>,
 }
 
-/// A polygon of a [`Scene`]: its points, and how precise they are.
+/// A polygon of a [`Scene`]: its points and their precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScenePolygon<'a> {
     corners: &'a [DVec3],
@@ -149,13 +147,13 @@ impl Scene {
 
     /// Adds a polygon. A `material` that was never added shows as [`Material::DEFAULT`].
     pub fn push(&mut self, polygon: impl IntoIterator<Item = DVec3>, material: u32) {
-        // One by one: a wrong size hint asks for no memory.
+        // One by one, because a wrong size hint must not allocate memory.
         polygon.into_iter().for_each(|corner| self.corners.push(corner));
         self.ends.push(self.corners.len());
         self.material_of.push(material);
     }
 
-    /// Adds a quad, or the triangle that it is where neighbouring corners coincide.
+    /// Adds a quad, or a triangle if neighbouring corners coincide.
     fn push_quad(&mut self, corners: [DVec3; 4], material: u32) {
         let mut corners = corners.to_vec();
         corners.dedup();
@@ -186,12 +184,12 @@ impl Scene {
         &self.name
     }
 
-    /// How many polygons there are, degenerate ones included.
+    /// The number of polygons, degenerate ones included.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether there is no polygon.
+    /// Whether there are no polygons.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -206,8 +204,7 @@ impl Scene {
         &self.corners[start..self.ends[index]]
     }
 
-    /// Every polygon, in order: a slice of corners that knows its precision, which the default
-    /// tolerance follows.
+    /// Every polygon, in order: a slice of corners with its precision, which the default tolerance follows.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = ScenePolygon<'_>> + Clone {
         let polygon =
             |index| ScenePolygon { corners: self.polygon(index), precision: self.precision };
@@ -226,26 +223,26 @@ impl Scene {
     ///
     /// # Panics
     ///
-    /// If there is no such polygon or corner.
+    /// If the polygon or corner does not exist.
     pub fn uv(&self, polygon: usize, corner: usize) -> Option<DVec2> {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// The normal at a corner of a polygon, if a file gives it; of the length that the file says.
+    /// The normal at a corner of a polygon, if a file gives it, with the file's length.
     ///
     /// # Panics
     ///
-    /// If there is no such polygon or corner.
+    /// If the polygon or corner does not exist.
     pub fn normal(&self, polygon: usize, corner: usize) -> Option<DVec3> {
         self.attribute(&self.attributes.normals, polygon, corner)
     }
 
-    /// The colour of a corner of a polygon, if a file gives it: red, green and blue as the file says
-    /// them, usually from 0 to 1.
+    /// The colour of a corner of a polygon, if a file gives it: red, green and blue as in the file, usually
+    /// from 0 to 1.
     ///
     /// # Panics
     ///
-    /// If there is no such polygon or corner.
+    /// If the polygon or corner does not exist.
     pub fn color(&self, polygon: usize, corner: usize) -> Option<[f32; 3]> {
         self.attribute(&self.attributes.colors, polygon, corner)
     }
@@ -268,7 +265,7 @@ impl Scene {
         self.materials.get(number).unwrap_or(&UNKNOWN)
     }
 
-    /// The line of the file that a polygon is from, counted from 1; `None` in generated scenes.
+    /// The line of the file from which a polygon was read, counted from 1; `None` in generated scenes.
     pub fn line(&self, index: usize) -> Option<usize> {
         self.lines.get(index).copied()
     }
@@ -290,8 +287,8 @@ impl Scene {
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// An eye point and a point to look at, for scenes that have a usual or only possible view,
-    /// such as the Cornell box through its open side.
+    /// An eye point and a target, for scenes that have a usual or only possible view, such as the Cornell
+    /// box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }
@@ -301,9 +298,9 @@ impl Scene {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Material {
-    /// A name for people; need not be unique.
+    /// A name for people; it need not be unique.
     pub name: String,
-    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, as it stands.
+    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, unchanged.
     pub color: [f32; 3],
     /// From 0, invisible, to 1, opaque.
     pub opacity: f32,

@@ -20,55 +20,51 @@ use statements::{Statement, index, read};
 impl Scene {
     /// Reads a Wavefront OBJ file and the material libraries it names.
     ///
-    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its
-    /// corners, in whatever object or group it stands. A face of fewer than three different corners
-    /// stays in its place and is counted in the report; faces that are given twice, not convex or
-    /// not planar stay as they are, for the tree builder to judge. Corners keep their texture
-    /// coordinates, their normals, and the colours of their `v` lines ([`uv`](Self::uv),
-    /// [`normal`](Self::normal), [`color`](Self::color)). Points, lines and curves are left out,
-    /// and so is a weight behind the three coordinates of a `v` line. A line that ends in a
-    /// backslash goes on in the next.
+    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its corners,
+    /// in any object or group. A face with fewer than three different corners keeps its place and is
+    /// counted in the report. Faces that are given twice, not convex or not planar are kept for the tree
+    /// builder. Corners keep their texture coordinates, their normals, and the colours of their `v` lines
+    /// ([`uv`](Self::uv), [`normal`](Self::normal), [`color`](Self::color)). Points, lines and curves are
+    /// left out, and so is a weight after the three coordinates of a `v` line. A line that ends in a
+    /// backslash continues in the next.
     ///
     /// Coordinates are read as `f64`. Four units in the last decimal that they need are the scene's
-    /// [`precision`](Self::precision): of the decimals, or of the significant digits of the largest
-    /// coordinates, whichever number the file holds fixed. Zeros at the end of all coordinates do not
-    /// count (`1.230000` and `4.500000` need two decimals). Of a coordinate with more than 15
-    /// significant digits, what is left if it is rounded to 15 counts (`0.30000000000000004` needs
-    /// one), and one of less than about 10⁻¹¹ of the largest counts as 0. If no more than one
-    /// coordinate in 100 has nine significant digits or more *and* more decimals than all with
-    /// fewer digits, only the first three digits of such coordinates count, so that a few computed
-    /// numbers do not decide for all. If all coordinates of nine digits and more (but for one in 100)
-    /// are numbers of `f32`, as near as they are written, a unit is a step of `f32` of the largest.
-    /// Up is y, as OBJ files do not say.
+    /// [`precision`](Self::precision). The file holds fixed either the number of decimals or the number of
+    /// significant digits of the largest coordinates. Zeros at the end of all coordinates do not count
+    /// (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15 significant digits is
+    /// first rounded to 15 (`0.30000000000000004` needs one), and one of less than about 10⁻¹¹ of the
+    /// largest counts as 0. If no more than one coordinate in 100 has nine significant digits or more *and*
+    /// more decimals than all with fewer digits, only the first three digits of such coordinates count, so
+    /// that a few computed numbers do not decide for all. If all coordinates of nine digits and more
+    /// (except one in 100) are `f32` numbers up to their written digits, a unit is a step of `f32` of the
+    /// largest. Up is y, because OBJ files do not define it.
     ///
-    /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity.
-    /// A library that is missing or unreadable is no error; its materials show as
-    /// [`Material::DEFAULT`](super::Material::DEFAULT), and the report says so.
+    /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity. A
+    /// missing or unreadable library is not an error: its materials appear as
+    /// [`Material::DEFAULT`](super::Material::DEFAULT), and the report lists it.
     ///
-    /// Libraries are read from the file's folder and the folders in it. A name that leads out of
-    /// it, because it is absolute or contains `..`, is not followed, and the report lists it.
-    /// (Symbolic links are followed: they were put there by whoever owns the folder, not by the
-    /// file.) Only regular files are read.
+    /// Libraries are read from the file's folder and the folders in it. A name that leads out of it,
+    /// because it is absolute or contains `..`, is not followed, and the report lists it. (Symbolic links
+    /// are followed: the owner of the folder made them, not the file.) Only regular files are read.
     ///
-    /// The file itself may be a device, or a pipe without a name as behind `/dev/stdin`. A named pipe is
-    /// refused, since reading one that nobody writes to would wait without an end. A line that is not
-    /// UTF-8 is taken for Latin-1.
+    /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is refused:
+    /// reading one without a writer would wait forever. A line that is not UTF-8 is read as Latin-1.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has
-    /// a coordinate that is malformed or not finite, or a face that names a corner which is not
-    /// there, or that has more than 2²² corners. The error names the line and face.
+    /// If the file cannot be read, is not in UTF-8 or an 8-bit superset of ASCII, has no face, has a
+    /// coordinate that is malformed or not finite, or has a face that names a missing corner or has more
+    /// than 2²² corners. The error names the line and face.
     pub fn read_obj(path: impl AsRef<Path>) -> Result<(Self, ObjReport), Error> {
         let path = path.as_ref();
         load(&path.display().to_string(), open(path), beside(path))
     }
 
-    /// Reads the text of an OBJ file as [`read_obj`](Self::read_obj) does.
+    /// Reads the text of an OBJ file like [`read_obj`](Self::read_obj).
     ///
-    /// `name` becomes the scene's name and stands in errors. `library` gives the content of a
-    /// material library by the name used in the text, or `None`; it is never asked for a name that
-    /// is absolute or contains `..`.
+    /// `name` is the scene's name, and errors include it. `library` returns the content of a material
+    /// library by the name used in the text, or `None`; it is never called with a name that is absolute or
+    /// contains `..`.
     ///
     /// # Errors
     ///
@@ -86,8 +82,8 @@ impl Scene {
 ///
 /// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth one, reorders
 /// faces by material, fails on indices of normals that are not read, and names no line in its errors. So it
-/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers. It holds all faces of a file
-/// at once, so [`ObjStream`] does without it.
+/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers. It holds all faces of a
+/// file at once, so [`ObjStream`] does not use it.
 fn load(
     name: &str,
     input: io::Result<impl Read>,
@@ -100,13 +96,13 @@ fn load(
             Statement::Vertex(_) => {
                 cleaned.push_str("\nv");
                 (&mut *words).take(3).for_each(|word| cleaned.extend([" ", word]));
-                // One number behind the coordinates is a weight.
+                // One number after the coordinates is a weight.
                 given.colors.push(match numbers(words)[..] {
                     [Some(r), Some(g), Some(b)] => Some([r, g, b].map(|c| c as f32)),
                     _ => None,
                 });
             }
-            // The second coordinate may be missing, and a third one is of no use here.
+            // The second coordinate may be missing, and a third one is not used.
             Statement::TextureCoordinates => given.uvs.push(match numbers(words)[..] {
                 [Some(u)] => Some(DVec2::new(u, 0.0)),
                 [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
@@ -138,7 +134,7 @@ fn load(
     let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
     let mut scene = contents.scene(name, library);
     for &material in &materials {
-        // Where all faces are triangles, `tobj` gives no numbers of corners.
+        // If all faces are triangles, `tobj` gives no numbers of corners.
         let sides = mesh.face_arities.get(scene.len()).map_or(3, |&sides| sides as usize);
         scene.push(corners.by_ref().take(sides).map(|&point| point.into()), material);
         let polygon = scene.polygon(scene.len() - 1);
@@ -158,10 +154,10 @@ fn is_degenerate(polygon: &[DVec3]) -> bool {
     others.next().is_none_or(|second| others.all(|corner| corner == second))
 }
 
-/// What a file gives corners besides their positions.
+/// Attributes of corners that a file gives besides positions.
 #[derive(Default)]
 struct Given {
-    /// Of each vertex, each `vt` line and each `vn` line; `None` where it is missing or malformed.
+    /// For each vertex, each `vt` line and each `vn` line; `None` where it is missing or malformed.
     colors: Vec<Option<[f32; 3]>>,
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
@@ -182,11 +178,12 @@ impl Given {
             number
         };
         let (uv, normal) = (next(self.uvs.len()), next(self.normals.len()));
-        // A number that is too large names no vertex, which is an error of its own.
+        // A number that is too large names no vertex, which is a separate error.
         self.corners.push([u32::try_from(vertex).ok(), uv, normal]);
     }
 
-    /// The attributes of each corner, and how many lines and references are malformed or name no line.
+    /// The attributes of each corner, and the number of lines and references that are malformed or name no
+    /// line.
     fn finish(self) -> (Attributes, usize) {
         let mut faults = self.faults
             + self.uvs.iter().filter(|uv| uv.is_none()).count()
@@ -221,11 +218,11 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
     words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
 }
 
-/// A Wavefront OBJ file that is read polygon by polygon, with nothing but its vertices in memory: for
-/// scenes too large for one tree.
+/// A Wavefront OBJ file that is read polygon by polygon, with only its vertices in memory: for scenes too
+/// large for one tree.
 ///
-/// Polygons, materials, precision and errors are those of [`Scene::read_obj`]. Texture coordinates,
-/// normals and colours of corners are passed over. As it is read twice, it must be a regular file.
+/// Polygons, materials, precision and errors are those of [`Scene::read_obj`]. Texture coordinates, normals
+/// and colours of corners are ignored. The file is read twice, so it must be a regular file.
 ///
 /// ```no_run
 /// use std::ops::ControlFlow;
@@ -252,7 +249,7 @@ pub struct ObjStream {
 }
 
 impl ObjStream {
-    /// Reads a file once, for its vertices, materials and precision, and to find what is wrong with it.
+    /// Reads a file once, for its vertices, materials and precision, and to find its errors.
     ///
     /// # Errors
     ///
@@ -261,7 +258,7 @@ impl ObjStream {
         let path = path.as_ref();
         let name = path.display().to_string();
         let (mut vertices, mut is_used) = (Vec::new(), Vec::new());
-        // Vertices that were named before they came: whether they come at all is known only at the end.
+        // Vertices that are named before they are defined: whether they exist is known only at the end.
         let mut ahead = Vec::new();
         let (mut contents, _) = read(&name, open_regular(path), |statement, _| {
             match statement {
@@ -281,7 +278,7 @@ impl ObjStream {
             }
             ControlFlow::<()>::Continue(())
         })?;
-        // All vertices that are named are there now.
+        // All named vertices exist now.
         ahead.into_iter().for_each(|index| is_used[index] = true);
         vertices.shrink_to_fit();
         let scene = contents.scene(&name, beside(path));
@@ -293,28 +290,28 @@ impl ObjStream {
         &self.scene
     }
 
-    /// How many polygons there are.
+    /// The number of polygons.
     pub fn polygons(&self) -> usize {
         self.report.faces
     }
 
-    /// What was left out. Degenerate faces are not counted.
+    /// A report on the parts left out. Degenerate faces are not counted.
     pub fn report(&self) -> &ObjReport {
         &self.report
     }
 
-    /// The vertices that polygons have, each once.
+    /// The vertices of polygons, each once.
     pub fn corners(&self) -> impl Iterator<Item = DVec3> + Clone {
         let used = self.vertices.iter().zip(&self.is_used).filter(|&(_, &is_used)| is_used);
         used.map(|(&vertex, _)| vertex)
     }
 
-    /// Reads the file again, and calls `visit` with the corners and the number of the material of each
-    /// polygon, in order, until that breaks.
+    /// Reads the file again, and calls `visit` with the corners and the material number of each polygon, in
+    /// order, until that breaks.
     ///
     /// # Errors
     ///
-    /// If the file cannot be read any more, or is another one by now.
+    /// If the file can no longer be read, or has changed.
     pub fn read<B>(
         &self,
         mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,
@@ -344,8 +341,8 @@ impl ObjStream {
 
 /// Opens a file to read all of it.
 fn open(path: &Path) -> io::Result<File> {
-    // Pipes without a name, as behind `/dev/stdin`, have a writer. Where `/dev/fd` has links, those to such
-    // pipes lead nowhere; elsewhere it has files.
+    // Unnamed pipes, such as `/dev/stdin`, have a writer. Where `/dev/fd` has links, links to such pipes
+    // have no target; elsewhere it has files.
     #[cfg(unix)]
     if let Ok(target) = path.canonicalize()
         && !target.starts_with("/dev")
@@ -361,11 +358,11 @@ fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 ///
-/// Those of opening, and that it is none.
+/// Those of opening, and if it is not a regular file.
 pub fn open_regular(path: &Path) -> io::Result<File> {
-    // Before it is opened: that alone may wait for somebody to write to a pipe.
+    // Checked before opening, because opening a pipe may wait for a writer.
     let found = fs::metadata(path)?;
-    // Opening a folder fails, or reading from it does, by an error that says so.
+    // Opening or reading a folder fails with an error that says so.
     if !found.is_file() && !found.is_dir() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
     }
@@ -386,9 +383,9 @@ fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
     Kind::File(FileFault { name: name.to_owned(), line: None, problem: problem.into() }).error()
 }
 
-/// What was read from an OBJ file, and what was left out.
+/// A report on an OBJ file: the faces read, and the parts left out.
 ///
-/// As text it is a short sentence about everything left out, or empty.
+/// Displayed as a short sentence about everything left out, or empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ObjReport {
@@ -401,11 +398,11 @@ pub struct ObjReport {
     pub skipped_points: usize,
     /// `l` lines.
     pub skipped_lines: usize,
-    /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are
-    /// malformed or name none. Those corners are without that attribute.
+    /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are malformed
+    /// or name none. Those corners lack that attribute.
     pub skipped_attributes: usize,
-    /// Lines that begin with any other word that is not understood, such as the statements for
-    /// free-form curves and surfaces.
+    /// Lines that begin with any other unknown word, such as the statements for free-form curves and
+    /// surfaces.
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
@@ -432,7 +429,7 @@ impl ObjReport {
 impl fmt::Display for ObjReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = |count: usize| (count > 0).then(|| count.to_string());
-        // The first three names and how many more there are.
+        // The first three names and the number of others.
         let list = |names: &[String]| {
             let shown = names.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
             match names.len() {

@@ -12,37 +12,36 @@ const KIND: Kind = Kind { name: *b"scen", version: 1 };
 
 /// More polygons, corners or materials than a tree can have.
 const MOST: usize = u32::MAX as usize;
-/// The most bytes of a name.
+/// The largest number of bytes of a name.
 const LONGEST: usize = 1 << 16;
 
 impl Scene {
-    /// Writes the scene with its materials and what a file said of its corners, so that
-    /// [`read`](Self::read) gives an equal one. It may follow a tree in the same file, as in those of
-    /// the program `binspace`.
+    /// Writes the scene with its materials and the attributes of its corners, so that [`read`](Self::read)
+    /// returns an equal one. It may follow a tree in the same file, as in files of the program `binspace`.
     ///
     /// # Layout
     ///
     /// Version 1. All numbers are little-endian; a list is its length as `u64` and then its items; an
-    /// item that may be missing is a `u32`, 1 if it is there and 0 if not, and then its numbers.
+    /// optional item is a `u32`, 1 if present and 0 if not, and then its numbers.
     ///
-    /// | part | what |
+    /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacescen`, the version as `u32` |
     /// | name | a list of bytes: UTF-8, at most 65 536 |
     /// | up, precision | three `f64`, and one |
-    /// | view | six `f64`, which may be missing: eye and target |
+    /// | view | six `f64`, optional: eye and target |
     /// | materials | the number as `u64`; each is a name, and red, green, blue and opacity as `f32` |
     /// | polygons | a list: the number of corners, and the material, as `u32` |
     /// | corners | of all polygons: three `f64` each |
-    /// | lines | a list: of each polygon the line of the file that it is from, `u64`; or empty |
-    /// | texture coordinates | a list: of each corner two `f64`, which may be missing; or empty |
+    /// | lines | a list: for each polygon its line in the source file, `u64`; or empty |
+    /// | texture coordinates | a list: for each corner two `f64`, optional; or empty |
     /// | normals | a list: likewise, three `f64` |
     /// | colours | a list: likewise, three `f32` |
     /// | end | the CRC-32 of all bytes before, `u32` |
     ///
     /// # Errors
     ///
-    /// Those of the writer, or if a name is too long. What was written until then is no file.
+    /// Those of the writer, or if a name is too long. The bytes written until then are not a valid file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let numbers = |file: &mut Writer<_>, numbers: &[f64]| {
@@ -81,15 +80,15 @@ impl Scene {
         file.finish()
     }
 
-    /// Reads a scene that [`write`](Self::write) has written. Takes up no more than the scene's bytes.
+    /// Reads a scene that [`write`](Self::write) has written. Reads only the scene's bytes.
     ///
-    /// Any file is safe to read, and memory grows with what is read. Coordinates and colours are what
-    /// the file says: as in any scene, they may be infinite or no numbers.
+    /// Any file is safe to read, and memory grows with the bytes read. Coordinates and colours are taken
+    /// from the file: as in any scene, they may be infinite or NaN.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read, are no scene, of another version, cut short or damaged, or lists
-    /// contradict each other; or if memory runs out. The message says which.
+    /// If the data cannot be read; if they are not a scene, have another version, are truncated or damaged,
+    /// or contain lists that contradict each other; or if memory runs out. The message says which.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let name = read_name(&mut file)?;
@@ -102,7 +101,7 @@ impl Scene {
             Ok((read_name(file)?, f32s(&file.bytes::<16>("materials")?)))
         };
         let count = file.count("materials", MOST)?;
-        // It grows with what is read.
+        // It grows with the bytes read.
         let materials: Vec<_> =
             (0..count).map(|_| material(&mut file)).collect::<Result<_, _>>()?;
         let mut corners = 0_u64;
@@ -133,7 +132,7 @@ impl Scene {
             })?,
         };
         file.finish()?;
-        let name_of = |bytes| String::from_utf8(bytes).map_err(|_| damaged("name", "is no text"));
+        let name_of = |bytes| String::from_utf8(bytes).map_err(|_| damaged("name", "is not UTF-8"));
         scene.name = name_of(name)?;
         for (name, [red, green, blue, opacity]) in materials {
             let color = [red, green, blue];

@@ -1,4 +1,5 @@
-//! Bounding boxes of a tree's subtrees and fragments, their normals, and half-spaces held against boxes.
+//! Bounding boxes of a tree's subtrees and fragments, bounds on their normals, and half-spaces compared
+//! with boxes.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -11,21 +12,21 @@ use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// Bounding boxes of a tree's subtrees and fragments, and what their normals have in common. They take
-/// about 90 bytes a fragment.
+/// Bounding boxes of a tree's subtrees and fragments, and bounds on the subtrees' normals. They take about
+/// 90 bytes per fragment.
 ///
-/// Boxes are stored in `f32`, from the scene's middle, and rounded outwards: each contains the exact
-/// vertices of its fragments, and those that [`Fragment::vertices`] gives.
+/// Boxes are stored in `f32`, relative to the scene's middle, and rounded outwards: each contains the exact
+/// vertices of its fragments, and those returned by [`Fragment::vertices`].
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     fragments: u32,
-    /// Of each node's subtree.
+    /// The box of each node's subtree.
     pub(crate) nodes: Vec<Flat>,
     normals: Vec<Normals>,
-    /// Of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
+    /// The box of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
     /// [`BLOCK`] of these, and so on, up to a single block.
     pub(crate) levels: Vec<Vec<Block>>,
-    /// Of each fragment.
+    /// The plane of each fragment.
     pub(super) planes: Planes,
 }
 
@@ -33,18 +34,18 @@ pub(crate) struct Bounds {
 /// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
 const SHARE: f64 = 2.0 * f64::EPSILON;
 const STEP: f64 = 1.0 / 64.0;
-/// Stored is the lattice point that is nearest to a moved corner.
+/// The stored position is the lattice point nearest to a moved corner.
 const MOVED: f64 = 0.5;
 
 impl BspTree {
     /// The bounding box `[low, high]` of all fragments, rounded outwards; `None` if there are none.
     ///
-    /// The first call makes boxes of all subtrees and fragments, in O(n) time, and keeps them with the
-    /// tree: about 90 bytes a fragment. So does the first call of [`Node::bounds`],
-    /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
-    /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
-    /// [culled](crate::Order::culled) order, also of an overlay. To make them ahead, call it after building.
-    /// Other threads that need the boxes meanwhile wait for them.
+    /// The first call computes boxes of all subtrees and fragments, in O(n) time, and keeps them with the
+    /// tree: about 90 bytes per fragment. So does the first call of [`Node::bounds`], [`Node::facing_all`],
+    /// [`hits`](Self::hits), [`is_occluded`](Self::is_occluded), [`fragments_in`](Self::fragments_in),
+    /// [`winding_number`](Self::winding_number), or the first [culled](crate::Order::culled) order, also of
+    /// an overlay. To compute them in advance, call this after building. Other threads that need the boxes
+    /// meanwhile wait for them.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -52,7 +53,7 @@ impl BspTree {
         Some(in_world(self.faces.lattice(), &block.all(bounds.len_of(top))))
     }
 
-    /// The boxes, made if they are not there.
+    /// The boxes, computed at the first use.
     pub(crate) fn boxes(&self) -> &Bounds {
         self.bounds.get_or_init(|| Bounds::new(self))
     }
@@ -66,9 +67,8 @@ impl Node<'_> {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
-    /// The side that all fragments of the subtree show to a viewpoint, where their normals and their
-    /// box tell at once. It is the exact [`Fragment::facing`] of each of them. O(1), but see
-    /// [`BspTree::bounds`].
+    /// The side that all fragments of the subtree show to a viewpoint, if their normals and their box
+    /// decide it. It is the exact [`Fragment::facing`] of each of them. O(1), but see [`BspTree::bounds`].
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));
@@ -82,8 +82,8 @@ fn in_world(lattice: &Lattice, bounds: &Flat) -> [DVec3; 2] {
 }
 
 impl Fragment<'_> {
-    /// The bounding box `[low, high]`, in the polygons' unit. It is rounded outwards, as
-    /// [`Node::bounds`] is. O(vertices).
+    /// The bounding box `[low, high]`, in the polygons' unit, rounded outwards like [`Node::bounds`].
+    /// O(vertices).
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.faces.lattice(), &self.flat_bounds())
     }
@@ -106,8 +106,9 @@ impl Fragment<'_> {
     }
 }
 
-/// How far the rounded place of a vertex, in lattice units, may be from the exact one along each axis: by
-/// whether a cut made it, and along which axis its face's corners were moved, if they were.
+/// The largest distance of a vertex's rounded position from the exact one along each axis, in lattice
+/// units. It depends on whether a cut made the vertex, and on the axis along which its face's corners were
+/// moved, if any.
 pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let rounded = if is_cut { vertex[axis].abs() * SHARE + STEP } else { 0.0 };
@@ -125,7 +126,7 @@ impl Bounds {
             .map(|face| rounded(&tree.faces, PlaneId::face(face)))
             .collect();
         let planes = Planes::of(tree.records.iter().map(|record| faces[record.face as usize]));
-        // Children come after their parents, so they are summed up before them from the last on.
+        // Children come after their parents, so going backwards they are summed up first.
         for node in tree.nodes().rev() {
             let index = node.index();
             let parts = [node.front(), Child::Leaf(node.on()), node.back()];
@@ -172,14 +173,14 @@ impl Bounds {
         self.levels[level][number as usize / BLOCK].get(number as usize % BLOCK)
     }
 
-    /// How many boxes a level has.
+    /// The number of boxes of a level.
     #[inline]
     pub(super) fn len_of(&self, level: usize) -> usize {
         (self.fragments as usize).div_ceil(BLOCK.pow(level as u32))
     }
 
-    /// The largest aligned block that begins with a run of fragments and is within it: its level,
-    /// and how many fragments it has.
+    /// The largest aligned block that begins with a run of fragments and is within it: its level, and its
+    /// number of fragments.
     pub(crate) fn block(&self, run: &Range<u32>) -> (usize, u32) {
         let (mut level, mut len) = (0, 1_u32);
         while level + 1 < self.levels.len()
@@ -223,7 +224,7 @@ fn levels(mut len: usize, blocks: Vec<Block>) -> Vec<Vec<Block>> {
 /// The unit is 2⁵¹ lattice steps, so coordinates are hardly larger than 1 in every scene.
 pub(crate) type Flat = [f32; 6];
 
-/// The box of nothing.
+/// The box of no points.
 const NOTHING: Flat = [
     f32::INFINITY,
     f32::INFINITY,
@@ -233,15 +234,15 @@ const NOTHING: Flat = [
     f32::NEG_INFINITY,
 ];
 
-/// How many boxes are summed up in one. Smaller: more memory; larger: more boxes are looked at where few
+/// The number of boxes summed up in one. Too small: more memory. Too large: more boxes are tested where few
 /// are met.
 pub(crate) const BLOCK: usize = 16;
 
 /// Boxes that are compared with a plane at once.
 const GROUP: usize = 4;
 
-/// [`BLOCK`] boxes by fours: the least x of four of them, their least y, and so on. The last of a list is
-/// filled up with zeros.
+/// [`BLOCK`] boxes in groups of four: the least x of four of them, their least y, and so on. The last block
+/// of a list is filled up with zeros.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Block([[Vec4; 6]; BLOCK / GROUP]);
 
@@ -256,13 +257,13 @@ impl Block {
         block
     }
 
-    /// The box of some number, less than [`BLOCK`].
+    /// The box with a given number, less than [`BLOCK`].
     #[inline]
     pub(crate) fn get(&self, k: usize) -> Flat {
         self.0[k / GROUP % (BLOCK / GROUP)].map(|row| row[k % GROUP])
     }
 
-    /// The box of the first ones, up to so many.
+    /// The box around the first `len` boxes.
     fn all(&self, len: usize) -> Flat {
         (0..len.min(BLOCK)).map(|k| self.get(k)).fold(NOTHING, union)
     }
@@ -277,7 +278,7 @@ pub(crate) fn around<const N: usize>(lattice: &Lattice, points: [DVec3; N]) -> F
     outwards([0, 1, 2].map(|axis| most(axis, f64::min)), [0, 1, 2].map(|axis| most(axis, f64::max)))
 }
 
-/// A box that contains one in lattice units.
+/// A box that contains a box in lattice units.
 fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     std::array::from_fn(|i| {
         let exact = if i < 3 { low[i] } else { high[i - 3] } / LATTICE_LIMIT;
@@ -304,7 +305,7 @@ fn union(a: Flat, b: Flat) -> Flat {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpace {
     normal: [f32; 3],
-    /// Less than the offset, by more than the rounding of all that it is compared with.
+    /// Less than the offset, by more than the rounding error of all compared values.
     offset: f32,
     /// The coordinates of a box's furthest corner along the normal, and of its nearest.
     far: [usize; 3],
@@ -312,12 +313,12 @@ pub(crate) struct HalfSpace {
 }
 
 /// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's
-/// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes
-/// 4 · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off.
-/// Smaller: boxes that reach over the plane are behind; larger: more of those near it are not.
+/// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes 4
+/// · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off. Too
+/// small: boxes that reach over the plane are behind. Too large: more boxes near it are not.
 const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
-/// Roundings in the place of the plane, by `f64`.
+/// Roundings of the plane's position, in `f64`.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
@@ -325,9 +326,9 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 const OUTSIDE: f64 = 4.0;
 
 impl HalfSpace {
-    /// A plane with a number that is infinite or NaN has all boxes in front.
+    /// A plane with an infinite or NaN number has all boxes in front.
     pub(crate) fn new((normal, offset): (DVec3, f64), lattice: &Lattice) -> Self {
-        // By a power of two first, which is exact, so that no digit is lost where numbers are subnormal.
+        // By a power of two first, which is exact, so that no digit is lost if numbers are subnormal.
         let largest = normal.abs().max_element();
         let up = if largest > 0.0 { -exponent_of(largest) } else { 0 };
         let normal = DVec3::from_array(normal.to_array().map(|c| scaled(c, up)));
@@ -342,15 +343,15 @@ impl HalfSpace {
         let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
         let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
         let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
-        // The same margin for all boxes: so a box inside another never is on the front of a plane that the
-        // larger one is behind.
+        // The same margin for all boxes, so that a box inside another is never in front of a plane that has
+        // the larger one behind.
         let offset = if least.is_nan() { f32::NEG_INFINITY } else { (least as f32).next_down() };
         let normal = if least.is_nan() { [0.0; 3] } else { normal.as_vec3().to_array() };
         let sides = |is_far| [0, 1, 2].map(|i| if (normal[i] > 0.0) == is_far { i + 3 } else { i });
         Self { normal, offset, far: sides(true), near: sides(false) }
     }
 
-    /// A bit for each box that is not behind, at least as far as certain.
+    /// A bit for each box that is not certainly behind.
     #[inline]
     pub(crate) fn meets(&self, block: &Block) -> u32 {
         self.fronts(block, self.far)
@@ -362,7 +363,7 @@ impl HalfSpace {
         self.fronts(block, self.near)
     }
 
-    /// A bit for each box that has a corner in front.
+    /// A bit for each box that has the given corner in front.
     #[inline]
     fn fronts(&self, Block(groups): &Block, [x, y, z]: [usize; 3]) -> u32 {
         let [a, b, c] = self.normal;
@@ -374,7 +375,7 @@ impl HalfSpace {
         fronts
     }
 
-    /// Whether all of a box is behind.
+    /// Whether a whole box is behind.
     #[inline]
     pub(crate) fn is_behind(&self, bounds: &Flat) -> bool {
         let [a, b, c] = self.normal;
@@ -391,16 +392,16 @@ pub(in crate::tree) struct Normals {
 }
 
 /// A bound on the error of a unit normal's coordinate in `f32`, and of adding this to it. With ε = 2⁻²³: a
-/// normal is within 2⁻³⁴ of its longest coordinate and is made a unit one in `f64`, which leaves less than
-/// ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
-/// more than 1. So this is more than twice as much as is needed. Smaller: a box may be without the exact
-/// normal; larger: fewer subtrees are decided at once.
+/// normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, which leaves less than ε
+/// / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
+/// more than 1. So this is more than twice the error. Too small: a box may not contain the exact normal.
+/// Too large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {
     const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// Of one, whose unit normal is given rounded.
+    /// The bounds of one unit normal, given rounded.
     fn of(normal: Vec3) -> Self {
         let normal = normal.to_array();
         Self { low: normal.map(|c| c - NORMAL_ERROR), high: normal.map(|c| c + NORMAL_ERROR) }
@@ -416,8 +417,8 @@ impl Normals {
         }
     }
 
-    /// Which side all polygons show to an eye that have such normals and vertices in a box; `None`
-    /// if these do not tell.
+    /// The side that all polygons with such normals and with vertices in a box show to an eye; `None` if
+    /// these do not decide.
     ///
     /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
     /// bounds of n and p bound each product, and so the sum.
@@ -432,8 +433,9 @@ impl Normals {
             high += products.into_iter().fold(f64::NEG_INFINITY, f64::max);
             size += products.into_iter().fold(0.0, |size, product| product.abs().max(size));
         }
-        // With ε = 2⁻⁵²: each product has a rounding, ε / 2 of it, and each sum one of its terms'. There are
-        // two sums that round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size is enough.
+        // With ε = 2⁻⁵²: each product has a rounding error of ε / 2 of it, and each sum one of ε / 2 of its
+        // terms. There are two sums that round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size
+        // is enough.
         let margin = 4.0 * f64::EPSILON * size;
         if low > margin {
             Some(Ordering::Greater)
@@ -459,15 +461,16 @@ impl Arms {
         Self { eye, w }
     }
 
-    /// The least and largest coordinates of the eye less a point of a box, in lattice units, or of
-    /// the direction towards the eye.
+    /// The least and largest coordinates of the eye minus a point of a box, in lattice units, or of the
+    /// direction towards the eye.
     fn to(&self, bounds: &Flat) -> [[f64; 3]; 2] {
         let [low, high] = in_lattice(bounds);
         let bound = |corner: [f64; 3], sign: f64| {
             std::array::from_fn(|axis| {
                 let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
-                // The eye and the difference are rounded, by ε / 2 of the eye, and of the eye and the corner; and
-                // so is the sum below, by as much again. (A direction and corners of boxes are exact.)
+                // The eye and the difference are rounded, by ε / 2 of the eye, and of the eye and the
+                // corner; the sum below is rounded by as much again. (A direction and corners of boxes are
+                // exact.)
                 let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
                 eye - corner + sign * rounded
             })

@@ -1,4 +1,4 @@
-//! The tree, and its figures.
+//! The tree and its statistics.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -31,17 +31,16 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// Build the tree once for static polygons, then ask it for an order every frame. An
-/// [`Overlay`](crate::overlay::Overlay) holds what moves, and lines and points; where most polygons move, as in a
-/// compositor of layers, a [`FrameBuilder`](crate::FrameBuilder) builds a tree every frame.
+/// Build the tree once for static polygons, then get an order from it every frame. An
+/// [`Overlay`](crate::overlay::Overlay) adds moving polygons, lines and points. If most polygons move, as
+/// in a compositor of layers, use a [`FrameBuilder`](crate::FrameBuilder), which builds a tree every frame.
 ///
-/// # What it holds
+/// # Contents
 ///
-/// The tree stores every polygon that has area, as one or more *fragments*: convex pieces. A
-/// polygon that no partition plane cuts is one fragment, so if there are as many fragments as faces
-/// ([`len`](Self::len) is [`face_count`](Self::face_count)), nothing was cut. Polygons without area are dropped
-/// ([`dropped`](Self::dropped) lists them). Polygons that are not convex, or not planar within the
-/// tolerance, are triangulated first.
+/// The tree stores every polygon that has area as one or more *fragments*: convex pieces. A polygon that no
+/// partition plane cuts is one fragment, so nothing was cut if [`len`](Self::len) equals
+/// [`face_count`](Self::face_count). Polygons without area are dropped ([`dropped`](Self::dropped) lists
+/// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
 /// A [`Fragment`](crate::Fragment) knows the index of its polygon in the input, its vertices, which of its edges are
 /// edges of the polygon, the weights of each vertex over the polygon's corners, and which side of it
@@ -50,29 +49,27 @@ use crate::faces::Preparation;
 ///
 /// # Order
 ///
-/// In back-to-front order, no fragment hides one that comes later. Front to back is exactly the
-/// reverse. Coplanar polygons come in input order in the former, from whichever side they are seen,
-/// so the later of two decals is painted over the earlier, [except](#exactness) within the tolerance of
-/// a third polygon that all but lies in their plane. An eye that lies on a plane may
-/// count as on either side of it. [`Viewpoint`](crate::Viewpoint) says what a NaN, an infinite eye
-/// or a zero direction does.
+/// In back-to-front order, no fragment hides one that comes later. Front to back is exactly the reverse.
+/// Back to front, coplanar polygons come in input order from either side, so the later of two decals is
+/// painted over the earlier. The [exception](#exactness) is a third polygon that lies almost in their
+/// plane. An eye on a plane may count as on either side of it. [`Viewpoint`](crate::Viewpoint) defines the
+/// effect of a NaN, an infinite eye or a zero direction.
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
 /// | [`order`](Self::order), written as a list of numbers: [`write_into`](crate::Order::write_into) | O(n) | your buffer |
 /// | [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
-/// | iterated over, from both ends | O(n) if read to its end | O(depth) |
+/// | iterated over, from both ends | O(n) for all of it | O(depth) |
 /// | walked by subtrees, some skipped: [`walk`](crate::Order::walk) | O(subtrees and fragments visited) | O(depth) |
 ///
-/// The list takes 1.4 to 4 ns a fragment on one thread, and is the fastest.
-/// [`back_to_front`](Self::back_to_front) and [`back_to_front_into`](Self::back_to_front_into) are short
-/// for the iterator and the list.
-/// [`same_order`](Self::same_order) tells whether an order is needed at all when the eye has moved.
+/// The list is fastest: 1.4 to 4 ns per fragment on one thread. [`back_to_front`](Self::back_to_front) and
+/// [`back_to_front_into`](Self::back_to_front_into) are short for the iterator and the list.
+/// [`same_order`](Self::same_order) returns whether a moved eye has still the same order.
 ///
 /// # Drawing a frame
 ///
-/// A [`Mesh`](crate::mesh::Mesh) has the fragments as vertices and triangles. Upload its vertices once. Every
-/// frame, write the indices back to front, into a buffer that you keep or into mapped memory:
+/// A [`Mesh`](crate::mesh::Mesh) holds the fragments as vertices and triangles. Upload its vertices once.
+/// Every frame, write the indices back to front into a reused buffer or mapped memory:
 ///
 /// ```
 /// use binspace::{BspTree, Viewpoint};
@@ -83,7 +80,7 @@ use crate::faces::Preparation;
 /// let mesh = tree.welded_mesh()?;
 /// let vertices: Vec<[f32; 3]> =
 ///     mesh.vertices().map(|vertex| vertex.position.as_vec3().to_array()).collect();
-/// // Every frame: nothing is allocated once `order` has grown to its size.
+/// // Every frame; once `order` is large enough, nothing is allocated.
 /// let mut order = Vec::new();
 /// let mut indices = vec![0; mesh.triangles().indices().len()];
 /// # for _ in 0..2 {
@@ -94,39 +91,39 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// If [`same_order`](Self::same_order) says that no partition plane lies between the eye and that of
-/// an earlier frame, the indices of that frame are still right.
+/// The indices of an earlier frame are still right if [`same_order`](Self::same_order) is true of its eye
+/// and the new one: no partition plane lies between them.
 ///
-/// Where most polygons are opaque, let a depth buffer draw those, in any order, and only the
-/// translucent ones back to front after them, with the depth test on and writing depths off.
-/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) gives the triangles of either. The picture is the
-/// same as that of all in order, except where polygons touch: at the same depth a translucent polygon
-/// is drawn over an opaque one, whichever comes first in the input.
+/// If most polygons are opaque, draw the opaque ones first, in any order, with a depth buffer. Then draw
+/// the translucent ones back to front, with the depth test on and depth writes off.
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of either kind. The
+/// picture differs from one drawn entirely in order only where polygons touch: at equal depth a translucent
+/// polygon is drawn over an opaque one, regardless of input order.
 ///
-/// # What need not be drawn
+/// # Culling
 ///
-/// A [culled](crate::Order::culled) order leaves out fragments outside of a camera's
-/// [`Frustum`](crate::Frustum), or seen from the wrong side, in time proportional to the rest. A
-/// [walk](crate::Order::walk) skips the subtrees that you choose, by their [boxes](crate::Node::bounds)
-/// for instance; the feature `raster` has a mask that tells which of them are hidden. The first use of
-/// boxes makes those of the whole tree, once.
+/// A [culled](crate::Order::culled) order leaves out fragments that are outside a camera's
+/// [`Frustum`](crate::Frustum) or seen from the wrong side, in time proportional to the rest. A
+/// [walk](crate::Order::walk) skips the subtrees that you choose, for instance by their
+/// [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for occlusion. The
+/// first use of boxes computes the boxes of the whole tree, once.
 ///
 /// # Rays, lines of sight and points
 ///
-/// [`hits`](Self::hits) gives what a [`Ray`](crate::Ray) hits, the nearest first, as far as you read it;
-/// [`is_occluded`](Self::is_occluded) tells whether anything lies between two points, and
+/// [`hits`](Self::hits) iterates lazily over the hits of a [`Ray`](crate::Ray), nearest first.
+/// [`is_occluded`](Self::is_occluded) returns whether anything lies between two points,
 /// [`winding_number`](Self::winding_number) whether a point is inside a closed body, and
-/// [`locate`](Self::locate) in which leaf it is.
-/// [`fragments_in`](Self::fragments_in) gives what is in a box or in front of planes. All of
-/// them decide exactly for the numbers that they are given: a ray through an edge or a corner never slips
-/// between two polygons that share it (if neither was flattened: see [`Preparation::flattened`](crate::Preparation::flattened)).
+/// [`locate`](Self::locate) in which leaf it is. [`fragments_in`](Self::fragments_in) finds the fragments
+/// in a box or in front of planes. All of them decide exactly for the given numbers: a ray through an edge
+/// or a corner never slips between two polygons that share it (if neither was flattened: see
+/// [`Preparation::flattened`](crate::Preparation::flattened)).
 ///
 /// ```
 /// use binspace::{BspTree, Ray};
 ///
 /// # let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
 /// # let tree = BspTree::build([square(2.0), square(0.0), square(1.0)])?;
-/// // What is under the mouse.
+/// // The polygon under the mouse.
 /// let ray = Ray::new([0.25, 0.25, 9.0], [0.0, 0.0, -1.0]);
 /// assert_eq!(tree.hits(ray).next().map(|hit| hit.polygon()), Some(0));
 /// // Whether one point is seen from another.
@@ -136,9 +133,9 @@ use crate::faces::Preparation;
 ///
 /// # Attributes
 ///
-/// A cut vertex needs texture coordinates, colours or normals as the corners have them.
-/// [`Fragment::weights`](crate::Fragment::weights) gives the weights of each vertex over the corners of the polygon,
-/// and so does each [`MeshVertex`](crate::mesh::MeshVertex):
+/// A vertex made by a cut needs texture coordinates, colours or normals like a corner.
+/// [`Fragment::weights`](crate::Fragment::weights) returns the weights of each vertex over the corners of
+/// the polygon, and so does each [`MeshVertex`](crate::mesh::MeshVertex):
 ///
 /// ```
 /// # let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -159,19 +156,18 @@ use crate::faces::Preparation;
 ///
 /// # Exactness
 ///
-/// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its
-/// bounding box). After that, every decision is the one that exact arithmetic makes, however often
-/// a polygon is cut. Only the vertices that you read are rounded again, to `f64`; no decision uses
-/// them. [`grid`](Self::grid) and the `grid_points` of nodes, fragments and hits give the exact numbers.
+/// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its bounding
+/// box). After that, every decision is exact, however often a polygon is cut. Only the vertices that you
+/// read are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of
+/// nodes, fragments and hits give the exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
-/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). Where polygons reach across a
-/// partition plane by less than τ, those parts may be painted in either order. It shows along lines
-/// of sight that stay within τ of such a plane from one polygon to the other, or from the eye to the
-/// nearer polygon:
+/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). Where polygons reach across a partition
+/// plane by less than τ, those parts may be painted in either order. This is visible along lines of sight
+/// that stay within τ of such a plane from one polygon to the other, or from the eye to the nearer polygon:
 ///
 /// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
-/// - seen along a plane, polygons can be exchanged however far apart they are;
+/// - polygons seen along a plane can be exchanged at any distance from each other;
 /// - polygons in exactly one plane can come out of input order where they overlap, if all of the overlap
 ///   is within τ of a partition plane that crosses theirs: one of them is then treated as in front of it,
 ///   and the other as behind it or on it.
@@ -180,7 +176,7 @@ use crate::faces::Preparation;
 ///
 /// # Which tolerance
 ///
-/// The [default](crate::Tolerance::Default) follows the input, so it need rarely be changed:
+/// The [default](crate::Tolerance::Default) follows the input, so you rarely need to change it:
 ///
 /// | input | default | take instead |
 /// |---|---|---|
@@ -190,55 +186,55 @@ use crate::faces::Preparation;
 /// | a [`Polygon`](crate::Polygon) of your own | that of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
 /// | thin layers in a scene of large extent | | a length below half the distance of the layers |
 ///
-/// Too small, and polygons that were meant to be coplanar cut each other into slivers, and quads
-/// that rounding has bent are triangulated. Too large, and layers that were meant to be apart come
-/// in input order. [`Preparation`](crate::Preparation) tells how many polygons are
-/// [`bent`](crate::Preparation::bent) by little more than the tolerance, and how many it
-/// [`flattened`](crate::Preparation::flattened), [`Stats`](crate::Stats) how many it made
-/// [coplanar](crate::Stats::nearly_coplanar), and both by how much. A share of the extent is one of *all* corners: a stray vertex far off makes it larger,
-/// so remove the vertex, or give a length.
+/// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by
+/// rounding are triangulated. Too large: layers that were meant to be apart come in input order.
+/// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more
+/// than the tolerance and those [`flattened`](crate::Preparation::flattened) by it. [`Stats`](crate::Stats)
+/// counts faces made [coplanar](crate::Stats::nearly_coplanar). Both give the largest distance. The extent
+/// is that of *all* corners, so a stray vertex far away makes a relative tolerance larger: remove the
+/// vertex, or give a length.
 ///
 /// # T-junctions
 ///
-/// A cut goes through the polygons that span the plane, and no others: where it ends on an edge that a
-/// *neighbouring* polygon shares, the neighbour may not be cut there, and then has no vertex there. The
-/// same is so between two fragments of one polygon, if only one of them is cut further. A rasteriser can
-/// miss pixels at such a T-junction, because the rounded vertex is not exactly on the other's edge.
-/// Where both sides have a vertex, they have it bit for bit, unless the tolerance moved a corner of one.
+/// A plane cuts only the polygons that span it. Where the cut ends on an edge that a *neighbouring* polygon
+/// shares, the neighbour may not be cut, and then has no vertex there. Two fragments of one polygon can
+/// differ in the same way if only one of them is cut further. A rasteriser can miss pixels at such a
+/// T-junction, because the rounded vertex is not exactly on the other's edge. Where both sides have a
+/// vertex, its coordinates are bit for bit equal, unless the tolerance moved a corner of one.
 ///
 /// [`welded_mesh`](Self::welded_mesh) has no T-junctions: it inserts the vertex on the other side, so
 /// that a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///
-/// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8 µs a
-/// face where little is cut, and up to 12 µs where much is. Where nothing has to be cut, the worst case
-/// is n²: each plane takes only a few polygons off the rest, as in nested shells or the sides of a cone.
-/// Polygons that all cross one another can have n³ / 6 fragments.
+/// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8 µs per
+/// face with few cuts, and up to 12 µs with many. Without cuts the worst case is n²: each plane separates
+/// only a few polygons from the rest, as in nested shells or the sides of a cone. Polygons that all cross
+/// one another can have n³ / 6 fragments.
 ///
-/// Modelled scenes and scans have 1.0 to 2.3 fragments a face; triangles at random that cross each
-/// other have many more (1000 of them about 12 each, and more the more there are).
-/// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to
-/// 160 bytes a fragment ([`memory_usage`](Self::memory_usage)), and up to 2.7 times that while it is built.
+/// Modelled scenes and scans have 1.0 to 2.3 fragments a face; random triangles that cross each other have
+/// many more (1000 of them about 12 each, and the ratio grows with n).
+/// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to 160
+/// bytes a fragment ([`memory_usage`](Self::memory_usage)), and up to 2.7 times that while it is built.
 ///
-/// With the feature `save`, a tree is written to a file and read from it, bit for bit, which takes a
-/// small part of the time to build it: `BspTree::write` and `BspTree::read`.
+/// With the feature `save`, `BspTree::write` and `BspTree::read` store a tree bit for bit, in a small part
+/// of the build time.
 ///
-/// Nothing recurses over the data: a chain of a million polygons needs no more stack than one. The
-/// same input and options give the same tree, bit for bit, with any number of threads.
+/// Nothing recurses over the data: a chain of a million polygons needs no more stack than one polygon. The
+/// same input and options give bit for bit the same tree with any number of threads.
 ///
 /// [`BuildOptions`](crate::BuildOptions) sets the heuristic, the tolerance and budgets, reports
 /// progress, and can cancel.
 ///
-/// # What it is not
+/// # Limits
 ///
-/// - Not a renderer: it gives an order, and you draw. (The feature `raster` has a painter that
-///   checks orders.)
+/// - Not a renderer: it computes an order, and you draw. (The feature `raster` has a painter that checks
+///   orders.)
 /// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds some,
-///   builds the tree anew. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points in one
-///   order with the tree's.
-/// - Not a spatial index: for overlaps or nearest neighbours, or ray casts alone, take a bounding
-///   volume hierarchy, which is much faster to build.
+///   builds the tree again. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points
+///   in one order with the tree's.
+/// - Not a spatial index: for overlaps, nearest neighbours or only ray casts, use a bounding volume
+///   hierarchy, which is much faster to build.
 /// - Not for solids: it does no Boolean operations.
 #[derive(Clone)]
 pub struct BspTree {
@@ -252,7 +248,7 @@ pub struct BspTree {
     pub(super) vertices: Vec<StoredVertex>,
     /// Rounded positions of the vertices, in lattice units; only in a tree for one view.
     pub(super) positions: Vec<[f64; 3]>,
-    /// How many times the builder cut a piece in two.
+    /// The number of times that the builder cut a piece in two.
     pub(super) cuts: usize,
     /// Identifies the tree, so that overlays and meshes of other trees are refused. Clones share it.
     pub(crate) generation: u64,
@@ -262,14 +258,14 @@ pub struct BspTree {
     pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
-/// A number that no tree of this process has had.
+/// A number that no earlier tree of this process has.
 pub(super) fn next_generation() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
 impl BspTree {
-    /// A tree of nothing.
+    /// An empty tree.
     pub(crate) fn empty() -> Self {
         Self {
             faces: Faces::default(),
@@ -287,7 +283,7 @@ impl BspTree {
         }
     }
 
-    /// Empties the tree, and gives its lists back.
+    /// Empties the tree and returns its lists.
     pub(crate) fn take_parts(&mut self) -> (Faces, Parts) {
         let Self { faces, nodes, planes, records, vertices, positions, .. } =
             std::mem::replace(self, Self::empty());
@@ -297,8 +293,8 @@ impl BspTree {
         (faces, Parts { nodes: vec![], records, vertices, positions, cuts: 0 })
     }
 
-    /// Replaces what the tree consists of, and gives back the list that the builder wrote its nodes
-    /// into. `sizes` is working space.
+    /// Replaces the tree's contents and returns the builder's list of nodes for reuse. `sizes` is working
+    /// space.
     pub(crate) fn refill(
         &mut self,
         faces: Faces,
@@ -333,7 +329,7 @@ impl BspTree {
         Ok(tree)
     }
 
-    /// How many fragments there are.
+    /// The number of fragments.
     pub fn len(&self) -> usize {
         self.records.len()
     }
@@ -343,28 +339,29 @@ impl BspTree {
         self.records.is_empty()
     }
 
-    /// How many faces there are: polygons with area, of which those that were triangulated have
-    /// a face for each triangle. O(1).
+    /// The number of faces: polygons with area, where a triangulated polygon counts once for each triangle.
+    /// O(1).
     ///
-    /// If [`len`](Self::len) is the same, no face was cut: each is drawn whole, and none goes through
-    /// another by more than the tolerance. (If it is larger, some may have been cut only because a
-    /// partition plane goes through them.)
+    /// If [`len`](Self::len) is the same number, no face was cut: each is drawn whole, and none crosses
+    /// another by more than the tolerance. (If [`len`](Self::len) is larger, faces need not cross: a
+    /// partition plane may have cut them.)
     pub fn face_count(&self) -> usize {
         self.faces.len()
     }
 
-    /// The faces that the fragments are pieces of, for `raster`.
+    /// The faces of which the fragments are pieces, for `raster`.
     #[cfg_attr(not(feature = "raster"), doc(hidden))]
     pub fn faces(&self) -> &Faces {
         &self.faces
     }
 
-    /// Whether it is the tree of a cell of a [`Partition`](crate::partition::Partition), not of whole polygons.
+    /// Whether this is the tree of one cell of a [`Partition`](crate::partition::Partition), not of whole
+    /// polygons.
     pub fn is_of_cell(&self) -> bool {
         self.faces.corners_of_cell() > 0
     }
 
-    /// How many polygons were dropped or triangulated before the tree was built.
+    /// Counts of the polygons dropped or triangulated before the tree was built.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
     }
@@ -373,16 +370,15 @@ impl BspTree {
     /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all of them, and the
     /// last one is painted last, as coplanar polygons come in input order.
     ///
-    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree knows the corners of
-    /// its faces only: where triangles have replaced a polygon, a corner without a triangle is ignored,
-    /// as one on a straight side can be. In the tree of a cell, so are corners of triangles outside the
-    /// cell.
+    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners
+    /// of its faces. So it ignores a corner of a triangulated polygon that no triangle has, such as one on
+    /// a straight side, and in the tree of a cell the corners of triangles outside the cell.
     pub fn duplicates(&self) -> usize {
         self.faces.duplicates()
     }
 
-    /// The indices of the polygons that have no fragments: those without area, and in a tree of a cell
-    /// those of which nothing is in it.
+    /// The indices of the polygons that have no fragments: polygons without area, and in the tree of a cell
+    /// polygons outside the cell.
     pub fn dropped(&self) -> impl Iterator<Item = usize> + Clone {
         self.faces.dropped(self.preparation.polygons)
     }
@@ -399,7 +395,7 @@ impl fmt::Debug for BspTree {
     }
 }
 
-/// Statistics of a tree: [`BspTree::stats`]. What became of its polygons before they were divided is in
+/// Statistics of a tree: [`BspTree::stats`]. For the preparation of its polygons see
 /// [`BspTree::preparation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -411,20 +407,20 @@ pub struct Stats {
     pub fragments: usize,
     /// Partition planes.
     pub nodes: usize,
-    /// The most nodes on a path from the root.
+    /// The largest number of nodes on a path from the root.
     pub depth_max: usize,
     /// The mean number of nodes on the path from the root to a fragment, over all fragments.
     pub depth_mean: f64,
-    /// How many times the builder cut a piece in two.
+    /// The number of times that the builder cut a piece in two.
     pub splits: usize,
     /// The size of the tree in bytes, with its boxes once they are made: [`BspTree::memory_usage`].
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Faces that the tolerance alone made coplanar with a partition plane: the order of those on
-    /// one plane is that of the input.
+    /// Faces that lie on a partition plane only within the tolerance, not exactly. Faces on one plane come
+    /// in input order.
     pub nearly_coplanar: usize,
-    /// How far their corners are off that plane at most, a length.
+    /// The largest distance of their corners from that plane, a length.
     pub nearly_coplanar_by: f64,
 }
 
@@ -462,14 +458,14 @@ impl BspTree {
         }
     }
 
-    /// How far a face's corners are off a plane at most, in lattice units, rounded; 0 only if all of
-    /// them are exactly on it.
+    /// The largest distance of a face's corners from a plane in lattice units, rounded; 0 only if all lie
+    /// exactly on it.
     fn off(&self, face: u32, plane: &Plane) -> f64 {
         let values = self.faces.corners(face).iter().map(|corner| plane.at(corner).to_f64().abs());
         values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
-    /// The size in bytes, heap included. It grows by the boxes when the first query makes them.
+    /// The size in bytes, heap included. It grows by the boxes when the first query computes them.
     pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
             + self.faces.memory_usage()

@@ -1,4 +1,4 @@
-//! Orders without what cannot be seen: outside of a region, or from the wrong side.
+//! Orders without invisible fragments: those outside a region or seen from the wrong side.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::bits::bits;
 use crate::exact::{Plane, PlaneId};
 use crate::viewpoint::{Facing, Frustum, Viewpoint};
 
-/// What an order leaves out: [`Order::culled`](crate::Order::culled).
+/// The fragments that an order leaves out: [`Order::culled`](crate::Order::culled).
 ///
 /// ```
 /// use binspace::glam::DVec3;
@@ -32,20 +32,20 @@ use crate::viewpoint::{Facing, Frustum, Viewpoint};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Culling {
     pub(crate) frustum: Frustum,
-    /// The side that is drawn; both if `None`.
+    /// The side that is drawn; `None` for both.
     pub(crate) facing: Option<Facing>,
 }
 
 impl Culling {
-    /// Nothing is left out.
+    /// Leaves out nothing.
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
-    /// Leaves out the fragments outside of a frustum: those whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind
-    /// one of its planes. At most 32 planes are used. For speed it goes by boxes:
-    /// [`BspTree::fragments_in`] is exact.
+    /// Leaves out the fragments outside a frustum: those whose boxes
+    /// ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind one of its planes. At most 32 planes are
+    /// used. Testing only boxes is fast; [`BspTree::fragments_in`] is exact.
     ///
-    /// Boxes are treated as larger by some 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate:
-    /// more than the rounding of the test, and of an eye in the apex of the frustum.
+    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
+    /// than the rounding errors of the test and of an eye in the apex of the frustum.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }
@@ -59,26 +59,26 @@ impl Culling {
     }
 }
 
-/// Subtrees of no more fragments are put in order as a whole, before what is left out is taken off. Smaller:
-/// more stops of the walk, each with branches that no processor can predict; larger: more is put in order in
-/// vain. At most a block.
+/// Subtrees of at most this many fragments are ordered as a whole before fragments are left out. Too small:
+/// the walk visits more nodes, each with branches that no processor can predict. Too large: more fragments
+/// are ordered and then discarded. At most a block.
 const FEW: usize = BLOCK;
 
-/// Subtrees of no more fragments are put in order in one go if all are marked. Smaller: more stops of the
-/// walk; larger: more marks are read again at each level of the tree.
+/// Fully marked subtrees of at most this many fragments are ordered at once. Too small: the walk visits
+/// more nodes. Too large: more marks are read again at each level of the tree.
 const LONG: usize = 64 * BLOCK;
 
-/// A subtree, or fragments alone.
+/// A subtree, or fragments without nodes.
 #[derive(Clone, Debug)]
 struct Listed {
-    /// None for fragments alone.
+    /// Empty for fragments without nodes.
     nodes: Range<u32>,
     fragments: Range<u32>,
-    /// Whether they may show either side.
+    /// Whether its fragments may show either side.
     is_mixed: bool,
 }
 
-/// A tree, a viewpoint, and what is left out.
+/// A tree, a viewpoint, and the fragments to leave out.
 pub(crate) struct Cull<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
@@ -86,7 +86,7 @@ pub(crate) struct Cull<'t> {
     arms: Arms,
     planes: SmallVec<[HalfSpace; 6]>,
     marks: Marks,
-    /// Which side is drawn.
+    /// The side that is drawn.
     side: Option<Ordering>,
 }
 
@@ -112,20 +112,20 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Whether a subtree may have a fragment that is not left out.
+    /// Whether a subtree may have a fragment that is drawn.
     pub(super) fn shows_some(&self, node: &Node<'_>) -> bool {
         let seen = self.side.zip(self.bounds.seen(node.index(), &self.arms));
         self.marks.any(&node.fragments()) && seen.is_none_or(|(side, seen)| seen == side)
     }
 
-    /// Whether an overlay's piece is not left out, by its box, and its plane if it has sides.
+    /// Whether an overlay's piece is drawn, by its box, and by its plane if it has sides.
     pub(crate) fn shows_piece(&self, bounds: &Flat, plane: Option<&Plane>) -> bool {
         let is_drawn =
             self.side.zip(plane).is_none_or(|(side, plane)| plane.facing(self.view.eye()) == side);
         is_drawn && !self.planes.iter().any(|plane| plane.is_behind(bounds))
     }
 
-    /// Whether a fragment is not left out.
+    /// Whether a fragment is drawn.
     pub(crate) fn shows(&self, fragment: u32) -> bool {
         let run = fragment..fragment + 1;
         let mut shown = self.marks.of_few(&run);
@@ -173,7 +173,7 @@ impl<'t> Cull<'t> {
             let back = of(middle..part.nodes.end, back);
             let is_in_front = self.view.is_in_front(self.tree, node);
             let (far, near) = if is_in_front { (back, front) } else { (front, back) };
-            // Back to front: the far side, what is on the plane, the near side.
+            // Back to front: the far side, the fragments on the plane, the near side.
             for part in [near, of(0..0, own)] {
                 if !part.fragments.is_empty() {
                     pending.push(part);
@@ -183,7 +183,7 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Writes those of a small subtree that are not left out.
+    /// Writes the drawn fragments of a small subtree.
     fn write_few(&self, part: Listed, order: &mut Vec<u32>) {
         let mut shown = self.marks.of_few(&part.fragments);
         if part.is_mixed {
@@ -194,7 +194,7 @@ impl<'t> Cull<'t> {
         }
         let (first, begin) = (part.fragments.start, order.len());
         write_from_nodes(self.tree, &self.view, part.nodes, part.fragments, order);
-        // Without a branch on what is shown.
+        // No branch on the mask.
         let mut end = begin;
         for k in begin..order.len() {
             let fragment = order[k];
@@ -204,7 +204,7 @@ impl<'t> Cull<'t> {
         order.truncate(end);
     }
 
-    /// Writes those of some fragments alone that are not left out.
+    /// Writes the drawn fragments of a range without nodes.
     fn write_run(&self, part: &Listed, order: &mut Vec<u32>) {
         for (first, mut shown) in self.marks.words(&part.fragments) {
             if part.is_mixed {
@@ -220,7 +220,7 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Of up to 16 fragments from some number on, those that have a bit and show the side that is drawn.
+    /// Of up to 16 fragments from a given number on, keeps those that have a bit and show the drawn side.
     fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
@@ -239,25 +239,25 @@ impl<'t> Cull<'t> {
     }
 }
 
-/// The most planes of a region that are used.
+/// The largest number of planes of a region that are used.
 const PLANES: usize = 32;
 
-/// The most levels of boxes: a tree has fewer than 16⁸ fragments.
+/// The largest number of levels of boxes: a tree has fewer than 16⁸ fragments.
 const LEVELS: usize = 8;
 
-/// The bits of a block that is marked as a whole.
+/// The bits of a fully marked block.
 const ALL: u32 = (1 << BLOCK) - 1;
 
-/// A bit for each fragment whose box reaches into a region, and for each block of fragments and of blocks
-/// with such a one, as [`Bounds`] has them.
+/// A bit for each fragment whose box reaches into a region, for each block with a marked fragment, and for
+/// each block with a marked block, in the layout of [`Bounds`].
 struct Marks {
     /// For each level, a word for each block, and one more to read past the end.
     words: Vec<u16>,
-    /// Where the words of each level begin.
+    /// The start of each level's words.
     levels: [usize; LEVELS],
 }
 
-/// A block of boxes that a region may not hold as a whole.
+/// A block of boxes that may lie partly outside a region.
 #[derive(Clone, Copy, Debug)]
 struct Doubt {
     level: usize,
@@ -285,7 +285,7 @@ impl Marks {
         marks
     }
 
-    /// Compares the boxes of a block with planes.
+    /// Tests the boxes of a block against planes.
     fn look(&mut self, bounds: &Bounds, all: &[HalfSpace], doubt: Doubt, pending: &mut Vec<Doubt>) {
         let Doubt { level, block, planes } = doubt;
         let boxes = &bounds.levels[level][block];
@@ -314,7 +314,7 @@ impl Marks {
         }
     }
 
-    /// Marks all of a block.
+    /// Marks a whole block.
     fn mark(&mut self, bounds: &Bounds, Doubt { level, block, .. }: Doubt) {
         let mut blocks = block..block + 1;
         for level in (0..=level).rev() {
@@ -325,15 +325,15 @@ impl Marks {
         }
     }
 
-    /// Whether some of these are marked. It may say so of 256 and more of which none is, as it looks at
-    /// blocks.
+    /// Whether some of these are marked. For 256 fragments and more it tests blocks, so it may return true
+    /// although none is marked.
     #[inline]
     fn any(&self, fragments: &Range<u32>) -> bool {
         if fragments.is_empty() {
             return false;
         }
         let (mut first, mut last) = (fragments.start, fragments.end - 1);
-        // At most 17 boxes of this level hold them.
+        // At most 17 boxes of this level contain them.
         let level = ((last - first) | 1).ilog2() / BLOCK.ilog2();
         (first, last) = (first >> (level * BLOCK.ilog2()), last >> (level * BLOCK.ilog2()));
         let len = last - first + 1;
@@ -349,13 +349,13 @@ impl Marks {
         })
     }
 
-    /// A bit for each of at most 16 fragments that is marked.
+    /// A bit for each marked one of at most 16 fragments.
     #[inline]
     fn of_few(&self, fragments: &Range<u32>) -> u32 {
         self.window(0, fragments.start) & ((1 << fragments.len()) - 1)
     }
 
-    /// The marked fragments by the block: the number of its first, and a bit for each.
+    /// The marked fragments by blocks: the number of the first, and a bit for each.
     fn words(&self, fragments: &Range<u32>) -> impl Iterator<Item = (u32, u32)> + use<'_> {
         let Range { start, end } = *fragments;
         let step = BLOCK as u32;
@@ -368,7 +368,7 @@ impl Marks {
         })
     }
 
-    /// At least 17 bits of a level, from some number on.
+    /// At least 17 bits of a level, from a given number on.
     #[inline]
     fn window(&self, level: usize, first: u32) -> u32 {
         let word = self.levels[level % LEVELS] + first as usize / BLOCK;

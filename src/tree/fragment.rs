@@ -20,7 +20,7 @@ pub struct Fragment<'t> {
     index: u32,
     pub(super) face: u32,
     stored: &'t [StoredVertex],
-    /// The rounded positions of the same, if they are kept.
+    /// The rounded positions of these vertices, if stored.
     positions: &'t [[f64; 3]],
 }
 
@@ -29,7 +29,7 @@ impl BspTree {
     ///
     /// # Panics
     ///
-    /// If there is no such fragment.
+    /// If the number is not that of a fragment.
     pub fn fragment(&self, index: u32) -> Fragment<'_> {
         let Self { faces, records, vertices, positions, .. } = self;
         Fragment::new(faces, Stored { records, vertices, positions }, index as usize, index)
@@ -48,38 +48,40 @@ impl<'t> Fragment<'t> {
         Self { faces, index, face, stored: &vertices[range], positions }
     }
 
-    /// The vertices as the tree stores them; none for a whole face.
+    /// The stored vertices; none for a whole face.
     pub(super) fn stored(&self) -> &'t [StoredVertex] {
         self.stored
     }
 
-    /// Its number in the tree, as in [`back_to_front_into`](BspTree::back_to_front_into).
+    /// The fragment's number in the tree, as in [`back_to_front_into`](BspTree::back_to_front_into).
     pub fn index(&self) -> u32 {
         self.index
     }
 
-    /// The index, in the input, of the polygon it is a piece of.
+    /// The index in the input of the polygon of which this is a piece.
     pub fn polygon(&self) -> usize {
         self.faces.polygon(self.face)
     }
 
-    /// The face it is a piece of, one of [`BspTree::faces`]: the polygon, or a triangle of it.
+    /// The face of which this is a piece, one of [`BspTree::faces`]: the polygon, or one of its triangles.
     #[doc(hidden)]
     pub fn face(&self) -> u32 {
         self.face
     }
 
-    /// The unit normal of its plane, which points to the front: there its vertices run counter-clockwise.
-    /// All fragments of a polygon have the same bits, or, if that was triangulated, all of a triangle.
+    /// The unit normal of the plane, which points to the front, where vertices run counter-clockwise. It is
+    /// bit for bit the same for all fragments of a polygon, or of a triangle if the polygon was
+    /// triangulated.
     ///
-    /// It is that of the exact plane, each coordinate rounded a few times, to within 2⁻⁵⁰; of
-    /// however thin a polygon. [`grid_points`](Self::grid_points) give the plane exactly.
+    /// The normal of the exact plane, each coordinate rounded a few times, to within 2⁻⁵⁰, however thin the
+    /// polygon. [`grid_points`](Self::grid_points) returns the plane exactly.
     pub fn normal(&self) -> DVec3 {
         unit_normal(self.faces, PlaneId::face(self.face))
     }
 
-    /// The distance of its plane from the origin along the normal, in the polygons' unit: the plane holds
-    /// the points p with `normal().dot(p) == offset()`, and its front is where the left side is larger.
+    /// The distance of the plane from the origin along the normal, in the polygons' unit. The plane holds
+    /// the points p with `normal().dot(p) == offset()`; its front is the side where the left side is
+    /// larger.
     ///
     /// Rounded, to within 2⁻⁴⁸ of the largest coordinate of the polygon; infinite if it is too large for
     /// `f64`.
@@ -87,33 +89,32 @@ impl<'t> Fragment<'t> {
         offset(self.faces, PlaneId::face(self.face))
     }
 
-    /// The exact plane of its polygon, or, if that was triangulated, of one of its triangles: three points of
-    /// the tree's [grid](BspTree::grid) on it, counter-clockwise seen from its front.
+    /// The exact plane of the polygon, or of one of its triangles if it was triangulated: three points of
+    /// the tree's [grid](BspTree::grid), counter-clockwise seen from the front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
     }
 
-    /// Whether it was never cut: it is a whole polygon, or a whole triangle of a polygon that was
-    /// triangulated.
+    /// Whether it was never cut: it is a whole polygon, or a whole triangle of a triangulated polygon.
     pub fn is_whole(&self) -> bool {
         self.stored.is_empty()
     }
 
-    /// How many vertices it has, three or more.
+    /// The number of vertices, three or more.
     pub fn vertex_count(&self) -> usize {
         if self.is_whole() { self.faces.corners(self.face).len() } else { self.stored.len() }
     }
 
     /// The vertices in the polygon's own orientation: counter-clockwise seen from its front.
     ///
-    /// The polygon's corners are as given, except that they are rounded to the grid, and moved onto
-    /// the polygon's plane if they were off it by less than the tolerance. Other vertices are
-    /// rounded: each coordinate is within 2⁻⁵¹ of the scene's extent plus one step of `f64` of its
-    /// exact value. Pieces of one polygon that share a vertex get the same bits for it.
-    /// Where three cuts meet in a point of the polygon, its bits may differ by one rounding between pieces.
+    /// The polygon's corners are as given, except that they are rounded to the grid, and moved onto the
+    /// polygon's plane if they were off it by less than the tolerance. Other vertices are rounded: each
+    /// coordinate is within 2⁻⁵¹ of the scene's extent plus one step of `f64` of its exact value. Pieces of
+    /// one polygon that share a vertex have the same bits for it. Where three cuts meet in a point of the
+    /// polygon, its bits may differ by one rounding between pieces.
     ///
-    /// Vertices that cuts have made are computed from their exact definition at each reading, about
-    /// 0.1 µs each, except in trees of a [`FrameBuilder`](crate::FrameBuilder).
+    /// Each reading computes the vertices made by cuts from their exact definition, in about 0.1 µs each.
+    /// Trees of a [`FrameBuilder`](crate::FrameBuilder) store them instead.
     pub fn vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
@@ -128,7 +129,7 @@ impl<'t> Fragment<'t> {
     ) -> impl DoubleEndedIterator<Item = [f64; 3]> + ExactSizeIterator + Clone + use<'t> {
         let Self { faces, face, stored, .. } = *self;
         let corners = faces.corners(face);
-        // Those that are at hand: of a whole face, its corners.
+        // The vertices with known positions: for a whole face, its corners.
         let known = if stored.is_empty() { corners } else { self.positions };
         (0..self.vertex_count()).map(move |i| match (known.get(i), stored.get(i)) {
             (Some(&position), _) => position,
@@ -137,11 +138,11 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// For each edge, from a vertex to the next: which of the polygon's edges it lies on, or `None`
-    /// if a cut or triangulation made it.
+    /// For each edge, from a vertex to the next, the polygon's edge that it lies on; `None` if a cut or
+    /// triangulation made it.
     ///
-    /// An edge of the polygon has the number of the corner at which it begins. Of repeated corners
-    /// that is the last; of several edges in one line that triangulation joined, the first.
+    /// An edge of the polygon has the number of the corner at which it begins. Of repeated corners this is
+    /// the last; of collinear edges that triangulation joined, the first.
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
@@ -149,7 +150,7 @@ impl<'t> Fragment<'t> {
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
-    /// For each edge, from a vertex to the next: what bounds the fragment there.
+    /// For each edge, from a vertex to the next, the line that bounds the fragment there.
     #[doc(hidden)]
     pub fn lines(
         &self,
@@ -174,9 +175,9 @@ impl<'t> Fragment<'t> {
     /// For each vertex, weights over the polygon's corners: pairs of a corner's number and its
     /// weight. The weights of a vertex sum to 1, up to rounding.
     ///
-    /// A corner has one pair, a vertex on an edge of the polygon (or of a triangle of it) two, a
-    /// vertex inside three. To interpolate an attribute of the corners, such as a texture
-    /// coordinate, sum weight · attribute.
+    /// A corner has one pair, a vertex on an edge of the polygon (or of one of its triangles) two, an
+    /// interior vertex three. To interpolate an attribute of the corners, such as a texture coordinate, sum
+    /// weight · attribute.
     pub fn weights(
         &self,
     ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
@@ -190,15 +191,13 @@ impl<'t> Fragment<'t> {
     }
 
     /// The side of the fragment that a viewpoint sees: its front, from which its vertices run
-    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view
-    /// runs along it.
+    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view runs
+    /// along it.
     ///
-    /// This is exact, for the viewpoint as orders round it (see [`Viewpoint`]), so it says the same
-    /// of all fragments of a face. The triangles of a polygon that is not planar are faces with
-    /// planes of their own. O(1).
+    /// Exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so all fragments of a face have
+    /// the same result. The triangles of a non-planar polygon are faces with separate planes. O(1).
     ///
-    /// To leave out what is seen from behind, such as the walls between the eye and the inside of
-    /// a room:
+    /// To leave out fragments seen from behind, such as the walls between the eye and the inside of a room:
     ///
     /// ```
     /// use binspace::{BspTree, Facing, Viewpoint};
@@ -242,13 +241,12 @@ impl BspTree {
 /// Error bound: a rounded distance is off by at most `ERROR` times the sum of the magnitudes of all
 /// its terms.
 ///
-/// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its
-/// two products; the eye, rounded, less a corner by 2u of both (a direction is exact); the products and
-/// sums add 3u.
-/// Smaller: wrong signs pass. Larger: more faces are decided by integers.
+/// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its two
+/// products; the rounded eye minus a corner by 2u of both (a direction is exact); the products and sums add
+/// 3u. Too small: wrong signs pass. Too large: more faces are decided by integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
-/// Which side of a face an eye sees: by floats where the bound allows, else exactly.
+/// The side of a face that an eye sees: by floats where the bound allows, otherwise exactly.
 pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
     let [p, q, r] = faces.triangle(face);
     let (at, w) = eye.homogeneous();
@@ -268,13 +266,13 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
-/// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. That is exact,
-/// but for scenes smaller than some 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size, where
+/// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This is exact,
+/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size, where
 /// `base` has no room for all digits.
 ///
-/// Planes by three points of the grid let you compute what the tree decides, with integers or fractions
-/// of your own: the point x is in front of the plane through p, q and r where the determinant of q − p,
-/// r − p and x − p is positive.
+/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions: the
+/// point x is in front of the plane through p, q and r where the determinant of q − p, r − p and x − p is
+/// positive.
 ///
 /// ```
 /// use binspace::BspTree;
@@ -290,7 +288,7 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Grid {
-    /// Where the grid point (0, 0, 0) is.
+    /// The position of the grid point (0, 0, 0).
     pub base: DVec3,
     /// The grid's step is two to this power.
     pub exponent: i32,
@@ -304,7 +302,7 @@ impl BspTree {
     }
 }
 
-/// The unit normal of a plane: each coordinate is off by a few roundings.
+/// The unit normal of a plane; each coordinate has a few rounding errors.
 pub(super) fn unit_normal(faces: &Faces, plane: PlaneId) -> DVec3 {
     faces.plane(plane).normal_f64().normalize()
 }
@@ -337,14 +335,14 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 
 /// All fragments of a tree as arrays of numbers: [`BspTree::arrays`] and [`BspTree::arrays_f32`].
 ///
-/// Fragment `i` is that of the tree's orders. It has the vertices, and the edges from each vertex to the next,
-/// from `offsets[i]` to `offsets[i + 1]`. Vertex `v` has the weights from `weight_offsets[v]` to
-/// `weight_offsets[v + 1]`. The numbers are those that [`Fragment`] returns.
+/// Fragments have the same numbers as in the tree's orders. The vertices of fragment `i`, and the edges
+/// from each vertex to the next, are at `offsets[i]..offsets[i + 1]`. The weights of vertex `v` are at
+/// `weight_offsets[v]..weight_offsets[v + 1]`. The values are those that [`Fragment`] returns.
 ///
-/// Both lists of offsets are those of sparse matrices by rows (CSR). The weights are such a matrix, which maps
-/// attributes of corners to attributes of vertices. It has a row for each vertex. Its columns are the corners of
-/// all polygons, one polygon after the other, if you add to each of `weight_corners` the number of corners of
-/// all polygons before:
+/// Both lists of offsets have the form of sparse matrices by rows (CSR). The weights are such a matrix,
+/// which maps attributes of corners to attributes of vertices. It has a row for each vertex. Its columns
+/// are the corners of all polygons, one polygon after the other, if you add to each of `weight_corners` the
+/// number of corners of all polygons before:
 ///
 /// ```
 /// use binspace::BspTree;
@@ -369,21 +367,21 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// To draw translucent polygons on a GPU, take a [`Mesh`](crate::mesh::Mesh): its fragments share vertices.
+/// To draw translucent polygons on a GPU, use a [`Mesh`](crate::mesh::Mesh): its fragments share vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FragmentArrays<T> {
     /// The vertices of all fragments, in the polygons' orientation, in their unit.
     pub vertices: Vec<[T; 3]>,
-    /// For each fragment, where its vertices begin; and last, how many vertices there are. (n + 1 numbers for n
-    /// fragments.)
+    /// For each fragment, the number of its first vertex; at the end, the number of all vertices. (n + 1
+    /// numbers for n fragments.)
     pub offsets: Vec<u32>,
     /// For each fragment, the index of its polygon in the input.
     pub polygons: Vec<u32>,
-    /// For each vertex, the edge of the polygon on which the edge from it to the next lies, by the number of the
-    /// corner where it begins; −1 if a cut or triangulation made it.
+    /// For each vertex, the edge of the polygon that contains the edge from this vertex to the next, by the
+    /// number of the corner where it begins; −1 if a cut or triangulation made it.
     pub edges: Vec<i32>,
-    /// For each vertex, where its weights begin; and last, how many weights there are.
+    /// For each vertex, the number of its first weight; at the end, the number of all weights.
     pub weight_offsets: Vec<u32>,
     /// For each weight, the number of the corner in its polygon.
     pub weight_corners: Vec<u32>,
@@ -394,9 +392,9 @@ pub struct FragmentArrays<T> {
 impl BspTree {
     /// All fragments as arrays, in the order of their numbers.
     ///
-    /// O(n) time and space for n vertices: per vertex 24 bytes for the position, 8 for the edge and the offset, and
-    /// 12 for each of one to three weights; per fragment 8 bytes. Vertices that cuts have made are computed from
-    /// their exact definition.
+    /// O(n) time and space for n vertices: per vertex 24 bytes for the position, 8 for the edge and the
+    /// offset, and 12 for each of one to three weights; per fragment 8 bytes. Vertices made by cuts are
+    /// computed from their exact definition.
     ///
     /// # Errors
     ///
@@ -405,7 +403,7 @@ impl BspTree {
         FragmentArrays::of(self, |number| number)
     }
 
-    /// The same as [`arrays`](Self::arrays), each position and weight rounded once more, to `f32`. A coordinate
+    /// Like [`arrays`](Self::arrays), but rounds each position and weight once more, to `f32`. A coordinate
     /// beyond the range of `f32` is infinite.
     ///
     /// # Errors

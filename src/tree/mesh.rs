@@ -17,11 +17,11 @@ use survey::{FragmentEdge, Node, OutlineVertex, Points, Survey, coordinate, ends
 
 pub use triangles::Triangles;
 
-/// The fragments of a tree as vertices and triangles: what a renderer keeps in its buffers.
+/// The fragments of a tree as vertices and triangles, for a renderer's buffers.
 ///
-/// It stands beside the tree and is made on demand ([`BspTree::mesh`],
-/// [`BspTree::welded_mesh`]). Upload the vertices once; every frame, write the indices in the
-/// order of the viewpoint ([`Triangles::write_back_to_front`]).
+/// A mesh is separate from the tree and made on demand ([`BspTree::mesh`], [`BspTree::welded_mesh`]).
+/// Upload the vertices once; every frame, write the indices in the order of the viewpoint
+/// ([`Triangles::write_back_to_front`]).
 ///
 /// ```
 /// use binspace::{BspTree, Viewpoint};
@@ -52,26 +52,24 @@ pub use triangles::Triangles;
 ///
 /// # Points and vertices
 ///
-/// A *point* is a place where fragments meet. Two fragments share a point because of what it is, not
-/// because its rounded coordinates are equal: the same corner as given, the same plane that cuts the
-/// same edge, or the same planes that cut the same polygon. That several planes cut an edge in one
-/// point is decided exactly.
+/// A *point* is a place where fragments meet. Two fragments share a point by its definition, not because
+/// rounded coordinates are equal: the same given corner, the same plane that cuts the same edge, or the
+/// same planes that cut the same polygon. Whether several planes cut an edge in one point is decided
+/// exactly.
 ///
-/// A *vertex* is a point as a corner of one polygon's fragments. It has weights over the polygon's
-/// corners, to interpolate its attributes. So polygons share points, and fragments of one polygon
-/// share vertices.
+/// A *vertex* is a point as a corner of one polygon's fragments. It has weights over the polygon's corners,
+/// to interpolate attributes. So polygons share points, and fragments of one polygon share vertices.
 ///
 /// # Welded
 ///
-/// A cut that ends on an edge makes a vertex there in the polygon that is cut, but not in its
-/// neighbour: a T-junction, where a renderer may miss pixels. A welded mesh has that vertex in the
-/// neighbour too, and likewise between the fragments of one polygon. Then a closed body stays closed:
-/// if every edge of its polygons is run through once in each direction, so is every edge of its
-/// triangles, from point to point.
+/// A cut that ends on an edge makes a vertex there in the polygon that is cut, but not in its neighbour: a
+/// T-junction, where a renderer may miss pixels. A welded mesh has that vertex in the neighbour too, and
+/// likewise between the fragments of one polygon. Then a closed body stays closed: if every edge of its
+/// polygons is run through once in each direction, so is every edge of its triangles, from point to point.
 ///
-/// Edges are welded that lie on one line as given, also where a corner of one is inside the other.
-/// What is not welded: a corner inside a polygon, and polygons that cross each other, as these have
-/// no edge in common.
+/// Edges that lie on one line as given are welded, also where a corner of one is inside the other. Two
+/// cases are not welded: a corner inside a polygon, and polygons that cross each other, because they have
+/// no common edge.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     parts: Assembled,
@@ -82,9 +80,9 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeshVertex<'m> {
-    /// The number of its point, the same in all polygons that meet there.
+    /// The number of its point, shared by all polygons that meet there.
     pub point: u32,
-    /// Where it is: the point's position.
+    /// The point's position.
     pub position: DVec3,
     /// The index, in the input, of its polygon.
     pub polygon: usize,
@@ -94,15 +92,15 @@ pub struct MeshVertex<'m> {
 }
 
 impl MeshVertex<'_> {
-    /// An attribute here, given its value at each of the polygon's corners.
+    /// Interpolates an attribute, given its value at each of the polygon's corners.
     pub fn interpolate(&self, attribute: impl Fn(usize) -> f64) -> f64 {
         self.weights.iter().map(|&(corner, weight)| weight * attribute(corner as usize)).sum()
     }
 }
 
 impl BspTree {
-    /// The fragments as vertices and triangles. Each fragment has the vertices that it has in the
-    /// tree, so that there are T-junctions; see [`Mesh`].
+    /// The fragments as vertices and triangles. Each fragment has exactly the vertices that it has in the
+    /// tree, so there are T-junctions; see [`Mesh`].
     ///
     /// O(n log n) for n vertices of fragments.
     ///
@@ -113,11 +111,11 @@ impl BspTree {
         Mesh::new(self.mesh_source(), false)
     }
 
-    /// Like [`mesh`](Self::mesh), without T-junctions: where polygons have an edge in common, or
-    /// fragments a cut, and one has a vertex inside it, all have.
+    /// Like [`mesh`](Self::mesh), without T-junctions: a vertex inside an edge that polygons share, or
+    /// inside a cut between fragments, is a vertex of all of them.
     ///
-    /// O(n log n) for n vertices, those that are inserted included. (Where many polygons have one
-    /// edge in common, and all are cut in other places, those are n² for n polygons.)
+    /// O(n log n) for n vertices, the inserted ones included. (If n polygons share one edge and each is cut
+    /// at other places, n² vertices are inserted.)
     ///
     /// # Errors
     ///
@@ -155,7 +153,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If there is no such vertex.
+    /// If the number is not that of a vertex.
     pub fn vertex(&self, vertex: u32) -> MeshVertex<'_> {
         let vertex = vertex as usize;
         let record = self.parts.vertices[vertex];
@@ -168,27 +166,27 @@ impl Mesh {
         }
     }
 
-    /// All vertices, in the order of their numbers; those of one polygon follow one another.
+    /// All vertices, in the order of their numbers; the vertices of one polygon are consecutive.
     pub fn vertices(&self) -> impl DoubleEndedIterator<Item = MeshVertex<'_>> + ExactSizeIterator {
         (0..self.len() as u32).map(|vertex| self.vertex(vertex))
     }
 
-    /// Where each point is.
+    /// The position of each point.
     ///
-    /// Corners are where they were given, but for the grid that they are rounded to, even if the
-    /// tolerance moved them in the tree. Other points are rounded; each coordinate is within 2⁻⁵¹ of
-    /// the scene's extent, plus one step of `f64`, of its exact value.
+    /// Corners are at their given positions, rounded to the grid, even if the tolerance moved them in the
+    /// tree. Other points are rounded; each coordinate is within 2⁻⁵¹ of the scene's extent, plus one step
+    /// of `f64`, of its exact value.
     pub fn positions(&self) -> &[DVec3] {
         &self.parts.positions
     }
 
-    /// The triangles of all fragments. They face as their polygons do.
+    /// The triangles of all fragments, with the orientation of their polygons.
     pub fn triangles(&self) -> &Triangles {
         &self.triangles
     }
 
-    /// The triangles of some polygons, given by their indices in the input: those that a renderer
-    /// draws in one pass. The fragments of others have none.
+    /// The triangles of some polygons, given by their indices in the input, such as those drawn in one
+    /// pass. The fragments of other polygons have no triangles.
     ///
     /// # Errors
     ///
@@ -208,17 +206,17 @@ impl Mesh {
     }
 }
 
-/// What a mesh consists of.
+/// The contents of a mesh.
 #[derive(Clone, Debug, Default)]
 struct Assembled {
-    /// Where each point is.
+    /// The position of each point.
     positions: Vec<DVec3>,
-    /// For each vertex, its point, its polygon, and where its weights end.
+    /// For each vertex, its point, its polygon, and the end of its weights.
     vertices: Vec<Record>,
     weights: Vec<(u32, f64)>,
 }
 
-/// A vertex as a mesh stores it.
+/// A stored vertex.
 #[derive(Clone, Copy, Debug)]
 struct Record {
     point: u32,
@@ -257,11 +255,11 @@ fn assemble(source: Source<'_>, weld: bool) -> Result<(Assembled, Triangles), Er
     Ok((assembler.made, triangles))
 }
 
-/// Numbers that name no point, and no corner.
+/// Stands for no point and for no corner.
 const NONE: u32 = u32::MAX;
 
-/// What tells two vertices of a polygon apart: the point, and the corners that have weights there.
-/// (A polygon that touches itself has several corners at one point.)
+/// Distinguishes two vertices of a polygon: the point, and the corners that have weights there. (A polygon
+/// that touches itself has several corners at one point.)
 type Key = (u32, [u32; 3]);
 
 struct Assembler<'s, 't> {
@@ -327,7 +325,7 @@ impl<'s, 't> Assembler<'s, 't> {
         Ok(())
     }
 
-    /// A vertex that the face itself has.
+    /// A vertex of the face itself.
     fn own_vertex(&mut self, face: u32, node: Node) -> Result<u32, Error> {
         let faces = self.survey.faces;
         let vertex_id = match self.survey.cut(node) {
@@ -349,7 +347,7 @@ impl<'s, 't> Assembler<'s, 't> {
         })
     }
 
-    /// A vertex inside an edge of the face that another face has there.
+    /// A vertex of another face inside an edge of this face.
     fn vertex_on_edge(&mut self, face: u32, k: u32, line: u32, node: Node) -> Result<u32, Error> {
         let survey = self.survey;
         let numbers = edge_numbers(survey, face, k);
@@ -361,7 +359,7 @@ impl<'s, 't> Assembler<'s, 't> {
         })
     }
 
-    /// The number of a vertex, which is made if the polygon has none like it.
+    /// The number of a vertex, which is added if the polygon has no equal one.
     fn vertex(
         &mut self,
         node: Node,
@@ -405,14 +403,14 @@ impl<'s, 't> Assembler<'s, 't> {
 }
 
 /// The line of a fragment's last edge, given the places of each edge's ends. Edges without length are
-/// none.
+/// ignored.
 fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
     let long = edges.iter().zip(places).rev().find(|(_, [from, to])| from != to);
     long.map(|(edge, _)| edge.carrier)
 }
 
-/// Where a vertex is that is no corner, in lattice units: on an edge as given, if it is on one, so
-/// that all faces at the edge agree.
+/// The position of a vertex that is not a corner, in lattice units. A vertex on an edge as given is placed
+/// on that edge, so that all faces at the edge agree.
 fn place_of_cut(survey: &Survey<'_>, face: u32, vertex_id: VertexId) -> [f64; 3] {
     let faces = survey.faces;
     match vertex_id.kind() {
@@ -462,7 +460,8 @@ mod assemble_tests {
         let survey = Survey::new(tree.mesh_source()).unwrap();
         let points = Points::new(&survey).unwrap();
         let mut assembler = Assembler::new(&survey, &points).unwrap();
-        // The largest room for the square's vertices, for those of the first wall after it, and of the rest.
+        // The largest capacity for the square's vertices, for those of the first wall after it, and for the
+        // rest.
         let mut most = [0; 3];
         for at in 0..survey.fragments.len() {
             assembler.outline(at, true).unwrap();

@@ -1,4 +1,4 @@
-//! The nodes of a tree: as users see them, as they are stored, and on a walk.
+//! The nodes of a tree: the public type, the stored record, and walks.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;
@@ -15,18 +15,18 @@ use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::memory::reserve;
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// A node of a tree: a partition plane, the fragments on it, and what is on its sides.
+/// A node of a tree: a partition plane, the fragments on it, and its two sides.
 ///
-/// [`BspTree::root`] and [`children`](Self::front) give nodes one by one, [`BspTree::nodes`] all of
-/// them, and [`Order::walk`](crate::Order::walk) those that a viewpoint needs, in its order. A node is
-/// as cheap to copy as a reference.
+/// [`BspTree::root`] and [`children`](Self::front) return nodes one by one, and [`BspTree::nodes`] all of
+/// them. [`Order::walk`](crate::Order::walk) visits nodes in the order of a viewpoint. A node is as cheap
+/// to copy as a reference.
 ///
-/// The plane holds the points p with `normal().dot(p) == offset()`; its front is where the left side
-/// is larger. Both are rounded. The tree itself decides by the exact plane, which
-/// [`grid_points`](Self::grid_points) gives.
+/// The plane holds the points p with `normal().dot(p) == offset()`; its front is the side where the left
+/// side is larger. Both numbers are rounded. Decisions use the exact plane, see
+/// [`grid_points`](Self::grid_points).
 ///
-/// Fragments of a subtree have consecutive numbers, so those of a node, on its plane and on its
-/// sides, are ranges.
+/// The fragments of a subtree have consecutive numbers, so the fragments on a node's plane and on each of
+/// its sides are ranges.
 #[derive(Clone, Copy)]
 pub struct Node<'t> {
     pub(super) tree: &'t BspTree,
@@ -37,7 +37,7 @@ pub struct Node<'t> {
     pub(super) end: u32,
 }
 
-/// What is on one side of a [`Node`].
+/// One side of a [`Node`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Child<'t> {
     /// Another node.
@@ -47,12 +47,12 @@ pub enum Child<'t> {
 }
 
 impl<'t> Node<'t> {
-    /// Its number, depth first: a node, its front subtree, its back subtree. The root is 0.
+    /// The node's number, depth first: a node, its front subtree, its back subtree. The root is 0.
     pub fn index(&self) -> usize {
         self.index as usize
     }
 
-    /// How many nodes there are on the path from the root to this one, both included.
+    /// The number of nodes on the path from the root to this one, both included.
     pub fn depth(&self) -> usize {
         self.depth as usize
     }
@@ -74,11 +74,11 @@ impl<'t> Node<'t> {
         fragment::plane_points(&self.tree.faces, self.plane())
     }
 
-    /// The index, in the input, of the polygon in whose plane the node's plane is. If that polygon
-    /// was triangulated, it is the plane of one of the triangles.
+    /// The index in the input of the polygon whose plane this is. If that polygon was triangulated, the
+    /// plane of one of its triangles.
     ///
-    /// `None` for a free plane, which is perpendicular to an axis: `normal` and `offset` are then
-    /// exact, but for the one rounding to the grid that corners have.
+    /// `None` for a free plane, which is perpendicular to an axis. Its `normal` and `offset` are exact,
+    /// except that corners are rounded once to the grid.
     pub fn polygon(&self) -> Option<usize> {
         match self.plane().kind() {
             PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
@@ -92,8 +92,8 @@ impl<'t> Node<'t> {
         self.tree.nodes[self.index()].plane
     }
 
-    /// The side of the plane that a viewpoint sees, exactly. Orders begin with the other side. If the plane is
-    /// seen edge-on, they may begin with either.
+    /// The side of the plane that a viewpoint sees, exactly. Orders begin with the other side, or with
+    /// either side of a plane seen edge-on.
     pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
         self.tree.faces.plane(self.plane()).facing(&eye).into()
@@ -119,19 +119,19 @@ impl<'t> Node<'t> {
         self.ranges().back
     }
 
-    /// What is in front.
+    /// The front side.
     pub fn front(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.front_node(self.index()), self.in_front())
     }
 
-    /// What is behind.
+    /// The back side.
     pub fn back(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.back_node(self.index()), self.behind())
     }
 
-    /// The far side, what is on the plane, and the near side: back to front.
+    /// The far side, the fragments on the plane, and the near side: back to front.
     #[inline]
     pub(super) fn parts(&self, is_eye_in_front: bool) -> [Child<'t>; 3] {
         let record = &self.tree.nodes[self.index()];
@@ -160,7 +160,7 @@ impl<'t> Node<'t> {
     }
 }
 
-/// Nodes of one tree are equal if they are the same one.
+/// Nodes of one tree are equal if they have the same number.
 impl PartialEq for Node<'_> {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.tree, other.tree) && self.index == other.index
@@ -228,8 +228,8 @@ impl ExactSizeIterator for Nodes<'_> {}
 impl FusedIterator for Nodes<'_> {}
 
 impl BspTree {
-    /// The node at the top, of all fragments. `None` if there are no nodes: in a tree without
-    /// fragments, or one of a single fragment that needs no plane.
+    /// The node at the top, which contains all fragments. `None` in a tree without nodes: one without
+    /// fragments, or with a single fragment, which needs no plane.
     pub fn root(&self) -> Option<Node<'_>> {
         let end = self.records.len() as u32;
         (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })
@@ -240,8 +240,8 @@ impl BspTree {
         self.root().map_or(Child::Leaf(0..self.records.len() as u32), Child::Node)
     }
 
-    /// All nodes, depth first, those in front of each before those behind it: to draw, measure or
-    /// check a tree. O(nodes) for all of them.
+    /// All nodes, depth first, front subtrees before back subtrees: to draw, measure or check a tree.
+    /// O(nodes) for all of them.
     pub fn nodes(
         &self,
     ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone {
@@ -251,27 +251,28 @@ impl BspTree {
 
 const BACK_IS_NODE: u32 = 1 << 31;
 
-/// The most fragments of a tree. While an [`OrderLayout`](crate::tree::order::layout::OrderLayout) is laid out, its
-/// parts are numbered in 30 bits, and there are fewer than two parts per fragment.
+/// The largest number of fragments of a tree. While an
+/// [`OrderLayout`](crate::tree::order::layout::OrderLayout) is laid out, its parts are numbered in 30 bits,
+/// and there are fewer than two parts per fragment.
 pub(crate) const MOST_FRAGMENTS: usize = (1 << 29) - 1;
 
-/// A node.
+/// A stored node.
 ///
-/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered
-/// in this order: those on the node's plane, those of a front leaf, those of a back leaf, those of the
-/// front subtree, those of the back subtree.
+/// Nodes are stored depth first: the root, its front subtree, its back subtree. Fragments are numbered in
+/// this order: on the node's plane, in a front leaf, in a back leaf, in the front subtree, in the back
+/// subtree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NodeRecord {
     pub(crate) plane: PlaneId,
     own: u32,
-    /// How many fragments are in front.
+    /// The number of fragments in front.
     pub(crate) front_len: u32,
-    /// How many nodes are in front; if none, the front is a leaf.
+    /// The number of nodes in front; if 0, the front is a leaf.
     pub(crate) front_nodes: u32,
 }
 
 impl NodeRecord {
-    /// How many fragments lie on the plane.
+    /// The number of fragments on the plane.
     #[inline]
     pub(crate) fn own(&self) -> u32 {
         self.own & !BACK_IS_NODE
@@ -283,23 +284,23 @@ impl NodeRecord {
         self.own & BACK_IS_NODE != 0
     }
 
-    /// The number of the node in front, given that of this one; `None` if the front is a leaf.
+    /// The number of the node in front, given this node's number; `None` if the front is a leaf.
     #[inline]
     pub(crate) fn front_node(&self, index: usize) -> Option<usize> {
         (self.front_nodes > 0).then_some(index + 1)
     }
 
-    /// The number of the node behind, given that of this one; `None` if the back is a leaf.
+    /// The number of the node behind, given this node's number; `None` if the back is a leaf.
     #[inline]
     pub(crate) fn back_node(&self, index: usize) -> Option<usize> {
         self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
     }
 
-    /// Where the fragments of the subtree of this node are, given the numbers of all of them.
+    /// The ranges of this node's fragments, given the range of the whole subtree.
     #[inline]
     pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
         let own = all.start..all.start + self.own();
-        // A leaf is numbered before a subtree, so it is only here that the back comes first.
+        // A leaf is numbered before a subtree, so only in this case the back comes first.
         if self.front_nodes > 0 && !self.back_is_node() {
             let middle = all.end - self.front_len;
             return Ranges { front: middle..all.end, back: own.end..middle, own };
@@ -309,8 +310,8 @@ impl NodeRecord {
     }
 }
 
-/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind,
-/// down to the leaves.
+/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind, down to
+/// the leaves.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranges {
     pub(crate) own: Range<u32>,
@@ -318,14 +319,14 @@ pub(crate) struct Ranges {
     pub(crate) back: Range<u32>,
 }
 
-/// How many fragments and nodes a subtree has.
+/// The numbers of fragments and nodes of a subtree.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sizes {
     fragments: u32,
     nodes: u32,
 }
 
-/// Makes the room that [`finish`] needs for so many nodes.
+/// Reserves the memory that [`finish`] needs for a number of nodes.
 pub(crate) fn make_room(
     raw: usize,
     sizes: &mut Vec<Sizes>,
@@ -343,8 +344,8 @@ pub(crate) fn finish(
     sizes: &mut Vec<Sizes>,
     nodes: &mut Vec<NodeRecord>,
 ) {
-    // Nodes are read from the last to the first, so children come before their parents: what waits for
-    // its parent is on a stack, the front above the back.
+    // Nodes are read from last to first, so children come before their parents. Subtrees without a parent
+    // yet are on a stack, the front above the back.
     sizes.clear();
     nodes.clear();
     nodes.reserve_exact(raw.len());
@@ -370,7 +371,7 @@ pub(crate) fn finish(
 #[derive(Clone, Debug)]
 pub(super) struct Visit {
     pub(super) node: usize,
-    /// How many nodes there are on the path to it, itself included.
+    /// The number of nodes on the path to it, itself included.
     pub(super) depth: usize,
     /// The fragments on its plane.
     pub(super) own: Range<u32>,
@@ -390,7 +391,7 @@ impl Visit {
         self.own.start..self.in_front.end.max(self.behind.end)
     }
 
-    /// How many fragments are in its leaves.
+    /// The number of fragments in its leaves.
     pub(super) fn leaves(&self) -> usize {
         self.front.len() + self.back.len()
     }
@@ -403,11 +404,11 @@ struct Subtree {
     depth: usize,
     /// The fragments of the whole subtree.
     fragments: Range<u32>,
-    /// Whether the nodes below are on the walk as subtrees of their own.
+    /// Whether the nodes below are on the walk as separate subtrees.
     is_root_alone: bool,
 }
 
-/// The nodes that are still to be visited, from both ends: subtrees in memory order.
+/// The nodes still to be visited, from both ends: subtrees in memory order.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
     subtrees: VecDeque<Subtree>,
@@ -424,7 +425,7 @@ impl Walk {
         Self { subtrees: if tree.nodes.is_empty() { [].into() } else { [all].into() } }
     }
 
-    /// The next node. `None` at the end, and where sizes contradict each other.
+    /// The next node. `None` at the end, and where stored sizes contradict each other.
     pub(super) fn next(&mut self, tree: &BspTree) -> Option<Visit> {
         let subtree = self.subtrees.pop_front()?;
         let visit = visit(tree, &subtree)?;
@@ -481,19 +482,18 @@ fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2
 }
 
 impl BspTree {
-    /// The partition plane that parts two fragments, or that both lie on; `None` if both are in one
-    /// leaf, which a fragment in a leaf is with itself. O(depth).
+    /// The partition plane that separates two fragments, or that both lie on. `None` if both are in one
+    /// leaf, or if both are the same fragment in a leaf. O(depth).
     ///
     /// # Panics
     ///
-    /// If there are no such fragments.
+    /// If a number is not that of a fragment.
     #[doc(hidden)]
     pub fn plane_between(&self, a: u32, b: u32) -> Option<PlaneId> {
         self.parting(a, b).map(|(plane, _)| plane)
     }
 
-    /// The same, with the side of the plane to which each of the two belongs: `Greater` is the front,
-    /// `Equal` the plane itself.
+    /// The same plane, with the side of each of the two: `Greater` is the front, `Equal` the plane itself.
     pub(crate) fn parting(&self, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
         let high = a.max(b);
         assert!((high as usize) < self.records.len(), "no fragment {high}");
@@ -525,11 +525,11 @@ mod between_tests {
     use crate::random::SplitMix64;
     use crate::{BuildOptions, Heuristic, scene};
 
-    /// For a pair of fragments: the plane between them, and on which side of it each is.
+    /// For a pair of fragments: the plane between them, and the side of each.
     type Entry = Option<(PlaneId, [Ordering; 2])>;
 
-    /// The plane between any two fragments by the ranges of all nodes, in a table: a pair that
-    /// is not on one side of a plane is parted there, and nowhere else.
+    /// The plane between any two fragments by the ranges of all nodes, in a table. A pair that is not on
+    /// one side of a plane is separated there, and nowhere else.
     fn table(tree: &BspTree) -> Vec<Vec<Entry>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
@@ -554,7 +554,7 @@ mod between_tests {
         table
     }
 
-    /// Triangles at random, some on planes of others, some twice.
+    /// Random triangles, some on planes of others, some twice.
     fn soup(seed: u64) -> Vec<[glam::DVec3; 3]> {
         let mut random = SplitMix64::new(seed);
         let mut triangles: Vec<[glam::DVec3; 3]> = Vec::new();
@@ -563,7 +563,7 @@ mod between_tests {
             let of_before = triangles.get((random.next() % (k + 1)) as usize).copied();
             triangles.push(match (of_before, random.next() % 4) {
                 (Some(other), 0) => other,
-                // In the same plane, if it is one of constant z.
+                // In the same plane, if that is perpendicular to z.
                 (_, 1) => triangle.map(|p| p.with_z((4.0 * triangle[0].z).round() / 4.0)),
                 _ => triangle,
             });

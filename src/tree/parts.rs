@@ -7,7 +7,7 @@ use crate::exact::{PlaneId, StoredVertex};
 pub(crate) struct RawNode {
     /// The partition plane.
     pub(crate) plane: PlaneId,
-    /// How many fragments lie on the plane.
+    /// The number of fragments on the plane.
     pub(crate) own: u32,
     /// The front side.
     pub(crate) front: RawChild,
@@ -15,10 +15,10 @@ pub(crate) struct RawNode {
     pub(crate) back: RawChild,
 }
 
-/// What is on one side of a node.
+/// One side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RawChild {
-    /// A leaf of this many fragments, stored right behind the node's own.
+    /// A leaf of this many fragments, stored directly after the node's own.
     Leaf(u32),
     /// Another node.
     Node,
@@ -27,7 +27,7 @@ pub(crate) enum RawChild {
 /// A stored fragment. Its vertices end where those of the next fragment begin; a whole face has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Record {
-    /// The face that it is a piece of.
+    /// The face of which it is a piece.
     pub(crate) face: u32,
     /// The index of its first vertex.
     pub(crate) vertices: u32,
@@ -38,13 +38,12 @@ pub(crate) struct Record {
 pub(crate) struct Stored<'t> {
     pub(crate) records: &'t [Record],
     pub(crate) vertices: &'t [StoredVertex],
-    /// The rounded positions of the vertices, if they are kept.
+    /// The rounded positions of the vertices, if stored.
     pub(crate) positions: &'t [[f64; 3]],
 }
 
-/// Nodes and fragments, both depth first and the front before the back. The fragments of a node come
-/// in this order: those on its plane, those of a front leaf, those of a back leaf, those of the
-/// nodes below.
+/// Nodes and fragments, both depth first and the front before the back. The fragments of a node come in
+/// this order: on its plane, in a front leaf, in a back leaf, in the nodes below.
 #[derive(Debug, Default)]
 pub(crate) struct Parts {
     /// The nodes.
@@ -53,9 +52,9 @@ pub(crate) struct Parts {
     pub(crate) records: Vec<Record>,
     /// The vertices of all fragments that are not whole faces.
     pub(crate) vertices: Vec<StoredVertex>,
-    /// Their rounded positions, in lattice units; none if they are not kept.
+    /// Their rounded positions, in lattice units; empty if not stored.
     pub(crate) positions: Vec<[f64; 3]>,
-    /// How many times a piece was cut in two.
+    /// The number of times that a piece was cut in two.
     pub(crate) cuts: usize,
 }
 

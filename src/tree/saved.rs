@@ -23,15 +23,15 @@ const KIND: Kind = Kind { name: *b"tree", version: 3 };
 const FOR_ONE_VIEW: u32 = 1;
 /// Set in the flags of a tree of a cell.
 const OF_CELL: u32 = 2;
-/// Trees with more fragments are checked by two threads. Smaller: waking one takes longer than what it
-/// does; larger: some wait for one thread while the other is idle.
+/// Trees with more fragments are checked by two threads. Too small: waking a thread takes longer than its
+/// work. Too large: one thread works while the other is idle.
 const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
-    /// Writes the tree, so that [`read`](Self::read) gives the same: the same fragments with the same
-    /// numbers, bits and orders. Trees of a [`FrameBuilder`](crate::FrameBuilder) too.
+    /// Writes the tree, so that [`read`](Self::read) returns the same: the same fragments with the same
+    /// numbers, bits and orders. Also for trees of a [`FrameBuilder`](crate::FrameBuilder).
     ///
-    /// Takes O(n) time, and of memory O(depth) and 64 kB. It need not be a `BufWriter`.
+    /// Takes O(n) time, and O(depth) memory plus 64 kB. `output` need not be a `BufWriter`.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
@@ -51,18 +51,18 @@ impl BspTree {
     ///
     /// Version 3. All numbers are little-endian; a list is its length as `u64` and then its items.
     ///
-    /// | part | what |
+    /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacetree`, the version as `u32`, flags as `u32`, added up: 1 for a tree of a `FrameBuilder`, 2 for a tree of a cell |
     /// | grid | the exponent e of 2 as `i32`, the origin o and the far coordinates f as three `f64` each: a point x is the grid's point (x − f) · 2ᵉ − o |
     /// | tolerance | `f64`, in steps of the grid |
     /// | faces | a list: polygon, number of corners, frame, as `u32`. The frame is the numbers of the second (bits 15 to 29) and third corner (0 to 14) of the triangle that spans the plane, and the axis along which corners were moved (30 and 31; 3 for none) |
-    /// | corners | of the cell, if it is of one: the lower and the upper; then of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, with a minus the lower ones |
+    /// | corners | of the cell, if it is the tree of one: the lower and the upper; then of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, the lower ones negative |
     /// | numbered faces | a list: faces, as `u32`, whose corners are not the first of their polygon |
-    /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is none of the polygon |
-    /// | moved corners | a list: the corner as `u32`, and where it was given, three `i64` |
+    /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is not an edge of the polygon |
+    /// | moved corners | a list: the corner as `u32`, and its given position, three `i64` |
     /// | preparation | a list of the dropped polygons as `u32`; the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
-    /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is nothing, 1 a fragment and 2 a node; `u32` each |
+    /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is empty, 1 a fragment and 2 a node; `u32` each |
     /// | fragments | a list: the face of each, as `u32` |
     /// | end | the CRC-32 of all bytes before, as of gzip and PNG, `u32` |
     ///
@@ -72,7 +72,7 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// Those of the writer. What it has taken until then is no file.
+    /// Those of the writer. The bytes written until then are not a valid file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let of_cell = if self.faces.corners_of_cell() > 0 { OF_CELL } else { 0 };
@@ -90,29 +90,29 @@ impl BspTree {
         file.finish()
     }
 
-    /// Reads a tree that [`write`](Self::write) has written. Takes up no more than the tree's bytes,
-    /// so that something else may follow them.
+    /// Reads a tree that [`write`](Self::write) has written. Reads only the tree's bytes, so other data may
+    /// follow.
     ///
-    /// Splits the faces by the stored planes again. That takes O(n · mean depth) time, as building does,
-    /// but no plane has to be chosen: a quarter to a half of the time of building, and nine tenths where
-    /// choosing takes no time and most is split, as by [`Heuristic::First`](crate::Heuristic::First). A
+    /// Splits the faces by the stored planes again. That takes O(n · mean depth) time, like building, but
+    /// no plane has to be chosen: a quarter to a half of the build time, and nine tenths if choosing takes
+    /// no time and most faces are split, as with [`Heuristic::First`](crate::Heuristic::First). A
     /// `BufReader` makes it no faster.
     ///
-    /// # Files from strangers
+    /// # Untrusted files
     ///
-    /// The file may hold anything. Whatever `read` returns is a tree of convex, planar faces within the
+    /// The file may contain anything. If `read` returns a tree, it has convex, planar faces within the
     /// grid: each fragment lies on its side of every plane above it, and the fragments of a face cover it
-    /// once. No method panics, and none takes more time or memory than it says. What the file may choose
-    /// are the faces and the planes, so a forged tree may be deep and its polygons may be in many
-    /// pieces, but never more than the file lists. Memory grows with what is read, so a false length
-    /// cannot ask for more than a small multiple of the file. Corner numbers
-    /// ([`weights`](crate::Fragment::weights), [`edges`](crate::Fragment::edges)) may be larger than any
-    /// that your polygons have.
+    /// once. No method panics, and none takes more time or memory than documented. The file may choose the
+    /// faces and the planes, so a forged tree may be deep and its polygons may be in many pieces, but never
+    /// more than the file lists. Memory grows with the bytes read, so a false length cannot reserve more
+    /// than a small multiple of the file. Corner numbers ([`weights`](crate::Fragment::weights),
+    /// [`edges`](crate::Fragment::edges)) may be larger than any that your polygons have.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read, are no tree, of another version, cut short, damaged, or of no tree
-    /// that the library could have built; or if memory runs out. The message says which.
+    /// If the data cannot be read; if they are not a tree, have another version, are truncated or damaged,
+    /// or contain a tree that the library could not have built; or if memory runs out. The message says
+    /// which.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
@@ -121,12 +121,11 @@ impl BspTree {
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
         let listed = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
         file.finish()?;
-        // Only now is it known that nothing is damaged: what is wrong from here on was written so.
+        // The checksum has shown that nothing is damaged: later faults were written as such.
         if flags > FOR_ONE_VIEW + OF_CELL {
             return Err(damaged("flags", "are unknown"));
         }
-        // Faces and nodes need nothing of each other. Of two faults, the same is found first on any
-        // number of threads.
+        // Faces and nodes are independent. Of two faults, the same is found first on any number of threads.
         let for_one_view = flags & FOR_ONE_VIEW > 0;
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
@@ -180,7 +179,7 @@ const EMPTY: u32 = 0;
 const FRAGMENT: u32 = 1;
 const NODE: u32 = 2;
 
-/// What a node has on its plane and its sides. (A plane has at most as many fragments as there are
+/// The contents of a node's plane and sides, packed. (A plane has at most as many fragments as there are
 /// faces, fewer than 2²⁷.)
 fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
     let side = |is_node, leaf: &Range<u32>| match is_node {
@@ -192,7 +191,7 @@ fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
     node.own() << 4 | front << 2 | side(node.back_is_node(), &visit.back)
 }
 
-/// A node from the bits of a file; a side of an unknown kind is taken for empty.
+/// A node from the bits of a file; a side of an unknown kind counts as empty.
 fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
     let side = |bits| match bits {
         FRAGMENT => RawChild::Leaf(1),
@@ -203,13 +202,13 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
     RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
 }
 
-/// The nodes of a tree, if they are one tree of so many fragments, and each plane separates something.
+/// The nodes of a tree, if they are one tree of `fragments` fragments, and each plane separates something.
 fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,
     faces: &Faces,
 ) -> Result<Vec<NodeRecord>, Error> {
-    // How many nodes and fragments are still to come. Where there are faces, there is a root.
+    // The number of nodes and fragments still to come. If there are faces, there is a root.
     let (mut to_come, mut left) = (usize::from(!faces.is_empty()), fragments);
     for (index, bits) in bits.iter().enumerate() {
         let fault = |fault| invalid("node", index, fault);
@@ -224,7 +223,7 @@ fn read_nodes(
         if own == 0 && count(RawChild::Leaf(0)) > 0 {
             return Err(fault("has a plane that separates no fragments"));
         }
-        // Its own place first: a node without a parent must not count as its own child.
+        // Its own place is subtracted first: a node without a parent must not count as its own child.
         let others = to_come.checked_sub(1).ok_or_else(|| fault("has no parent"))?;
         to_come = others + count(RawChild::Node);
         let here = own as usize + count(RawChild::Leaf(1));
@@ -239,7 +238,7 @@ fn read_nodes(
     Ok(nodes)
 }
 
-/// What became of the polygons, but for how many there were, and the polygons that were dropped.
+/// The report on the polygons, except for their number, and the dropped polygons.
 fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), Error> {
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_NAMES, |bytes: &[u8; 4]| u32_at(bytes, 0))?;

@@ -1,4 +1,4 @@
-//! A tree as deep as no builder makes one in a short time.
+//! A tree deeper than any builder makes in a short time.
 
 use super::parts::{Parts, RawChild, RawNode, Record};
 use super::{BspTree, Child, Culling, Flow, Part};
@@ -41,7 +41,7 @@ fn a_list_of_100_000_nodes_is_walked_on_a_small_stack() {
         assert_eq!(found, order);
         tree.order(viewpoint).culled(&Culling::NONE).write_into(&mut found);
         assert_eq!(found, order);
-        // Fronts face −y, so an eye sees those of squares that are further along y.
+        // Fronts face −y, so an eye sees the fronts of squares that are further along y.
         let ahead = Frustum::new([(DVec3::Y, 60_000.0), (DVec3::NEG_Y, -60_002.5)]);
         let culling = Culling::NONE.with_frustum(ahead).with_facing(Facing::Front);
         tree.order(viewpoint).culled(&culling).write_into(&mut found);

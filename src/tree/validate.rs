@@ -1,4 +1,4 @@
-//! Checking a tree against what it promises, for tests and fuzzers.
+//! Checks a tree against its guarantees, for tests and fuzzers.
 
 mod cover;
 #[cfg(test)]
@@ -15,7 +15,7 @@ use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Side, StoredVertex, Vertex,
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";
 
-/// What is wrong, and at which node, counted depth first.
+/// A fault, and its node, counted depth first.
 fn fault(node: usize, what: impl Display) -> String {
     format!("node {node}: {what}")
 }
@@ -25,16 +25,15 @@ impl BspTree {
     ///
     /// - the sizes of subtrees add up, a leaf has at most one fragment, every plane separates
     ///   fragments, and planes and vertices refer to existing geometry;
-    /// - each fragment lies on its side of every plane above it, as far as the tolerance allows, which is a
-    ///   length; and fragments on a plane are in input order;
+    /// - each fragment lies on its side of every plane above it, up to the tolerance, which is a length;
+    ///   and fragments on a plane are in input order;
     /// - the fragments of each face cover it exactly once: glued back together along the cuts, from
     ///   the leaves up, they give the face with all of its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);
-    /// - the data from which orders are written matches the nodes, and positions that are kept match
-    ///   the vertices.
+    /// - the data from which orders are written matches the nodes, and stored positions match the vertices.
     ///
-    /// All of this is decided exactly. A tree that the library built or read is always valid; this is for
-    /// tests and fuzzers.
+    /// All checks are exact. A tree that the library built or read is always valid; this is for tests and
+    /// fuzzers.
     ///
     /// Takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
     ///
@@ -53,7 +52,7 @@ impl BspTree {
     /// The nodes in memory order, if every node and every fragment is visited exactly once and every
     /// node separates something.
     ///
-    /// The other checks rely on this: they index by whatever a visit names.
+    /// The other checks rely on this: they use every number of a visit as an index.
     fn check_sizes(&self) -> Result<Vec<Visit>, String> {
         let mut visits: Vec<Visit> = Vec::new();
         let mut walk = Walk::new(self);
@@ -63,8 +62,8 @@ impl BspTree {
             if visit.front.len().max(visit.back.len()) > 1 {
                 return Err(fault(visit.node, "a leaf has more than one fragment"));
             }
-            // This makes the walk end whatever the sizes say, because each node takes fragments or
-            // divides them. It also bounds the number of nodes, for which order buffers have room.
+            // This makes the walk end for any sizes, because each node takes fragments or divides them. It
+            // also bounds the number of nodes, for which order buffers have room.
             let has_empty_side = visit.in_front.is_empty() || visit.behind.is_empty();
             if visit.own.is_empty() && has_empty_side {
                 return Err(fault(visit.node, "its plane separates no fragments"));
@@ -78,8 +77,8 @@ impl BspTree {
         Ok(visits)
     }
 
-    /// Checks how many nodes each subtree has, from the last to the first. If all agree, the nodes
-    /// were met in the order in which they stand.
+    /// Checks the number of nodes of each subtree, from the last to the first. If all agree, the walk has
+    /// visited the nodes in memory order.
     fn check_node_counts(&self, visits: &[Visit]) -> Result<(), String> {
         // The subtrees whose parent is still to come, the front's above the back's.
         let mut sizes: Vec<u32> = Vec::new();
@@ -96,7 +95,7 @@ impl BspTree {
         Ok(())
     }
 
-    /// Checks that planes, faces and vertices name things of the input.
+    /// Checks that planes, faces and vertices name parts of the input.
     fn check_names(&self, visits: &[Visit]) -> Result<(), String> {
         for visit in visits {
             let plane = self.nodes[visit.node].plane;
@@ -131,7 +130,7 @@ impl BspTree {
         let record = self.records[id as usize];
         let next = self.records.get(id as usize + 1);
         let end = next.map_or(self.vertices.len(), |next| next.vertices as usize);
-        // All vertices are some fragment's.
+        // Every vertex belongs to a fragment.
         let begins = id > 0 || record.vertices == 0;
         if !begins || record.face as usize >= self.faces.len() {
             return false;
@@ -153,8 +152,8 @@ impl BspTree {
         stored.iter().all(knows) && (stored.is_empty() || stored.len() >= 3)
     }
 
-    /// Holds each fragment against every plane above it, and those on a plane against the order of
-    /// the input.
+    /// Tests each fragment against every plane above it, and those on a plane against the order of the
+    /// input.
     fn check_sides(&self, visits: &[Visit]) -> Result<(), String> {
         let mut path: Vec<(PreparedPlane, Side)> = Vec::new();
         // The fragments in front of each node of the path.
@@ -212,7 +211,7 @@ impl BspTree {
         Ok(())
     }
 
-    /// The vertices of a fragment as the builder had them; none of a whole face.
+    /// The vertices of a fragment as the builder had them; none for a whole face.
     fn restored(&self, id: u32) -> Vec<Vertex> {
         let fragment = self.fragment(id);
         let stored = fragment.stored().iter();
@@ -235,7 +234,7 @@ impl BspTree {
         self.check_positions()
     }
 
-    /// Positions that are kept are those that are computed for the vertices.
+    /// Checks that stored positions equal those computed for the vertices.
     fn check_positions(&self) -> Result<(), String> {
         let fault = Err(fault(0, "the positions are not those of the vertices"));
         if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {

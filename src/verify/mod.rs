@@ -1,5 +1,5 @@
-//! Comparing a tree's picture with a depth buffer's, and the forms in which a tree returns an order with each
-//! other: the only module that knows both the tree and the judge.
+//! Compares a tree's picture with a depth buffer's, and the forms of an order with each other. This is the
+//! only module that uses both the tree and the judge.
 
 use crate::Error;
 
@@ -12,26 +12,26 @@ use crate::tree::{BspTree, Fragment};
 use crate::view::Camera;
 use crate::viewpoint::Viewpoint;
 
-/// A tree verified from one camera: the picture painted in its order, the true picture, and their
-/// differences.
+/// The result of verifying a tree from one camera: the picture painted in its order, the true picture, and
+/// their differences.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
-    /// The rays that both pictures were made with.
+    /// The rays of both pictures.
     pub rays: Rays,
     /// The fragments painted over each other, back to front.
     pub painted: Image,
-    /// The nearest face in every pixel, by a depth buffer that knows the faces but not the tree.
+    /// The nearest face in every pixel, by a depth buffer that uses the faces but not the tree.
     pub truth: DepthImage,
-    /// How `painted` differs from `truth`.
+    /// The differences of `painted` from `truth`.
     pub comparison: Comparison,
-    /// How the picture painted front to back, each fragment only where no earlier one is, differs
-    /// from `truth`.
+    /// The differences from `truth` of the picture painted front to back, where each fragment is painted
+    /// only on empty pixels.
     pub front_to_back: Comparison,
-    /// The number of pixels in which a face that covers them, seen or hidden, is painted more than
-    /// once or not at all. Such faults would show in transparent faces.
+    /// The number of pixels in which a face that covers them, visible or hidden, is painted more than once
+    /// or not at all. Such faults would be visible in transparent faces.
     pub miscounted: usize,
-    /// Whether each order lists every fragment once, and is the same in all its forms.
+    /// Whether each order lists every fragment once, and is the same in all forms.
     pub orders: Result<(), String>,
 }
 
@@ -47,15 +47,14 @@ impl Verification {
 /// depth buffer's, pixel by pixel. Also compares the orders that the tree returns as lists, by
 /// iterators and by visitors.
 ///
-/// Everything [is right](Verification::is_right), whatever the scene and the camera. Pixels that
-/// differ only as far as the tolerance allows count as contested: one of the two fragments reaches
-/// across the tree's plane between them, and the ray meets both within the tolerance of that plane, or
-/// meets the nearer one there and begins there. With a tolerance of 0 only ties are contested, which
-/// are fragments at exactly the same distance.
+/// Everything [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
+/// as the tolerance allows count as contested. For these, one of the two fragments reaches across the
+/// tree's plane between them. The ray meets both within the tolerance of that plane, or meets the nearer
+/// one there and begins there. With a tolerance of 0 only ties are contested: fragments at exactly the same
+/// distance.
 ///
-/// This is less than [`compare`](crate::raster::compare) excuses of layers up to twice the tolerance
-/// apart, as that knows the polygons alone: where a plane of the tree parts them exactly, their order
-/// is not open.
+/// This excuses less than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
+/// twice the tolerance apart do not have an open order if a plane of the tree separates them exactly.
 ///
 /// ```
 /// use binspace::verify::verify;
@@ -78,8 +77,8 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Like [`verify`], with the backs of faces left out: of the pictures, and of what counts as in
-/// front. For rooms seen from outside.
+/// Like [`verify`], with the backs of faces left out, both of the pictures and of the faces that can hide
+/// others. For rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -98,8 +97,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let (truth, all) = zbuffer_layers(&rays, faces);
     let against_truth = |image: &Image| compare_by_planes(tree, &rays, image, truth.image());
     let comparison = against_truth(&painted);
-    // If one order is the reverse of the other, showing only the first fragment of each pixel makes
-    // the same picture as painting over: it need not be painted again.
+    // If one order is the reverse of the other, showing only the first fragment of each pixel gives the
+    // same picture as painting over: no second picture is needed.
     let front_to_back = if near_first.iter().rev().eq(far_first) {
         comparison.clone()
     } else {
@@ -111,8 +110,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders }
 }
 
-/// Compares a painted picture of a tree with a true one. Contested are ties, and pixels in which the
-/// tolerance, at the plane between the two fragments, leaves open which of them is painted last.
+/// Compares a painted picture of a tree with a true one. Ties are contested, and pixels in which the
+/// tolerance, at the plane between the two fragments, leaves open which is painted last.
 fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image) -> Comparison {
     let faces = tree.faces();
     if faces.tolerance() == 0.0 {
@@ -144,20 +143,20 @@ fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image
     })
 }
 
-/// The forms in which a tree returns an order: back to front, then front to back.
+/// The forms of an order: back to front, then front to back.
 const FORMS: [&str; 4] = ["write_into", "order", "front_to_back", "front_to_back().write_into"];
-/// Where the forms of front-to-back orders begin among these.
+/// The first form of front-to-back orders.
 const FIRST_NEAR: usize = 2;
 
-/// Checks that the orders of a viewpoint list every fragment once, are the same as a list of
-/// numbers and by iterator, and that front to back is the reverse of back to front.
+/// Checks that the orders of a viewpoint list every fragment once, are the same as a list and as an
+/// iterator, and that front to back is the reverse of back to front.
 ///
 /// This compares the orders only with each other; [`verify`] also compares their
 /// pictures with a depth buffer's.
 ///
 /// # Errors
 ///
-/// The first fault found, if there is one.
+/// The first fault found.
 pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), String> {
     Orders::of(tree, viewpoint).check(tree.len())
 }
@@ -167,7 +166,7 @@ pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), String> 
 struct Orders([Vec<u32>; 4]);
 
 impl Orders {
-    /// The orders of a tree. An order that does not end is cut off once it is certainly too long.
+    /// The orders of a tree. An order that does not end is cut off as soon as it is certainly too long.
     fn of(tree: &BspTree, viewpoint: Viewpoint) -> Self {
         let most = tree.len() + 1;
         let (mut far_first, mut near_first) = (Vec::new(), Vec::new());
@@ -202,7 +201,7 @@ impl Orders {
     }
 }
 
-/// What is wrong with a list that does not have each fragment once.
+/// Returns an error if a list does not have each fragment once.
 fn each_once(list: &[u32], fragments: usize) -> Result<(), String> {
     let mut seen = vec![false; fragments];
     for &fragment in list {

@@ -1,4 +1,4 @@
-//! Cameras that show a scene whole, and views around and inside of one.
+//! Cameras that show a whole scene, and views around and inside of one.
 
 use crate::Error;
 use glam::DVec3;
@@ -8,9 +8,9 @@ use crate::random::SplitMix64;
 
 /// The field of view of cameras that stand around a scene, in radians.
 const AROUND: f64 = 0.7;
-/// The share of the picture left free around a scene that is shown whole.
+/// The share of the picture left free around a whole scene.
 const BORDER: f64 = 0.05;
-/// The field of view of cameras inside: wide, as a room has to be seen from within.
+/// The field of view of cameras inside, wide enough for a room.
 const INSIDE: f64 = 1.4;
 
 impl Camera {
@@ -48,7 +48,7 @@ pub fn views(
                 let from = side * angle.cos() + ahead * angle.sin() + up * height;
                 around(bounds, up, from, random.range(0.7, 1.6), size)
             } else {
-                // At a point in the middle four fifths of the box, looking at another one there.
+                // At a point in the middle four fifths of the box, looking at another such point.
                 let [eye, target] = [(); 2].map(|()| {
                     let share = random.point(0.1, 0.9);
                     bounds[0] * (1.0 - share) + bounds[1] * share
@@ -72,7 +72,7 @@ fn around(
 ) -> Result<Camera, Error> {
     let centre = min * 0.5 + max * 0.5;
     let half = max * 0.5 - min * 0.5;
-    // A scene that is a single point still has a direction to be seen from.
+    // A scene that is a single point still needs a viewing distance.
     let points = [half.abs().max_element(), centre.abs().max_element(), 1.0];
     let largest = points.into_iter().find(|&size| size > 0.0).unwrap_or(1.0);
     let from = unit(from).unwrap_or(DVec3::ZERO);

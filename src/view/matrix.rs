@@ -5,9 +5,9 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::{Camera, NON_FINITE, Projection, checked, refused, unit};
 
-/// A field of view with a smaller tangent counts as that of a parallel camera. Too small: a parallel matrix whose last
-/// row was rounded has an eye, very far away. Too large: eyes of narrow views are lost. ([`Rays`](crate::raster::Rays)
-/// refuse views as narrow as this.)
+/// A field of view with a smaller tangent counts as that of a parallel camera. Too small: a parallel matrix
+/// whose last row was rounded has an eye, very far away. Too large: eyes of narrow views are lost.
+/// ([`Rays`](crate::raster::Rays) refuse views as narrow as this.)
 const PARALLEL: f64 = 1.0 / (1u64 << 45) as f64;
 /// Rows of a matrix, each as a unit vector, that span less than this volume count as dependent. Too small: rounding
 /// decides where the eye is. Too large: skewed pictures are refused as singular.
@@ -15,8 +15,9 @@ const SINGULAR: f64 = 1e-10;
 /// The sine of the least angle between the sides of a pixel, and between the picture and the line of sight to its
 /// middle. Too small: rounding decides where points appear. Too large: steep off-axis views are refused.
 const LEAST_ANGLE: f64 = 1e-3;
-/// Depths that change less along the rays of a parallel matrix, as a share of how they change elsewhere, do not tell
-/// its direction. Too small: rounding decides. Too large: mirrored pictures are shown from behind.
+/// Depths that change less than this along the rays of a parallel matrix, as a share of their change
+/// elsewhere, do not determine its direction. Too small: rounding decides. Too large: mirrored pictures are
+/// shown from behind.
 const FLAT: f64 = 1e-9;
 
 impl Camera {
@@ -31,14 +32,15 @@ impl Camera {
     /// | changes from point to point | perspective: its eye is where x, y and w are 0; w is positive ahead of it |
     /// | is one positive number | parallel: it looks along the direction in which x and y do not change |
     ///
-    /// The row of z, the depth, may have any finite numbers, and may depend on the others. There is no near and no far
-    /// plane. The depth is only used with a parallel matrix. There it must increase away from the viewer, as in
-    /// OpenGL, Vulkan, Direct3D, Metal and WebGPU; or it is the same along the rays. If depths are reversed
-    /// ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
+    /// The row of z, the depth, may have any finite numbers, and may depend on the others. There is no near
+    /// and no far plane. The depth is only used with a parallel matrix. There it must increase away from
+    /// the viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If
+    /// depths are reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0,
+    /// -1.0)) * matrix`.
     ///
-    /// Mirrored pictures are refused: in them right, up and towards the viewer form a left-handed frame, as in plots
-    /// with one inverted axis. Negate the first row, and mirror what is drawn: x becomes width − x. If y points down, as
-    /// in Vulkan, negate the second row instead, and mirror nothing.
+    /// Mirrored pictures are refused: in them right, up and towards the viewer form a left-handed frame, as
+    /// in plots with one inverted axis. Negate the first row, and mirror the drawing: x becomes width − x.
+    /// If y points down, as in Vulkan, negate the second row instead, and mirror nothing.
     ///
     /// ```
     /// use binspace::glam::{DVec3, dcamera::rh};
@@ -62,9 +64,10 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite; if the rows determine neither an eye nor a direction; if nothing is ahead, as w is
-    /// not positive anywhere; if the picture is mirrored; if the sides of a pixel, or the picture and the line of sight
-    /// to its middle, form an angle of less than 0.001 radians; or if the size is zero or beyond the limits.
+    /// If a number is not finite; if the rows determine neither an eye nor a direction; if w is not
+    /// positive anywhere, so that nothing is ahead; if the picture is mirrored; if the sides of a pixel, or
+    /// the picture and the line of sight to its middle, form an angle of less than 0.001 radians; or if the
+    /// size is zero or beyond the limits.
     pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, Error> {
         let size = checked(size)?;
         if !matrix.is_finite() {
@@ -78,7 +81,7 @@ impl Camera {
         let ahead = unit(w.truncate()).unwrap_or(DVec3::ZERO);
         let depth = ahead.dot(w.truncate());
         let is_parallel = depth <= PARALLEL * lengths[0].min(lengths[1]);
-        // Lengths in the picture are measured where w is this.
+        // Lengths in the picture are measured at this w.
         let (forward, scale) = if is_parallel {
             if w.w <= 0.0 {
                 return refused(NOTHING_AHEAD);
@@ -170,17 +173,18 @@ const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither 
                          zero, or they depend on each other";
 const NOTHING_AHEAD: &str = "w of the matrix is zero or negative for every point: it must be positive ahead of the \
                              camera";
-const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror what is drawn; or, if its y \
+const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror the drawing; or, if its y \
                         points down, negate its second row";
 const MIRRORED_OR_REVERSED: &str = "the matrix mirrors the picture, or its depth decreases away from the viewer: if \
                                     depths are reversed, negate its third row; if its y points down, negate its second \
-                                    row; or negate its first row and mirror what is drawn";
+                                    row; or negate its first row and mirror the drawing";
 const SKEWED: &str = "the sides of a pixel, or the picture and the line of sight to its middle, form an angle of less \
                       than 0.001 radians";
 const TOO_FAR: &str =
     "the eye, the middle or the size of the matrix's picture is beyond the range of f64";
 
-/// Rows times a power of two that makes their largest number about 1. Clip coordinates mean the same at any scale.
+/// Rows times a power of two that makes their largest number about 1. Clip coordinates mean the same at any
+/// scale.
 fn scaled(rows: [DVec4; 3]) -> [DVec4; 3] {
     let [x, y, w] = rows.map(|row| row.abs().max_element());
     let exponent = x.max(y).max(w).log2().floor().clamp(-1000.0, 1000.0);
@@ -203,7 +207,7 @@ mod tests {
         [Camera::perspective(eye, target, up, 0.9, SIZE).unwrap(), parallel.unwrap()]
     }
 
-    /// Where a matrix has a point of the world, in pixels.
+    /// The position of a world point by the matrix, in pixels.
     fn place(matrix: &DMat4, point: DVec3) -> [f64; 2] {
         let clip = *matrix * point.extend(1.0);
         [(0.5 + 0.5 * clip.x / clip.w) * 640.0, (0.5 - 0.5 * clip.y / clip.w) * 360.0]
@@ -227,8 +231,8 @@ mod tests {
         )
     }
 
-    /// The matrix puts points where the camera does, and depths between those of the two planes. Its camera is the
-    /// same.
+    /// The matrix puts points where the camera does, and depths between those of the two planes. Its camera
+    /// is the same.
     #[test]
     fn the_matrix_of_a_camera_has_that_camera() {
         let mut random = SplitMix64::new(5);
@@ -280,7 +284,7 @@ mod tests {
                     let most = 1e-11 * (640.0 + at[0].abs() + at[1].abs());
                     assert!(is_near(skewed.project(point).unwrap(), at, most), "{skewed:?}");
                     assert!(is_near(again.project(point).unwrap(), at, most), "{skewed:?}");
-                    // What the picture shows is in its frustum, and the other way round.
+                    // Visible points are in the frustum, and the other way round.
                     let outside = clip.x.abs().max(clip.y.abs()) / clip.w;
                     if (outside - 1.0).abs() > 1e-6 {
                         assert_eq!(frustum.meets([point; 2]), outside < 1.0, "{skewed:?}");
@@ -296,7 +300,7 @@ mod tests {
     #[test]
     fn a_cabinet_projection_looks_along_the_direction_in_which_points_coincide() {
         let mut matrix = DMat4::IDENTITY;
-        // x and y of a point grow by a quarter of what it is further away; z points to the viewer.
+        // x and y of a point increase by a quarter of its distance; z points to the viewer.
         (matrix.z_axis.x, matrix.z_axis.y) = (-0.25, -0.25);
         matrix.z_axis.z = -1.0;
         let camera = Camera::from_matrix(matrix, SIZE).unwrap();
@@ -373,7 +377,7 @@ mod tests {
             let mirrored = message(scaled(-1.0, 1.0, 1.0) * matrix);
             assert!(mirrored.contains("mirror") && mirrored.contains("first row"), "{mirrored}");
             assert!(message(scaled(1.0, -1.0, 1.0) * matrix).contains("second row"));
-            // As the text says.
+            // As the documentation says.
             assert!(Camera::from_matrix(scaled(-1.0, -1.0, 1.0) * matrix, SIZE).is_ok());
             let mut sheared = DMat4::IDENTITY;
             sheared.y_axis.x = 1e4;

@@ -1,4 +1,4 @@
-//! Cameras: from where a picture is taken, and where in it a point of the world appears.
+//! Cameras: the viewpoint of a picture, and the place of world points in it.
 //!
 //! A picture is `width` × `height` pixels; x runs right, y runs down, pixel (0, 0) is the top left
 //! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
@@ -14,8 +14,8 @@ pub use around::views;
 use crate::error::Kind;
 use crate::viewpoint::{Frustum, Viewpoint};
 
-/// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their
-/// furthest vertex. Larger: parts near the eye are missing. Smaller: coordinates lose digits.
+/// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their furthest
+/// vertex. Too large: parts near the eye are missing. Too small: coordinates lose digits.
 const NEAR: f64 = 1e-9;
 
 const NON_FINITE: &str = "a camera parameter is NaN or infinite";
@@ -23,9 +23,9 @@ const FIELD_OF_VIEW: &str = "the field of view must be more than 0 and less than
 
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
 ///
-/// [`perspective`](Self::perspective) and [`parallel`](Self::parallel) make cameras with square pixels that look at
-/// the middle of the picture. [`from_matrix`](Self::from_matrix) also makes cameras whose pixels are oblong or skewed,
-/// and cameras that look past the middle (off-axis).
+/// [`perspective`](Self::perspective) and [`parallel`](Self::parallel) make cameras with square pixels that
+/// look at the middle of the picture. [`from_matrix`](Self::from_matrix) also makes off-axis cameras, which
+/// look past the middle, and cameras whose pixels are oblong or skewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     projection: Projection,
@@ -42,7 +42,7 @@ pub struct Camera {
     size: [u32; 2],
 }
 
-/// How a camera projects.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// From an eye point.
@@ -65,9 +65,9 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// The most pixels of a picture in each direction.
+    /// The largest number of pixels of a picture in each direction.
     pub const MAX_SIDE: u32 = 1 << 16;
-    /// The most pixels of a picture.
+    /// The largest number of pixels of a picture.
     pub const MAX_PIXELS: u64 = 1 << 26;
 
     /// A perspective camera at `eye` that looks at `target`, with a vertical field of view in
@@ -154,7 +154,7 @@ impl Camera {
             );
         };
         let side = forward.cross(unit(up).unwrap_or(forward));
-        // Smaller: rounding would decide the picture's orientation.
+        // Too small: rounding would decide the picture's orientation.
         if side.length() < 1e-9 {
             return refused("the camera's up vector is zero or along its direction of view");
         }
@@ -163,12 +163,12 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle: forward, aspect: 1.0, size })
     }
 
-    /// How the camera projects.
+    /// The camera's projection.
     pub fn projection(&self) -> &Projection {
         &self.projection
     }
 
-    /// The viewpoint to order fragments for.
+    /// The viewpoint for ordering fragments.
     pub fn viewpoint(&self) -> Viewpoint {
         match self.projection {
             Projection::Perspective { eye, .. } => Viewpoint::Eye(eye),
@@ -200,8 +200,8 @@ impl Camera {
         self.up
     }
 
-    /// The unit vector in the direction in which the camera looks: the normal of the picture's plane. A perspective
-    /// camera sees there what appears in the middle of the picture, unless it is off-axis.
+    /// The unit vector in the direction in which the camera looks: the normal of the picture's plane. For a
+    /// perspective camera it points at the middle of the picture, unless the camera is off-axis.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
@@ -229,8 +229,8 @@ impl Camera {
         self.middle
     }
 
-    /// The same view with a picture of another size. The height that it shows, its middle and the shape of its pixels
-    /// stay.
+    /// The same view with a picture of another size. The visible height, the middle and the shape of pixels
+    /// do not change.
     ///
     /// # Errors
     ///
@@ -247,9 +247,9 @@ impl Camera {
         }
     }
 
-    /// Two vectors whose scalar products with a point's vector from the [origin](Self::origin) are its distances from
-    /// the middle of the picture, along [`right`](Self::right) and along [`up`](Self::up). From an eye, these are as
-    /// many times larger as the point is further away than 1.
+    /// Two vectors whose scalar products with a point's vector from the [origin](Self::origin) are its
+    /// distances from the middle of the picture, along [`right`](Self::right) and along [`up`](Self::up).
+    /// For an eye, each product is multiplied by the point's distance.
     fn rows(&self) -> [DVec3; 2] {
         let Self { right, up, forward, middle, .. } = *self;
         let sine = up.cross(right).dot(forward);
@@ -271,8 +271,8 @@ impl Camera {
         )
     }
 
-    /// Where in the picture a point appears, in pixels; it may be outside the picture. `None` for a
-    /// point that is not in front of the eye.
+    /// The position of a point in the picture, in pixels; it may be outside the picture. `None` for a point
+    /// that is not in front of the eye.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
         let [x, y, w] = self.homogeneous(point).to_array();
         let position = [x / w, y / w];
@@ -280,12 +280,11 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// The region that the picture shows, to its borders: half a pixel more on each side than the
-    /// rays through the centres of its pixels. That is more than the rounding of the camera, unless
-    /// it is so narrow that a pixel is finer than 2⁻³⁰ of its distance, or of a parallel camera's
-    /// scene.
+    /// The region that the picture shows, up to its borders: half a pixel more on each side than the rays
+    /// through the centres of its pixels. That is more than the rounding of the camera, unless a pixel is
+    /// finer than 2⁻³⁰ of its distance, or of a parallel camera's scene.
     ///
-    /// There is no near and no far plane; a perspective camera sees what is ahead of its eye.
+    /// There is no near and no far plane; a perspective camera sees everything ahead of its eye.
     pub fn frustum(&self) -> Frustum {
         let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());
         let (origin, ahead) = (self.origin(), self.forward);
@@ -342,7 +341,7 @@ fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], Error> {
     Ok([width, height])
 }
 
-/// The unit vector along a vector of any length that `f64` can express; `None` for zero.
+/// The unit vector in the direction of a vector of any length that `f64` can express; `None` for zero.
 fn unit(v: DVec3) -> Option<DVec3> {
     let size = v.abs().max_element();
     (size > 0.0 && size.is_finite()).then(|| (v / size).normalize())
@@ -358,7 +357,7 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
             kept.push(here);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            // Always from the inner end, so that both polygons at the edge compute the same.
+            // Always from the inner end, so that both polygons at the edge get the same point.
             let (inner, outer, a, b) =
                 if a >= 0.0 { (here, next, a, b) } else { (next, here, b, a) };
             kept.push(inner + (outer - inner) * (a / (a - b)));
@@ -367,7 +366,7 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-/// The error of a problem.
+/// An error with a message.
 pub(crate) fn refused<T>(problem: impl Into<String>) -> Result<T, Error> {
     Err(Kind::Argument(problem.into()).error())
 }

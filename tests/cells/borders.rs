@@ -1,4 +1,4 @@
-//! Neighbouring cells have the vertices that the planes between them make in common, bit for bit.
+//! Neighbouring cells share the vertices made by the planes between them, bit for bit.
 
 use crate::cells::polygons::triangles;
 use binspace::internals::{PlaneKind, VertexKind};
@@ -9,7 +9,7 @@ use testkit::prelude::*;
 /// A plane between cells: its axis, and the bits of its lattice coordinate.
 type Wall = (usize, u64);
 
-/// What a vertex is defined by, whichever polygon it is of: the ends of an edge as given, in order, and a
+/// The definition of a vertex, independent of its polygon: the ends of an edge as given, in order, and a
 /// plane; or a polygon and two planes.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Name {
@@ -17,7 +17,7 @@ enum Name {
     Inside(usize, [Wall; 2]),
 }
 
-/// The places of all vertices that planes of cells alone have made, with the numbers of the cells.
+/// The places of all vertices made only by planes of cells, with the numbers of the cells.
 fn places(scene: &Divided) -> BTreeMap<Name, Vec<([u64; 3], usize)>> {
     let mut places: BTreeMap<Name, Vec<([u64; 3], usize)>> = BTreeMap::new();
     for (number, cell) in scene.cells.iter().enumerate() {
@@ -56,7 +56,7 @@ fn places(scene: &Divided) -> BTreeMap<Name, Vec<([u64; 3], usize)>> {
     places
 }
 
-/// How many vertices two cells or more have in common.
+/// Returns the number of vertices shared by two cells or more.
 fn check(polygons: Vec<Corners>, cells: usize) -> [usize; 2] {
     let options = BuildOptions::DEFAULT.with_tolerance(0.0);
     let scene = Divided::new(polygons, options, cells).unwrap();
@@ -76,7 +76,7 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
     let mut total = [0; 2];
     for cells in 2..10 {
         let mut dice = Dice(cells as u64);
-        // Corners that are no numbers of few digits, so that nothing is exact by chance.
+        // Corners with many digits, so that nothing is exact by chance.
         let odd = |corner: DVec3| corner * 0.1 + DVec3::new(0.003, 0.007, 0.011) * corner.x;
         let polygons = triangles(&mut dice, 60, 30);
         let polygons = polygons.into_iter().map(|p| p.into_iter().map(odd).collect()).collect();
@@ -91,7 +91,7 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
 fn faces_that_share_an_edge_have_the_same_vertices() {
     let mesh = scene::sphere(900);
     let odd = |p: &DVec3| DVec3::new(p.x + 0.1 * p.y, p.y * 0.7 - p.z, p.z + p.x / 3.0);
-    // Triangles, as corners that are moved onto a plane have vertices of their own.
+    // Triangles, because corners that are moved onto a plane have separate vertices.
     let polygons: Vec<Corners> = mesh
         .polygons()
         .flat_map(|quad| {

@@ -38,8 +38,8 @@ fn every_hard_polygon_is_in_all_cells_together_once() {
     enough!(cut > 100; "{cut}");
 }
 
-/// What lies in the plane between two cells is in the one on the side of larger coordinates, and what is
-/// within the tolerance of it as well.
+/// Polygons in the plane between two cells, or within the tolerance of it, belong to the cell on the side
+/// of larger coordinates.
 #[test]
 fn what_lies_in_a_plane_between_is_in_the_cell_in_front() {
     let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
@@ -60,7 +60,7 @@ fn what_lies_in_a_plane_between_is_in_the_cell_in_front() {
     assert_eq!([of(0), of(1)], [vec![0, 4], vec![1, 2, 3, 5]]);
 }
 
-/// All polygons in one cell of many, and a scene of nothing.
+/// All polygons in one cell of many, and an empty scene.
 #[test]
 fn cells_may_be_empty() -> Verdict {
     let mut dice = Dice(4);

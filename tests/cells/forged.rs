@@ -1,11 +1,11 @@
-//! Partitions of strangers that are wrong in one plane: refused, and the message says which it is.
+//! Forged partitions that are wrong in one plane: refused, with a message that names the plane.
 
 use binspace::partition::{Extent, Partition};
 use testkit::prelude::*;
 use testkit::saved::seal;
 
 const LIMIT: i64 = 1 << 51;
-/// How many planes the partition has.
+/// The number of planes of the partition.
 const PLANES: usize = 3;
 
 /// Four cells, by planes of any axis and place: over all, over two of them, over the other two.
@@ -57,9 +57,9 @@ fn planes_are_within_what_they_divide() {
         let at = |behind: i64, ahead: i64| with_planes([(axis, 10), (axis, behind), (axis, ahead)]);
         assert!(at(10, 10).is_ok() && at(-LIMIT, LIMIT).is_ok());
         let message = at(11, 12).expect_err("ahead of the first");
-        assert!(message.contains("plane 1 is outside of what it divides"), "{message}");
+        assert!(message.contains("plane 1 is outside the part that it divides"), "{message}");
         let message = at(8, 9).expect_err("behind the first");
-        assert!(message.contains("plane 2 is outside of what it divides"), "{message}");
+        assert!(message.contains("plane 2 is outside the part that it divides"), "{message}");
         // On another axis it may be anywhere.
         let other = (axis + 1) % 3;
         assert!(with_planes([(axis, 10), (other, 11), (other, 9)]).is_ok());

@@ -1,4 +1,4 @@
-//! Scenes built as several cells, held against rays, areas and trees of the whole.
+//! Scenes built as several cells, compared with rays, areas and trees of the whole.
 
 mod borders;
 mod cover;

@@ -1,4 +1,4 @@
-//! The orders of cells, one after the other, are an order of the scene: held against rays, in big
+//! The orders of cells, one after the other, are an order of the scene: compared with rays, in big
 //! integers.
 
 use crate::cells::polygons::{stars, tiles, triangles};
@@ -35,11 +35,11 @@ fn hard_scenes_come_far_before_near() {
     });
     enough!(total.scenes >= 100, total.pairs > 3_000, total.apart > 500; "{total:?}");
     enough!(total.empty_cells > 20; "{total:?}");
-    // What the tolerance excuses is the exception, also of pairs in different cells.
+    // The tolerance excuses few pairs, also in different cells.
     assert!(total.excused * 50 < total.apart, "{total:?}");
 }
 
-/// An order of cells that is the wrong way round is found.
+/// The judge finds a reversed order of cells.
 #[test]
 fn the_judge_sees_a_wrong_order_of_cells() {
     let scene =

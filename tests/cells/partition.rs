@@ -1,4 +1,4 @@
-//! Partitions: which cells there are, and which polygons reach them.
+//! Partitions: their cells, and the polygons that reach them.
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use binspace::partition::Extent;
@@ -10,12 +10,12 @@ use testkit::scenes::polygons;
 use testkit::shapes::{Claim, sheet};
 use testkit::snapshot::Snapshot;
 
-/// What is seen of a tree: where its fragments are, and whose.
+/// The visible data of a tree: the places of its fragments, and their polygons.
 fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec<DVec3>)> {
     tree.fragments().map(|f| (number(f.polygon()), f.vertices().collect())).collect()
 }
 
-/// Polygons that are not listed for a cell have no part in it; and few are listed in vain, though these
+/// Polygons that are not listed for a cell have no part in it. Few are listed unnecessarily, although these
 /// are large for their cells.
 #[test]
 fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
@@ -66,7 +66,7 @@ fn the_order_of_samples_and_the_number_of_threads_do_not_count() {
     assert_eq!(Snapshot::of(&build(1)), Snapshot::of(&build(4)));
 }
 
-/// Samples in each cell, of a scene without a lump.
+/// Samples in each cell, for a scene without clusters.
 #[test]
 fn cells_have_about_as_many_samples() {
     let mut dice = Dice(1);
@@ -85,7 +85,7 @@ fn cells_have_about_as_many_samples() {
     }
 }
 
-/// Samples that say little: none, one, all in one place, some that are no points.
+/// Degenerate samples: none, one, all in one place, some NaN.
 #[test]
 fn odd_samples_give_as_many_cells() {
     let polygons = tiles(&mut Dice(3), 30);
@@ -134,7 +134,7 @@ fn planes_go_through_places_that_many_samples_share() {
     }
 }
 
-/// What the trees of all cells say of polygons is that of one tree, if each counts once.
+/// The trees of all cells report the same as one tree, if each polygon counts once.
 #[test]
 fn preparations_count_each_polygon_once() {
     let mut dice = Dice(17);
@@ -158,7 +158,7 @@ fn preparations_count_each_polygon_once() {
     }
 }
 
-/// Extents of shares are merged to that of the whole, in any order.
+/// Extents of shares merge to that of the whole, in any order.
 #[test]
 fn extents_of_shares_are_that_of_the_whole() {
     let polygons = triangles(&mut Dice(31), 30, 9);
@@ -208,7 +208,7 @@ fn what_cannot_be_divided_is_an_error() {
     assert!(reached.is_empty());
 }
 
-/// A tree of a cell stays one when polygons are added.
+/// A tree of a cell remains one when polygons are added.
 #[test]
 fn what_is_added_is_cut_to_the_cell() {
     let options = BuildOptions::DEFAULT;
@@ -231,8 +231,8 @@ fn what_is_added_is_cut_to_the_cell() {
     }
 }
 
-/// Corners that were moved onto their plane are known as they were given, also where faces before them went
-/// to other cells.
+/// Corners that were moved onto their plane keep their given positions, also if faces before them went to
+/// other cells.
 #[test]
 fn what_is_added_again_is_known_by_its_corners_as_given() {
     let bent = |x: u32| -> Corners {
@@ -254,11 +254,12 @@ fn what_is_added_again_is_known_by_its_corners_as_given() {
     }
 }
 
-/// Far from the origin, numbers are less precise than a small scene's tolerance: which does not follow bounds.
+/// Far from the origin, numbers are less precise than a small scene's tolerance, which does not follow
+/// bounds.
 #[test]
 fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
     let at = DVec3::splat(5e6);
-    // In numbers of which all digits are right.
+    // In numbers whose digits are all exact.
     let square = |x: f64| {
         let corners = sheet(0, x, 1.0).map(|corner| at + DVec3::from(corner)).to_vec();
         Claim { corners, precision: 0.0 }
@@ -299,7 +300,7 @@ fn a_tree_is_of_its_own_cell_alone() {
     }
 }
 
-/// It must not be taken for the last one.
+/// It must not be treated as the last one.
 #[test]
 fn a_cell_behind_the_last_is_refused() {
     let square = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
@@ -325,7 +326,7 @@ fn a_cell_behind_the_last_is_refused() {
     }
 }
 
-/// Two squares far apart in a corner of the extent: bounds that hold more.
+/// Two squares far apart in a corner of the extent: bounds that contain more.
 #[test]
 fn bounds_of_the_options_are_held_too() {
     let square = |z: f64| -> Corners { sheet(2, z, 1.0).map(DVec3::from).to_vec() };
@@ -336,7 +337,7 @@ fn bounds_of_the_options_are_held_too() {
     assert!(options.build_cell(&scene.partition, 1, [square(99.0)]).is_ok());
 }
 
-/// Meshes, boxes and hits of a cell are of what is in it.
+/// Meshes, boxes and hits of a cell contain only its polygons' parts.
 #[test]
 fn a_cell_is_a_tree_as_any_other() {
     let terrain = scene::terrain(400, 3);
@@ -372,8 +373,7 @@ fn a_cell_is_a_tree_as_any_other() {
     enough!(hits[1] > 20; "{hits:?}");
 }
 
-/// More polygons or fragments than allowed, polygons without end among them, and a build that is
-/// cancelled.
+/// More polygons or fragments than allowed, endless polygons among them, and a cancelled build.
 #[test]
 fn budgets_and_cancels_count_in_cells() {
     use std::ops::ControlFlow;
@@ -400,7 +400,7 @@ fn budgets_and_cancels_count_in_cells() {
     assert!(cancelled.is_err_and(|error| error.kind() == ErrorKind::Cancelled));
 }
 
-/// A drawing would take the polygons of a cell whole.
+/// A drawing needs whole polygons.
 #[test]
 fn a_drawing_of_a_cell_is_an_error() {
     use binspace::drawing::ViewOptions;

@@ -1,15 +1,15 @@
-//! Polygons that planes of cells go through, and along.
+//! Polygons that planes of cells cross, and that lie in them.
 
 use testkit::prelude::*;
 
-/// Triangles at random with whole corners from −n to n.
+/// Random triangles with integer corners from −n to n.
 pub(crate) fn triangles(dice: &mut Dice, count: usize, n: u32) -> Vec<Corners> {
     let mut corner = || dice.whole_point(n);
     (0..count).map(|_| vec![corner(), corner(), corner()]).collect()
 }
 
-/// Squares in planes x, y or z = whole numbers, side by side and one over the other: all of them lie in
-/// planes of cells sooner or later.
+/// Squares in planes x, y or z = integer, side by side and one above the other: all of them lie in planes
+/// of cells at some division.
 pub(crate) fn tiles(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let tile = |_| {
         let axis = dice.below(3);

@@ -1,4 +1,4 @@
-//! Samples that are no points say nothing of where planes go.
+//! NaN and infinite samples do not affect the planes.
 
 use binspace::partition::Extent;
 use testkit::prelude::*;
@@ -21,7 +21,7 @@ fn samples_that_are_not_finite_choose_nothing() {
             let mut samples = vec![point; 7];
             samples.extend(good.iter().flat_map(|&good| [good, point]));
             assert_eq!(chosen(samples), expected, "{bad} along {axis}");
-            // And they alone: as if there were none.
+            // Only these: as if there were none.
             assert_eq!(chosen(vec![point; 9]), chosen(vec![]));
         }
     }

@@ -23,7 +23,7 @@ fn what_is_written_is_read_again() {
         let scene = divided(cells as u64, cells);
         let file = written(&scene.partition);
         assert_eq!(Partition::read(&file[..]).unwrap(), scene.partition);
-        // Something else may follow.
+        // Other data may follow.
         let mut rest = &[&file[..], b"more"].concat()[..];
         assert!(Partition::read(&mut rest).is_ok() && rest == b"more");
         for cell in &scene.cells {
@@ -49,7 +49,7 @@ fn damaged_partitions_are_errors() {
     }
 }
 
-/// Bytes of strangers, with a right checksum: what is read can be used.
+/// Forged bytes with a right checksum: a partition that is read can be used.
 #[test]
 fn forged_partitions_are_errors_or_partitions() {
     let scene = divided(4, 4);
@@ -71,7 +71,7 @@ fn forged_partitions_are_errors_or_partitions() {
 fn partitions_of_other_tolerances_are_refused() {
     let scene = divided(4, 4);
     let file = written(&scene.partition);
-    // Behind the tolerance come the number of planes, three planes of 12 bytes, and the checksum.
+    // After the tolerance come the number of planes, three planes of 12 bytes, and the checksum.
     let at = file.len() - 4 - 3 * 12 - 8 - 8;
     let limit = (1_u64 << 51) as f64 / 128.0;
     let wrong = [-1.0, limit * 1.001, f64::INFINITY, f64::NAN];
@@ -85,7 +85,7 @@ fn partitions_of_other_tolerances_are_refused() {
     }
 }
 
-/// Trees of cells of strangers: whatever is read, nothing panics.
+/// Forged trees of cells: nothing panics.
 #[test]
 fn forged_trees_of_cells_can_be_used() {
     let scene = divided(5, 3);

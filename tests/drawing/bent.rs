@@ -63,7 +63,7 @@ fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
     }
 }
 
-/// A number of so many 256ths.
+/// A multiple of 1/256.
 fn number(dice: &mut Dice, most: f64) -> f64 {
     (dice.range(-most, most) * 256.0).round() / 256.0
 }
@@ -167,7 +167,7 @@ pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> 
 
 #[derive(Debug, Default)]
 struct Score {
-    /// By how many polygons are before it: 0, 1, or more.
+    /// By the number of polygons in front: 0, 1, or more.
     crossed: [usize; 3],
     /// Where polygons touch.
     touched: usize,
@@ -274,7 +274,7 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
     lengths
 }
 
-/// Whatever the tolerance leaves open at the ends of polygons and along their bends.
+/// The tolerance leaves the ends of polygons and their bends open.
 #[test]
 fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
     let (mut dice, mut compared) = (Dice(15), 0);
@@ -298,8 +298,8 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
     enough!(compared > 300; "{compared}");
 }
 
-/// Neighbours have their common edges in the picture where the corners are as given, so that nothing shows between
-/// them, though the tree moved corners onto the planes of their quads.
+/// Neighbours have their common edges in the picture at the given corners, so nothing is visible between
+/// them, although the tree moved corners onto the planes of their quads.
 #[test]
 fn through_a_closed_globe_of_bent_quads_nothing_shows() {
     let scene = Builtin::Sphere.build(Some(2_000), 1);

@@ -10,7 +10,7 @@ use testkit::prelude::*;
 use testkit::rational::Point;
 use testkit::shapes::rectangle;
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
     /// Paths before points of lines, and after them.
@@ -25,8 +25,7 @@ struct Score {
 /// Outlines nearer to a point than this, in pixels, are not compared.
 const NEAR: f64 = 0.01;
 
-/// Where corners may be nearer to one another than rounding, of no outline it can be told whether it goes through
-/// a point.
+/// Where corners may be nearer to one another than rounding, no outline can be classified.
 const UNTOLD: f64 = -1.0;
 
 /// Whether a path covers a point, with its inside or an outline; `None` if one of its outlines is too near to
@@ -54,7 +53,8 @@ fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
     (is_on_outline || nearest >= NEAR).then_some(is_on_outline || winding != 0)
 }
 
-/// Judges the order of a drawing at points of its lines, so many for each part, and at its points: see `covers`.
+/// Judges the order of a drawing at points of its lines, a number for each part, and at its points: see
+/// `covers`.
 fn check(
     tree: &BspTree,
     camera: &Camera,
@@ -128,7 +128,7 @@ fn check(
         }
     }
     assert_eq!(below, paths.len());
-    // All that the picture has of lines and points is there.
+    // Everything that the picture shows of lines and points is there.
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).map_err(text)?;
     assert_eq!(map.markers(&overlay).map_err(text)?.len(), markers);
     let length = |runs: &[LineRun]| -> f64 {
@@ -190,9 +190,9 @@ fn a_line_is_cut_only_where_it_goes_through() {
     }
 }
 
-/// Two squares side by side in the picture, on both sides of a wall that is seen edge-on, and a line and a point
-/// on their common border: one square is behind them and the other in front. Nothing else asks that the one
-/// behind comes first.
+/// Two squares side by side in the picture, on both sides of a wall that is seen edge-on, and a line and a
+/// point on their common border: one square is behind them and the other in front. Nothing else requires
+/// that the one behind comes first.
 #[test]
 fn lines_and_points_come_between_polygons_that_touch() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();

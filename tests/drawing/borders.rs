@@ -26,8 +26,9 @@ fn halves([a, b]: [[i64; 2]; 2]) -> impl Iterator<Item = [i64; 2]> {
     (0..count).map(move |i| [0, 1].map(|axis: usize| a[axis] + (2 * i + 1) * way[axis]))
 }
 
-/// Which halves of edges are in the picture, by the edge and the middle, and whether they show: that half of a square
-/// beside the edge is in the picture, or shows, that one of the sheets with the edge covers.
+/// The halves of edges in the picture, by the edge and the middle, and whether they are visible. A half is
+/// in the picture, or visible, if a half of a square beside the edge is, covered by one of the sheets with
+/// the edge.
 fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), bool> {
     let mut found = BTreeMap::new();
     for (i, sheet) in sheets.iter().enumerate() {

@@ -13,7 +13,7 @@ fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     map_of(tree, camera).crossings(Hidden::Skip).unwrap()
 }
 
-/// A third polygon begins on the line in which two cross: its edge cuts what is beyond its ends as well.
+/// A third polygon begins on the line in which two cross: its edge also cuts the part beyond its ends.
 #[test]
 fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
     let floor = vec![[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
@@ -158,7 +158,7 @@ fn a_wall_crosses_every_tile_of_a_floor() {
     assert!(runs.iter().all(|run| run.kind == EdgeKind::Crossing(count as usize)));
 }
 
-/// A wall that stands on a floor touches it, and two walls meet at a corner: nothing is crossed.
+/// A wall that stands on a floor touches it, and two walls meet at a corner: nothing crosses.
 #[test]
 fn what_only_touches_does_not_cross() {
     let floor = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];

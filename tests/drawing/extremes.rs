@@ -32,7 +32,7 @@ fn ten_of_a_million_polygons_show() {
     let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
     assert_eq!(map.drawing().unwrap().paths().len(), 10);
-    // Nothing shows through the wall either where what is behind is translucent.
+    // Nothing is visible through the wall either if the squares behind are translucent.
     let glass = |polygon: usize| if polygon < 10 { 1.0 } else { 0.5 };
     let map = map_with(&tree, &camera, glass);
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
@@ -89,8 +89,8 @@ fn opacities_are_numbers_from_0_to_1() {
     }
 }
 
-/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing. How many show is
-/// said of two panes before walls, and of walls alone, which hide more.
+/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing. The number of
+/// visible polygons is stated for two panes in front of walls, and for walls alone, which hide more.
 #[test]
 fn eyes_on_polygons_and_away_from_all() {
     let polygons = [

@@ -16,7 +16,7 @@ fn cameras(height: f64) -> Vec<Camera> {
     views.map(|(from, at)| Camera::perspective(at + from, at, up, 0.7, size).unwrap()).collect()
 }
 
-/// How many cells a picture has at most, for each polygon that shows; each of these is one path, and whole.
+/// The largest number of cells of a picture for each visible polygon; each of these is one path, and whole.
 fn most_cells(polygons: &[Vec<DVec3>], height: f64) -> f64 {
     let tree = BspTree::build(polygons).unwrap();
     let cells = |camera: &Camera| {

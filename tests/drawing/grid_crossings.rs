@@ -11,7 +11,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::rational::Point;
 
-/// So many corners along each axis.
+/// The number of corners along each axis.
 const GRID: f64 = 4.0;
 fn corner(dice: &mut Dice) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| dice.range(0.0, GRID).floor()))

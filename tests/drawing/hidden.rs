@@ -1,4 +1,4 @@
-//! What is just hidden, and what just shows.
+//! Polygons that are just hidden, and just visible.
 
 use super::map_of;
 use testkit::fill::{Score, check};
@@ -44,7 +44,7 @@ fn what_a_checkerboard_hides_is_hidden_until_a_square_is_missing() {
     }
 }
 
-/// A gap far narrower than a pixel shows what is behind.
+/// The background is visible through a gap far narrower than a pixel.
 #[test]
 fn the_narrowest_gap_shows_what_is_behind() {
     let eye = DVec3::new(0.0, 0.0, 5.0);
@@ -58,7 +58,7 @@ fn the_narrowest_gap_shows_what_is_behind() {
     }
 }
 
-/// A wall cut into many pieces by what stands before it hides what is behind all of it.
+/// A wall cut into many pieces by polygons in front of it hides everything behind it.
 #[test]
 fn a_wall_in_pieces_hides_all_behind_it() {
     let mut polygons = vec![sized([-50.0, -50.0], [100.0; 2], 0.0)];

@@ -17,7 +17,7 @@ fn length(run: &EdgeRun) -> f64 {
     (bx - ax).hypot(by - ay)
 }
 
-/// Whether a run's middle is on a segment, but for a hundred thousandth of a pixel.
+/// Whether a run's middle is on a segment, up to a hundred thousandth of a pixel.
 fn is_between([p, q]: [[f64; 2]; 2], [from, to]: [[f64; 2]; 2]) -> bool {
     let [from, to] = [from, to].map(DVec2::from);
     let arm = (DVec2::from(p) + DVec2::from(q)) * 0.5 - from;
@@ -52,7 +52,7 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
         assert_eq!((run.polygon, run.kind, run.edge), (0, EdgeKind::Crossing(1), None));
         assert_eq!(run.is_visible, run.layers == Some(0));
     }
-    // What is behind glass shows.
+    // The background is visible through glass.
     let glass = |polygon: usize| if polygon == 2 || polygon == 3 { 0.5 } else { 1.0 };
     let map = map_with(&tree, &camera, glass);
     let runs = map.crossings(Hidden::Count).unwrap();

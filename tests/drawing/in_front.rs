@@ -34,7 +34,7 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     layered
 }
 
-/// Squares one before another, each smaller: what is behind k of them has k layers.
+/// Squares one before another, each smaller: behind k of them there are k layers.
 #[test]
 fn squares_before_one_another_are_counted() {
     let side = |k: u32| f64::from(5 - k);
@@ -90,7 +90,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
                     if place_in(run.ends, at) != Some(true) {
                         continue;
                     }
-                    // What the edge lies on is not before it, though it may hide the polygon.
+                    // Polygons that contain the edge are not before it, though they may hide the polygon.
                     let mut layers = sightlines.polygons_before(&point).len();
                     // (So it is of the blocks of a town that stand on its ground, seen from below.)
                     on_walls += usize::from(layers == 0 && !run.is_visible);

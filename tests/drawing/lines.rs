@@ -77,7 +77,7 @@ fn edges_on_one_line_have_runs_of_their_own() {
     for (polygon, wall) in walls.iter().enumerate() {
         for (k, [ax, ay, _]) in wall.iter().enumerate() {
             let [bx, by, _] = wall[(k + 1) % wall.len()];
-            // What the post hides, in units of the scene.
+            // The part that the post hides, in units of the scene.
             let hides = |x: f64| -1.5 < x && x < -0.5 && polygon == 0 && ay == &by;
             let mut expected = [0.0, 0.0];
             for step in 0..1000 {
@@ -122,7 +122,7 @@ fn edges_end_with_the_picture() {
 /// thousandth of a pixel.
 const NEAR: f64 = 2.1e-3;
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
     visible: usize,
@@ -130,8 +130,8 @@ struct Score {
     unsure: usize,
 }
 
-/// Asks rays whether points of runs are hidden by polygons that do not have the edge. Points where rays
-/// a little to the left and to the right do not agree are left out.
+/// Tests by rays whether points of runs are hidden by polygons that do not have the edge. Points where rays
+/// slightly to the left and to the right do not agree are left out.
 fn check_runs(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],

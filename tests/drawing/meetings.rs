@@ -1,4 +1,4 @@
-//! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide all that is
+//! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide everything
 //! behind, until a part is missing.
 
 use super::map_with;

@@ -1,5 +1,5 @@
-//! Visibility maps and drawings, against pictures whose every pixel is decided by integers of another
-//! hand, and against rays.
+//! Visibility maps and drawings, compared with pictures whose every pixel is decided by separate integers,
+//! and with rays.
 
 mod areas;
 mod bent;
@@ -31,12 +31,12 @@ mod translucent;
 
 use testkit::prelude::*;
 
-/// What is visible of a tree.
+/// The visible parts of a tree.
 fn map_of<'t>(tree: &'t BspTree, camera: &Camera) -> VisibilityMap<'t> {
     map_with(tree, camera, |_| 1.0)
 }
 
-/// The same of polygons with opacities.
+/// The same for polygons with opacities.
 fn map_with<'t>(
     tree: &'t BspTree,
     camera: &Camera,

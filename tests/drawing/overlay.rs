@@ -11,7 +11,7 @@ use testkit::rational::Point;
 use testkit::scenes::triangles;
 use testkit::shapes::rectangle;
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
     pictures: usize,
@@ -30,8 +30,7 @@ struct Score {
 /// thousandth of a pixel.
 const NEAR: f64 = 2.1e-3;
 
-/// Compares what a map says of lines and points with what hides these: so many points are judged of each run,
-/// or fewer.
+/// Compares a map's lines and points with the polygons that hide them, at a number of points of each run.
 fn check(
     tree: &BspTree,
     camera: &Camera,
@@ -169,7 +168,7 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     assert_eq!(one(&[[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]]), []);
 }
 
-/// Where two walls meet there is no crack, and what lies along the corner of a room is seen: on both.
+/// There is no crack where two walls meet, and a line along the corner of a room is visible on both.
 #[test]
 fn lines_in_cracks_and_corners() {
     let halves =

@@ -1,4 +1,4 @@
-//! Lines for a pen, against what graphs and exhaustive searches say.
+//! Lines for a pen, compared with graphs and exhaustive searches.
 
 use super::map_of;
 use binspace::drawing::{Polyline, polylines};

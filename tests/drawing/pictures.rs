@@ -200,7 +200,7 @@ fn markers_lines_and_labels_are_at_their_places() {
     assert!(place[0] == 50.0 && (place[1] - 10.0 - 0.359 * 20.0).abs() < 2e-3, "{place:?}");
 }
 
-/// A stroke follows the polygon and not what was added against seams.
+/// A stroke follows the polygon and not the additions against seams.
 #[test]
 fn strokes_follow_the_outlines_of_polygons() {
     let tree = BspTree::build(wall()).unwrap();
@@ -245,7 +245,7 @@ fn strokes_leave_out_the_border_of_the_picture() {
     assert_eq!([10, 29].map(|y| at(0, y)), [[0; 3]; 2]);
 }
 
-/// Areas side by side that are added up have the sum of what they cover, on the background.
+/// Areas side by side that are added up have the sum of their coverage, on the background.
 #[test]
 fn areas_that_are_added_up_have_no_seams() {
     let mut picture = VectorPicture::new([40, 30]).with_background([255; 3]);
@@ -345,7 +345,7 @@ fn fill_at_random(
     }
 }
 
-/// Whatever the numbers are, a file is well-formed, and its numbers are finite.
+/// For any numbers, a file is well-formed, and its numbers are finite.
 #[test]
 fn odd_numbers_make_no_broken_files() {
     const ODD: [f64; 12] = [

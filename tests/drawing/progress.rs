@@ -1,4 +1,4 @@
-//! Progress of maps, of what is asked of them, and of drawings; and their cancellation.
+//! Progress of maps, of their queries, and of drawings; and their cancellation.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{Error, ErrorKind, Progress};
@@ -31,7 +31,7 @@ fn mixed(polygon: usize) -> f64 {
     if polygon.is_multiple_of(2) { 0.5 } else { 1.0 }
 }
 
-/// Hears how far an operation is, and cancels it.
+/// Records the progress of an operation, and cancels it.
 #[derive(Default)]
 struct Listener {
     heard: Mutex<Vec<Progress>>,
@@ -49,19 +49,19 @@ impl Listener {
         }
     }
 
-    /// Begins anew, and cancels at this call.
+    /// Starts again, and cancels at this call.
     fn cancel_at(&self, call: usize) {
         self.heard.lock().unwrap().clear();
         self.last.store(call, Ordering::Relaxed);
     }
 
-    /// What was heard since then.
+    /// The progress recorded since then.
     fn heard(&self) -> Vec<Progress> {
         self.heard.lock().unwrap().clone()
     }
 }
 
-/// What is asked of a map: an answer as text, so that answers can be compared.
+/// A query of a map: an answer as text, so that answers can be compared.
 type Question = (&'static str, fn(&VisibilityMap<'_>, &Overlay) -> Result<String, Error>);
 
 const QUESTIONS: [Question; 10] = [
@@ -77,7 +77,7 @@ const QUESTIONS: [Question; 10] = [
     ("regions", |map, _| Ok(format!("{:?}", map.regions()?))),
 ];
 
-/// What makes a map or a drawing, as text.
+/// Makes a map or a drawing, as text.
 type Making = (&'static str, fn(&View, &ViewOptions<'_>) -> Result<String, Error>);
 
 fn cells(tree: &BspTree, camera: &Camera, options: &ViewOptions<'_>) -> Result<String, Error> {
@@ -98,7 +98,7 @@ const MAKINGS: [Making; 4] = [
     }),
 ];
 
-/// Checks all calls of an operation: they never go back, and only the last one says that all is done.
+/// Checks all calls of an operation: they never go back, and only the last one reports completion.
 fn check_calls(name: &str, heard: &[Progress]) {
     enough!(heard.len() > 3; "{name}: {heard:?}");
     let done = heard.iter().map(|progress| progress.done);
@@ -145,7 +145,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
     });
 }
 
-/// A map keeps the callback that it was made with; and after it was cancelled, it answers all the same.
+/// A map keeps its callback; after it was cancelled, it still answers.
 #[test]
 fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
@@ -191,7 +191,7 @@ fn threads_report_in_order() {
     });
 }
 
-/// Two discs that go through one another, of so many corners each.
+/// Two discs with `corners` corners each that go through one another.
 fn discs(corners: u32) -> View {
     let disc = |tilt: f64| -> Vec<DVec3> {
         let corner = |i: u32| {
@@ -207,8 +207,8 @@ fn discs(corners: u32) -> View {
     View { tree, camera, overlay }
 }
 
-/// A cell that a face of many corners cuts is work for each corner that it has so far: it is heard of and can be
-/// cancelled while it is done.
+/// A cell that a face of many corners cuts is work for each corner that it has so far: this work is
+/// reported and can be cancelled.
 #[test]
 fn what_is_done_at_many_corners_is_heard() {
     let calls = [512, 1024].map(|corners| {

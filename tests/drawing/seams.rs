@@ -21,7 +21,7 @@ fn length([a, b]: [[f64; 2]; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// How long the longest seam is: what two sides of some outlines have in common in opposite directions.
+/// The length of the longest seam: the part that two sides of some outlines share in opposite directions.
 fn seam(outlines: &[Outline]) -> f64 {
     let mut longest = 0.0_f64;
     for (i, one) in sides(outlines).enumerate().filter(|(_, side)| length(*side) > 1e-3) {
@@ -38,7 +38,7 @@ fn seam(outlines: &[Outline]) -> f64 {
     longest
 }
 
-/// All outlines that a view is drawn with, those that are filled together, and what they are.
+/// All outlines of a drawn view, grouped by the fill, with a description.
 fn outlines(tree: &BspTree, camera: &Camera, opacities: &[f64]) -> Vec<(String, Vec<Outline>)> {
     let map = map_with(tree, camera, |polygon| opacities[polygon]);
     let copy = |outlines: &mut dyn Iterator<Item = &[[f64; 2]]>| {
@@ -59,7 +59,7 @@ fn outlines(tree: &BspTree, camera: &Camera, opacities: &[f64]) -> Vec<(String, 
     all
 }
 
-/// What is wrong with a view's outlines: seams, and outlines of less than three corners.
+/// The fault of a view's outlines: seams, and outlines of less than three corners.
 fn fault(tree: &BspTree, camera: &Camera, opacities: &[f64]) -> Option<String> {
     outlines(tree, camera, opacities).into_iter().find_map(|(name, outlines)| {
         let seam = seam(&outlines);
@@ -162,7 +162,8 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
         let map = map_with(&tree, &camera, opacity);
         let opaque = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
-        // What shows over each half of a square, front to back. (Of a plane the last one comes first.)
+        // The polygons visible over each half of a square, front to back. (In one plane the last one comes
+        // first.)
         let mut stacks: BTreeMap<Vec<usize>, Area> = BTreeMap::new();
         let mut shown: BTreeMap<usize, Area> = BTreeMap::new();
         for at in (0..16).flat_map(|x| (0..16).map(move |y| [x, y])) {

@@ -1,4 +1,4 @@
-//! Rectangles over a grid, seen from above: what shows of them where is known in integers.
+//! Rectangles over a grid, seen from above: their visible parts are known in integers.
 
 use testkit::prelude::*;
 
@@ -50,7 +50,7 @@ impl Sheet {
     }
 }
 
-/// The sheets over a half of a square, front to back. (Of a plane the last one comes first.)
+/// The sheets over a half of a square, front to back. (In one plane the last one comes first.)
 pub(crate) fn stack(sheets: &[Sheet], at: [i64; 2]) -> Vec<usize> {
     let over = |(i, sheet): (usize, &Sheet)| sheet.over(at).map(|height| (height, i));
     let mut stack: Vec<_> = sheets.iter().enumerate().filter_map(over).collect();

@@ -1,4 +1,4 @@
-//! What hides a point, in rationals: faces, with their edges, between it and the eye.
+//! The polygons that hide a point, in rationals: faces, with their edges, between it and the eye.
 
 use binspace::internals::Lattice;
 use num_traits::One;
@@ -13,7 +13,7 @@ pub(crate) enum Origin {
     Along(Point),
 }
 
-/// What is in front of a point.
+/// The cover in front of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cover {
     None,
@@ -93,7 +93,7 @@ impl Sightlines {
         polygons
     }
 
-    /// Whether the line of sight of a point may go through a face, if floats tell: only to save time.
+    /// Whether the line of sight of a point may go through a face, if floats decide: only to save time.
     fn may_be_before(&self, corners: &[DVec3], point: DVec3) -> bool {
         let (from, way) = match &self.origin {
             Origin::Eye(_) => (self.from, point - self.from),
@@ -107,7 +107,7 @@ impl Sightlines {
         turns.iter().all(|&turn| turn > -1e-9) || turns.iter().all(|&turn| turn < 1e-9)
     }
 
-    /// What lies between a point and the eye, without the faces that it is on.
+    /// The faces between a point and the eye, without the faces that it is on.
     pub(crate) fn cover(&self, point: &Point, own: [usize; 2]) -> Cover {
         let (mut cover, rounded) = (Cover::None, to_f64(point));
         for ((polygon, face), corners) in self.faces.iter().zip(&self.rounded) {

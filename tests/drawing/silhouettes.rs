@@ -40,7 +40,7 @@ fn silhouettes_of_closed_bodies_are_closed() {
             let camera = Camera::perspective(eye, DVec3::ZERO, up, 0.6, [320, 240]).unwrap();
             let runs = map_of(&tree, &camera).edges(Hidden::Keep).unwrap();
             assert!(runs.iter().all(|run| run.kind != EdgeKind::Border));
-            // Each edge once, in however many runs.
+            // Each edge once, in any number of runs.
             let mut silhouette = BTreeSet::new();
             for run in runs.iter().filter(|run| run.kind == EdgeKind::Silhouette) {
                 silhouette.insert((run.polygon, run.edge.unwrap() as usize));

@@ -15,7 +15,7 @@ const MIXES: [fn(usize) -> f64; 3] = [
     |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
 ];
 
-/// What was compared of drawings of all that is translucent, and of mixed ones.
+/// The counts of comparisons of fully translucent drawings, and of mixed ones.
 #[derive(Default)]
 struct Scores {
     all: Layers,
@@ -68,7 +68,7 @@ fn layers_of_crossing_triangles_are_those_of_the_tree() {
     assert!(mixed.clipped > 50 && mixed.paths > mixed.polygons, "{mixed:?}");
 }
 
-/// Two panes that go through one another: the line is there once, whatever shows through.
+/// Two panes that go through one another: the line is there once, for any opacities.
 #[test]
 fn panes_cross_in_one_line() {
     let upright = [[0.3, -1.0, -1.0], [0.3, 1.0, -1.0], [0.3, 1.0, 1.0], [0.3, -1.0, 1.0]];

@@ -1,4 +1,4 @@
-//! The sets that a tree's nodes divided, cut anew in exact rationals.
+//! The sets that a tree's nodes divided, cut again in exact rationals.
 
 use binspace::Node;
 use binspace::internals::{EdgeLine, PlaneKind};
@@ -62,7 +62,7 @@ impl Piece {
     }
 }
 
-/// How many pieces lie in front of a plane, behind it, and across.
+/// The numbers of pieces in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Counts {
     pub(super) front: usize,
@@ -95,7 +95,7 @@ impl Counts {
         on_sides.iter().all(|&side| side < pieces) && on_sides != [0, 0]
     }
 
-    /// The work left on both sides, by which planes that cut alike are compared.
+    /// The work left on both sides, which decides between planes with equal cuts.
     pub(super) fn work(&self) -> f64 {
         work(self.front + self.splits) + work(self.back + self.splits)
     }
@@ -126,7 +126,7 @@ impl Divided<'_> {
         })
     }
 
-    /// What `auto` takes the planes of a set of whole faces to cost.
+    /// The cost that `auto` assigns to the planes of a set of whole faces.
     pub(super) fn own_costs(&self) -> impl Iterator<Item = f64> {
         let span = |corners: &[[f64; 3]], axis: usize| {
             let along = || corners.iter().map(|corner| corner[axis]);
@@ -173,7 +173,7 @@ impl Divided<'_> {
         found
     }
 
-    /// Whether the plane is that of a piece which all pieces cross that it cuts.
+    /// Whether the plane is that of a piece that crosses all pieces that it cuts.
     pub(super) fn cuts_what_crosses(&self) -> bool {
         let PlaneKind::Face(face) = self.plane.kind() else { return false };
         let plane = model::plane(self.faces, self.plane);
@@ -206,8 +206,8 @@ impl Divided<'_> {
     }
 }
 
-/// All nodes of a tree that was built without a tolerance, with the sets that were divided there:
-/// cut anew, in rationals.
+/// All nodes of a tree that was built without a tolerance, with the sets divided there: cut again, in
+/// rationals.
 pub(super) fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
     let faces = tree.faces();
     assert_eq!(faces.tolerance(), 0.0);
@@ -241,7 +241,7 @@ pub(super) fn nodes(tree: &BspTree, mut visit: impl FnMut(&Divided<'_>)) {
     assert_eq!(seen, named.len(), "nodes that no path leads to");
 }
 
-/// What of a set is on a plane, in front, and behind.
+/// The parts of a set on a plane, in front, and behind.
 pub(super) fn divided(set: &[Piece], id: PlaneId, plane: &Plane) -> [Vec<Piece>; 3] {
     let mut sides = [vec![], vec![], vec![]];
     for piece in set {

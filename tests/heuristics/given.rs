@@ -78,7 +78,7 @@ fn built_in_heuristics_written_against_the_interface_build_the_same_trees() {
         for seed in 0..24 {
             let scene = scene(&mut Dice(seed), 4 + seed as usize * 3);
             let options = BuildOptions::DEFAULT.with_tolerance(0.0);
-            // Where the function declines, this would show.
+            // If the function declines, this would be visible.
             let options = options.with_heuristic(Heuristic::FreePlanes);
             let own = options.with_chooser(move |set| written_anew(by, set));
             let own = own.build(&scene).expect("a tree");
@@ -91,7 +91,7 @@ fn built_in_heuristics_written_against_the_interface_build_the_same_trees() {
     }
 }
 
-/// How often each kind of answer was given.
+/// The number of answers of each kind.
 type Answers = [AtomicUsize; 9];
 
 /// Decides by a hash of the set, so that it is a pure function.
@@ -191,7 +191,7 @@ fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
             assert!(Snapshot::of(&tree) == expected, "{by}, {answer:?}");
             assert!(calls.load(Relaxed) > 100, "{by}, {answer:?}");
         }
-        // A set's own beginning leaves all on one side, but for a piece that ends there.
+        // The beginning of a set leaves all on one side, except a piece that ends there.
         let options = options.with_chooser(|set| {
             axis(0, (0..set.piece_count()).map(|i| set.bounds(i)[0].x).fold(f64::MAX, f64::min))
         });
@@ -203,7 +203,7 @@ fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
     }
 }
 
-/// Which side of the plane through three points a fourth is on. All are multiples of a quarter.
+/// The side of the plane through three points on which a fourth is. All are multiples of a quarter.
 fn side_of([p, q, r]: [DVec3; 3], at: DVec3) -> i128 {
     let [a, b, c] = [q - p, r - p, at - p].map(|arm| (arm * 4.0).to_array().map(|c| c as i128));
     a[0] * (b[1] * c[2] - b[2] * c[1])
@@ -221,7 +221,7 @@ fn side(values: impl Iterator<Item = i128>) -> Side {
     }
 }
 
-/// At the root of scenes on a grid of quarters, where integers say what a set must look like.
+/// At the root of scenes on a grid of quarters, where integers give the right contents of a set.
 #[test]
 fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     let mut found = [0; 4];
@@ -282,7 +282,7 @@ fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     enough!(found.iter().all(|&count| count > 100); "{found:?}");
 }
 
-/// Planes through the middle of the set, whatever they cut.
+/// Planes through the middle of the set, regardless of cuts.
 fn middle(set: &PieceSet<'_>) -> Option<SplitPlane> {
     let across = set.depth() % 3;
     let mut middles: Vec<f64> = (0..set.piece_count())
@@ -333,7 +333,7 @@ fn a_function_that_panics_ends_its_own_build_alone() {
             let build = || with_threads(threads, || options.build(scene.polygons()));
             let panic = catch_unwind(AssertUnwindSafe(build)).expect_err("the function's panic");
             assert_eq!(*panic.downcast_ref::<&str>().expect("a message"), "the caller's fault");
-            // The panic is printed before other threads are told to end, and they call the function meanwhile.
+            // The panic is printed before other threads are stopped, and they call the function meanwhile.
             let after = calls.load(Relaxed);
             assert!(threads > 1 || after == at + 1, "{after} calls, panicked at {at}");
             // Later calls do not panic.

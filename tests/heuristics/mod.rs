@@ -1,5 +1,5 @@
-//! Each heuristic is held to what its documentation says, at every node, by brute force in exact
-//! rationals: on integer scenes, where it is certain what a plane cuts.
+//! Each heuristic is compared with its documentation, at every node, by brute force in exact rationals: on
+//! integer scenes, where the cuts of a plane are certain.
 
 mod divided;
 mod given;
@@ -41,7 +41,7 @@ fn build(scene: &[Corners], by: Heuristic) -> BspTree {
     BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0).build(scene).expect("finite")
 }
 
-/// Visits the nodes of trees of many scenes that divide at least two pieces; how many there were.
+/// Visits the nodes of trees of many scenes that divide at least two pieces; returns their number.
 fn each(by: Heuristic, scenes: u64, count: usize, mut visit: impl FnMut(&Divided<'_>)) -> usize {
     let mut found = 0;
     for seed in 0..scenes {
@@ -64,7 +64,7 @@ fn assert_least(by: Heuristic, score: impl Fn(&Counts, bool) -> f64) {
         let most = node.own_planes().map(|(c, axial)| score(&c, axial)).fold(-1e300, f64::max);
         choices += usize::from(most > least);
     });
-    // Where all planes are alike, nothing is chosen.
+    // If all planes are alike, nothing is chosen.
     enough!(found > 150, choices > 80; "{by}: {found} nodes, {choices} choices");
 }
 
@@ -96,7 +96,7 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
     for (i, a) in some.iter().enumerate() {
         assert!(some[..i].iter().all(|b| a != b), "seed {i}");
     }
-    // Of many seeds, each polygon of a set is the choice of some: none is left out.
+    // Over many seeds, each polygon of a set is chosen: none is left out.
     let scene: Vec<Corners> = scene(&mut Dice(4), 5);
     let mut counts = [0; 5];
     for seed in seeds(200) {
@@ -181,8 +181,7 @@ fn free_planes_are_taken_wherever_one_cuts_nothing_and_cost_little() {
                 let chosen = key(&node.counts);
                 // A plane that cuts nothing may go through a corner that was cut off.
                 let least = least.unwrap_or(chosen);
-                // Enough balance is enough: the search stops at a plane that cuts nothing and
-                // leaves a quarter on each side.
+                // The search stops at a plane that cuts nothing and leaves a quarter on each side.
                 let n = node.set.len();
                 let enough = chosen.1 <= work(n / 4) + work(n - n / 4) + 1e-9;
                 // The border of two bins is near the best plane, but not always next to it.
@@ -222,7 +221,7 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
                     cut += usize::from(cuts);
                 }
             });
-            // In a frame, small sets may be divided by a plane that cuts only what crosses.
+            // In a frame, a plane that cuts only crossing pieces may divide small sets.
             let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));
             nodes(builder.build(&scene).expect("a tree"), |node| {
                 if has_clean(node) {
@@ -239,9 +238,9 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
-/// Where every plane cuts, `auto` takes the own plane of least work less the reward for its size; in a
-/// frame also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces
-/// are compared with every plane.
+/// Where every plane cuts, `auto` uses the own plane of least work less the reward for its size; in a frame
+/// also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces are
+/// compared with every plane.
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
     let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);

@@ -28,7 +28,7 @@ const SHAPED: [Make; 19] = [
     planes_through_lines::far_line,
 ];
 
-/// How many kinds there are without a tolerance.
+/// The number of kinds without a tolerance.
 pub(crate) const KINDS: usize = SHAPED.len() + copies::FAMILIES;
 
 /// A scene of a kind, of about `n` polygons.

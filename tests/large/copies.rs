@@ -1,4 +1,4 @@
-//! The hard scenes of a few polygons, many times over.
+//! The hard scenes of a few polygons, repeated many times.
 
 use super::heaps::copies;
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use testkit::as_given::exact::{Plane, sign};
 use testkit::as_given::scene::{Point, Scene};
 use testkit::prelude::*;
 
-/// A family of hard scenes, and how many steps of the grid make one unit.
+/// A family of hard scenes, and the number of grid steps in one unit.
 struct Family {
     name: &'static str,
     scenes: BoxedStrategy<Vec<Corners>>,
@@ -31,10 +31,10 @@ fn families() -> [Family; 8] {
     ]
 }
 
-/// How many families there are.
+/// The number of families.
 pub(crate) const FAMILIES: usize = 8;
 
-/// Turned copies of scenes of one family.
+/// Rotated copies of scenes of one family.
 pub(crate) fn of_family(family: usize, dice: &mut Dice, n: usize) -> Scene {
     let Some(Family { name, scenes, steps }) = families().into_iter().nth(family) else {
         unreachable!("there are {FAMILIES} families");

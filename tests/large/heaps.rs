@@ -1,10 +1,10 @@
-//! Heaps: corners on a small lattice, triangles by chance, duplicates, polygons that touch.
+//! Dense sets: corners on a small lattice, random triangles, duplicates, polygons that touch.
 
 use testkit::as_given::exact::Plane;
 use testkit::as_given::scene::{Point, Scene, add, between, minus, point_within, times, turned};
 use testkit::prelude::*;
 
-/// Those that are not points or lines.
+/// The polygons that are not points or lines.
 pub(crate) fn with_area(polygons: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     polygons.into_iter().filter(|polygon| Plane::of(polygon).is_proper()).collect()
 }
@@ -29,7 +29,7 @@ pub(crate) fn heap(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("heap", with_area((0..n).map(triangle).collect()))
 }
 
-/// Every triangle one to four times, some the other way round.
+/// Every triangle one to four times, some reversed.
 pub(crate) fn duplicates(dice: &mut Dice, n: usize) -> Scene {
     let mut polygons = Vec::new();
     let across = (n as f64).cbrt().ceil() as i64;
@@ -65,7 +65,7 @@ pub(crate) fn tangent(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("tangent", with_area(polygons)).shuffled(dice)
 }
 
-/// Scenes side by side, each turned its own way.
+/// Scenes side by side, each rotated differently.
 pub(crate) fn copies(
     name: &str,
     dice: &mut Dice,
@@ -78,7 +78,7 @@ pub(crate) fn copies(
         let part = with_area(one(dice));
         count += part.len();
         size = part.iter().flatten().flatten().map(|c| c.abs()).fold(size, i64::max);
-        // The same once more, next to it, turned.
+        // The same scene again, next to it, rotated.
         for _ in 0..1 + dice.below(3) {
             count += part.len();
             parts.push(part.clone());

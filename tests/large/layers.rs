@@ -1,10 +1,10 @@
-//! What lies in layers: thin ones, coplanar ones, noisy ones, walls of bricks.
+//! Layered scenes: thin, coplanar and noisy layers, walls of bricks.
 
 use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 
-/// Rectangles in planes z = 0, 1, 2 …, a thousand times as wide as they are apart; `few` planes
-/// hold many each.
+/// Rectangles in planes z = 0, 1, 2 …, a thousand times as wide as they are apart; `few` planes hold many
+/// each.
 fn rectangles(dice: &mut Dice, count: usize, planes: usize) -> Vec<Vec<Point>> {
     let rectangle = |k: usize| {
         let [x, y] = [0; 2].map(|_| between(dice, -4000, 4000));
@@ -23,7 +23,7 @@ pub(crate) fn tilted(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("tilted layers", each(rectangles(dice, n, n / 2), tilt)).shuffled(dice)
 }
 
-/// Triangles a thousand times as wide as they are steep, through one another's layers.
+/// Triangles a thousand times as wide as they are steep, crossing one another's layers.
 pub(crate) fn nearly_parallel(dice: &mut Dice, n: usize) -> Scene {
     let triangle = |k: usize| {
         let [x, y] = [0; 2].map(|_| between(dice, -20_000, 20_000));
@@ -45,7 +45,7 @@ pub(crate) fn crossing_planes(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("crossing planes", polygons).shuffled(dice)
 }
 
-/// Squares in one plane that is tilted, edge to edge and one over the other.
+/// Squares in one tilted plane, edge to edge and one over the other.
 pub(crate) fn one_plane(dice: &mut Dice, n: usize) -> Scene {
     let across = n.isqrt() as i64;
     let square = |k: i64| {
@@ -57,8 +57,8 @@ pub(crate) fn one_plane(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("one plane", each(squares, tilt)).shuffled(dice)
 }
 
-/// The same as triangles that are off it by up to one unit along each axis, with twice that as
-/// tolerance; some that are off it by a few times the tolerance, and some that stand on it.
+/// The same as triangles that are off it by up to one unit along each axis, with twice that as tolerance;
+/// some are off it by a few times the tolerance, and some stand on it.
 pub(crate) fn noisy_plane(dice: &mut Dice, n: usize) -> Scene {
     let across = n.isqrt() as i64;
     let triangle = |k: i64| {
@@ -89,8 +89,8 @@ pub(crate) fn noisy_layers(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("noisy layers", (0..n).map(triangle).collect()).shuffled(dice).with_tolerance(4.5)
 }
 
-/// Boxes side by side and one on the other, each row shifted: sides that coincide, edges that end
-/// in others' middles.
+/// Boxes side by side and one on the other, each row shifted: sides that coincide, edges that end in the
+/// middle of others.
 pub(crate) fn bricks(dice: &mut Dice, n: usize) -> Scene {
     let across = ((n / 6) as f64).cbrt().ceil() as i64;
     let mut polygons = Vec::new();

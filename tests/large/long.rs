@@ -1,6 +1,6 @@
 //! The long run: seed after seed.
 
-#![allow(clippy::print_stdout, reason = "the table is what is asked for")]
+#![allow(clippy::print_stdout, reason = "the run prints a table")]
 
 use super::all_scenes::{self, KINDS};
 use super::trial::Trial;
@@ -9,7 +9,7 @@ use testkit::as_given::trees_by_rays::Score;
 use testkit::effort::effort;
 use testkit::prelude::*;
 
-/// One scene of a seed: of 450 to 850 polygons, or of up to 5 000 by the heuristics that are fast.
+/// One scene of a seed: of 450 to 850 polygons, or of up to 5 000 with the fast heuristics.
 fn one(seed: u64, kind: usize) -> (String, Score) {
     const FAST: [Heuristic; 4] = [
         Heuristic::Auto,
@@ -33,7 +33,7 @@ fn one(seed: u64, kind: usize) -> (String, Score) {
 #[test]
 #[ignore = "takes a minute for each unit of BINSPACE_EFFORT"]
 fn scenes_of_seed_after_seed_are_in_order() {
-    // How many scenes of a name there were, and what was judged of them.
+    // The number of scenes of a name, and their score.
     let mut table: BTreeMap<String, (usize, Score)> = BTreeMap::new();
     for (seed, kind) in (1000..).take(effort()).flat_map(|s| (0..KINDS + 2).map(move |k| (s, k))) {
         let (name, score) = one(seed, kind);

@@ -1,7 +1,7 @@
 //! Trees of scenes of 500 to 5 000 polygons, judged by `testkit::as_given`.
 //!
-//! A longer run, over seed after seed and scenes of up to 5 000 polygons, writes a table of what was
-//! judged to standard output:
+//! A longer run, over seed after seed and scenes of up to 5 000 polygons, writes a table of its counts to
+//! standard output:
 //!
 //! ```sh
 //! BINSPACE_EFFORT=10 cargo test --release large::long -- --ignored --nocapture

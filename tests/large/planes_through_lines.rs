@@ -3,7 +3,7 @@
 use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 
-/// Strips along both rulings of z = x y: each crosses all of the other ruling.
+/// Strips along both rulings of z = x y: each crosses all strips of the other ruling.
 pub(crate) fn rulings(dice: &mut Dice, n: usize) -> Scene {
     let patches = (n / 60).max(1);
     let mut polygons = Vec::new();
@@ -52,7 +52,7 @@ pub(crate) fn fans(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("fans", polygons).shuffled(dice)
 }
 
-/// Fans of triangles whose planes all hold one line, which none of them touches.
+/// Fans of triangles whose planes all contain one line, which none of them touches.
 pub(crate) fn far_line(dice: &mut Dice, n: usize) -> Scene {
     let triangle = |_| {
         let [x, y] = [between(dice, 1, 40), between(dice, -40, 40)];

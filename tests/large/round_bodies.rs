@@ -1,12 +1,11 @@
-//! Round bodies in whole numbers, all their sides planar to the last bit: globes, shells, cones,
-//! pipes.
+//! Round bodies with integer corners, all their sides planar to the last bit: globes, shells, cones, pipes.
 
 use std::f64::consts::{PI, TAU};
 use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 use testkit::shapes::rotation;
 
-/// `sides` corners on a circle around the z axis, convex though rounded.
+/// `sides` corners on a circle around the z axis, convex although rounded.
 fn ring(sides: usize, radius: i64) -> Vec<Point> {
     let angle = |k: usize| TAU * (k as f64 + 0.3) / sides as f64;
     let whole = |x: f64| (x * radius as f64).round() as i64;
@@ -45,8 +44,8 @@ pub(crate) fn sphere(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("sphere", each(globe(n / rings, rings), tilt)).shuffled(dice)
 }
 
-/// A globe of triangles that is convex but for the rounding of its corners: neighbours are within a
-/// hair of one plane, and dents are no deeper than that. Neighbours follow one another.
+/// A globe of triangles that is convex except for the rounding of its corners: neighbours are almost in one
+/// plane, and dents are no deeper than that. Neighbours are consecutive.
 pub(crate) fn rough_globe(dice: &mut Dice, n: usize) -> Scene {
     let rings = (n / 2 / 2).isqrt();
     let slices = n / rings / 2;

@@ -8,12 +8,12 @@ use testkit::as_given::trees_by_rays::Score;
 use testkit::prelude::*;
 use testkit::slivers::{Sliver, along, whole};
 
-/// Coordinates are below this. Larger: viewpoints have no room for digits that are exact.
+/// Coordinates are below this. Too large: viewpoints have no room for exact digits.
 const SIZE: i64 = 1 << 43;
 /// About half of the default tolerance.
 const NEAR: i64 = SIZE / 1_000_000_000;
 
-/// A scene of a kind, scaled up, and in any order among it slivers, layers along these up to a few tolerances
+/// A scene of a kind, scaled up, mixed in any order with slivers, layers along these up to a few tolerances
 /// off, and a plane with noise of about the tolerance.
 fn scene(kind: usize, dice: &mut Dice, n: usize) -> Scene {
     let plain = all_scenes::scene(kind, dice, n);

@@ -1,4 +1,4 @@
-//! Scenes on trial, several at a time.
+//! Judges scenes, several at a time.
 
 use binspace::ErrorKind;
 use rayon::prelude::*;
@@ -7,13 +7,14 @@ use testkit::as_given::scene::Scene;
 use testkit::as_given::trees_by_rays::{Court, Score, Shot, shots};
 use testkit::prelude::*;
 
-/// How a scene is tried.
+/// The options for judging a scene.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trial<'a> {
     pub(crate) heuristics: &'a [Heuristic],
     pub(crate) views: usize,
     pub(crate) rays: usize,
-    /// The most fragments for each polygon; trees that would have more are counted, not judged.
+    /// The largest number of fragments for each polygon; trees that would have more are counted, not
+    /// judged.
     pub(crate) most: usize,
 }
 
@@ -52,7 +53,7 @@ impl Trial<'_> {
         }
     }
 
-    /// The same for several scenes, each made anew from its number.
+    /// The same for several scenes, each generated again from its number.
     pub(crate) fn hold_all(
         &self,
         kinds: usize,

@@ -1,4 +1,4 @@
-//! Layers cut by ancestors, against exact rationals that know all rectangles and matrices.
+//! Layers cut by ancestors, compared with exact rationals of all rectangles and matrices.
 
 use super::oracle::Truth;
 use super::{Given, VIEWPORT, camera, page_on, wild};
@@ -17,7 +17,7 @@ struct Nested {
     layer: Layer,
 }
 
-/// A place in the plane of a parent, or, now and then, out of it.
+/// A place in the plane of a parent, or sometimes outside it.
 fn step(dice: &mut Dice) -> DMat4 {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let shift = dvec3(between(-150.0, 150.0), between(-150.0, 150.0), 0.0);
@@ -131,7 +131,7 @@ fn edges_made_by_ancestors_have_their_numbers() {
                 let [u, v] = [0, 1].map(|k: usize| local[k].to_f64().value());
                 let [[u0, v0], [u1, v1]] = of.rect;
                 let off = [v - v0, u - u1, v - v1, u - u0][side].abs();
-                // Planes that are seen at a flat angle turn a rounding on the screen into more.
+                // Planes seen at a flat angle magnify a rounding error on the screen.
                 assert!(off < 1e-3, "{off} of edge {edge}");
                 own += usize::from(owner == 0);
                 of_ancestors += usize::from(owner > 0);
@@ -141,7 +141,7 @@ fn edges_made_by_ancestors_have_their_numbers() {
     enough!(own > 200, of_ancestors > 300; "{own} {of_ancestors}");
 }
 
-/// As drawn by hand: a square that is turned by 45° in a square window is an octagon.
+/// Drawn by hand: a square rotated by 45° in a square window is an octagon.
 #[test]
 fn a_turned_square_in_a_window_is_an_octagon() {
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));

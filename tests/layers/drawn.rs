@@ -45,15 +45,15 @@ fn x_runs_right_y_down_and_z_towards_the_viewer() {
         assert_eq!(vertex.perspective(), DVec3::new(2.0 * local[0], 2.0 * local[1], 2.0));
     }
     assert_eq!(nearest.edges().collect::<Vec<_>>(), [Some(0), Some(1), Some(2), Some(3)]);
-    // The point right below and to the right of the card's middle is further along u and v.
+    // The point below and to the right of the card's middle is further along u and v.
     let (layer, [u, v]) = page.hit([1030.0, 580.0]).unwrap();
     assert!(layer == 0 && (u - 5.0).abs() < 1e-9 && (v - 5.0).abs() < 1e-9);
     // Left of the nearest card there is nothing.
     assert_eq!(page.hit([815.0, 540.0]), None);
 }
 
-/// Without perspective as well: a card turned by rotateY(60°) has its right side away from the viewer,
-/// so the flat one covers it there, and is covered on the left.
+/// Also without perspective: a card turned by rotateY(60°) has its right side away from the viewer, so the
+/// flat one covers it there, and is covered on the left.
 #[test]
 fn a_card_turned_about_y_shows_its_left_half() {
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));

@@ -1,4 +1,4 @@
-//! What is under a point of the screen, near edges, and on a screen of another size.
+//! Layers under a point of the screen, near edges, and on a screen of another size.
 
 use super::{Given, VIEWPORT, layers_of, outlines, page_on};
 use binspace::glam::DMat4;
@@ -6,8 +6,8 @@ use binspace::layers::{Layer, Layers};
 use testkit::pages::Page;
 use testkit::prelude::*;
 
-/// A rectangle far from the origin of its own coordinates, where (u, v) are rounded coarsely: a point
-/// of what is painted is hit as soon as it is further from the edges than 10⁻⁹ of the viewport.
+/// A rectangle far from its own origin, where (u, v) are rounded coarsely: a painted point is hit if it is
+/// further from the edges than 10⁻⁹ of the viewport.
 #[test]
 fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() {
     let mut dice = Dice(51);
@@ -38,7 +38,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
     enough!(tried > 3000; "{tried}");
 }
 
-/// A page on another screen is the one that would be made for it.
+/// A page on another screen equals a page made for it.
 #[test]
 fn another_viewport_makes_another_page() {
     let layers: Vec<Layer> = layers_of(Page::Carousel, 12, 3).iter().map(Given::layer).collect();
@@ -48,7 +48,7 @@ fn another_viewport_makes_another_page() {
         page.set_viewport(viewport);
         assert!(page.is_empty() && page.visible() == 0 && page.hit([960.0, 540.0]).is_none());
         assert!(page.update(&layers).unwrap());
-        // The same again is no change.
+        // The same viewport again is no change.
         page.set_viewport(viewport);
         assert!(!page.update(&layers).unwrap());
         let mut new = Layers::new(viewport);

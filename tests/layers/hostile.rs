@@ -11,7 +11,7 @@ fn flat() -> Layer {
     Layer::new(CARD, camera())
 }
 
-/// How many pieces a layer has between two others that stay.
+/// The number of pieces of a layer between two fixed others.
 fn pieces(layer: Layer) -> usize {
     let mut page = Layers::new(VIEWPORT);
     let front = Layer::new(CARD, camera() * DMat4::from_translation(dvec3(0.0, 0.0, 50.0)));
@@ -47,7 +47,7 @@ fn numbers_that_are_none_are_an_error_that_names_the_layer() {
         let error = page.update(&[flat(), layer.clone(), flat()]).unwrap_err();
         assert_eq!(error.polygon(), Some(1), "{k}: {error}");
         assert!(error.to_string().contains("layer 1"), "{error}");
-        // The page is empty, and not taken for one with these layers.
+        // The page is empty, and is not equal to one with these layers.
         assert!(page.is_empty() && page.visible() == 0 && page.back_to_front().next().is_none());
         assert!(page.update(&[flat(), layer.clone(), flat()]).is_err());
         assert!(page.update(&[]).unwrap());
@@ -97,7 +97,7 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
         ("tiny", Layer::new(CARD, camera() * 1e-318)),
     ];
     for k in [1.0, -1.0, 3.0] {
-        // On the middle axis a quarter turn is seen along its edge.
+        // On the middle axis a quarter turn is seen edge-on.
         let edge_on = at(0.0, 0.0, -100.0) * DMat4::from_rotation_y(k * quarter);
         vanished.push(("edge-on", Layer::new(CARD, edge_on)));
         vanished.push(("edge-on, f32", Layer::from_f32(CARD, edge_on.as_mat4())));
@@ -107,12 +107,12 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
     for (name, layer) in vanished {
         assert_eq!(pieces(layer), 0, "{name}");
     }
-    // What touches the viewport from outside is clipped to a line.
+    // A layer that touches the viewport from outside is clipped to a line.
     let mut page = Layers::new(VIEWPORT);
     let beside = [[[-90.0, 50.0], [0.0, 90.0]], [[1920.0, 50.0], [1999.0, 90.0]]];
     page.update(&beside.map(|rect| Layer::new(rect, DMat4::IDENTITY))).unwrap();
     assert_eq!((page.len(), page.visible(), page.is_empty()), (0, 0, true));
-    // A little beside, it is seen, and so is a card that is thin on the screen.
+    // Slightly beside it is visible, and so is a card that is thin on the screen.
     let thin = at(1.0, 0.0, -100.0) * DMat4::from_rotation_y(quarter);
     assert!(pieces(Layer::new(CARD, thin)) >= 1);
     assert!(
@@ -120,12 +120,12 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
     );
 }
 
-/// Numbers that are too large or too small by far, and beside each the same that are just not.
+/// Numbers that are far too large or too small, and beside each the same number just within the limit.
 #[test]
 fn what_is_too_far_or_too_small_has_no_piece_and_what_is_a_little_less_so_has() {
     let at = |x: f64, y: f64, z: f64| DMat4::from_translation(dvec3(x, y, z));
     let middle = at(960.0, 540.0, 0.0);
-    // A card that is turned, of this size, with its low corner at (low, low) but shown in the middle.
+    // A rotated card of this size, with its low corner at (low, low) but shown in the middle.
     let turned = |low: f64, size: f64| {
         let matrix = camera() * DMat4::from_rotation_y(0.7) * at(-low, -low, 0.0);
         Layer::new([[low, low], [low + size, low + size]], matrix)

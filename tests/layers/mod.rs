@@ -1,5 +1,5 @@
-//! Pages of layers against exact rationals that know the rectangles and matrices alone: what is
-//! seen of a layer, where in it a point of the screen is, and what is painted over what.
+//! Pages of layers, compared with exact rationals of the rectangles and matrices: the visible part of a
+//! layer, its point at a point of the screen, and the painting order.
 
 mod clips;
 mod drawn;
@@ -97,7 +97,7 @@ fn an_unchanged_frame_is_not_worked_on() {
     let first = order(&page);
     assert!(!page.update(&layers).unwrap());
     assert_eq!(order(&page), first);
-    // Any number that differs is a change; so are one layer more or less and another order.
+    // Any different number is a change; so are one layer more or less and another order.
     let mut moved = layers.clone();
     let mut matrix = given[7].matrix;
     matrix.w_axis.x += 1e-9;
@@ -111,7 +111,7 @@ fn an_unchanged_frame_is_not_worked_on() {
     let mut unclipped = page.unclipped();
     assert!(unclipped.is_empty() && unclipped.back_to_front().next().is_none());
     assert!(unclipped.update(&layers).unwrap() && !unclipped.update(&layers).unwrap());
-    // A page of none is a page.
+    // An empty page is a page.
     let mut none = Layers::new(VIEWPORT);
     assert!(none.update(&[]).unwrap() && !none.update(&[]).unwrap());
     assert!(none.is_empty() && none.hit([5.0, 5.0]).is_none());

@@ -1,5 +1,5 @@
-//! Layers that matrices of their own put into one plane, seen nearly along it and near the eye: what the
-//! tolerance promises of two of them.
+//! Layers that separate matrices put into one plane, seen nearly along it and near the eye: the guarantee
+//! of the tolerance for two of them.
 
 use super::oracle::{Truth, covers, number};
 use super::{Given, order, page_on};
@@ -11,7 +11,7 @@ use testkit::rational::exact;
 /// The longer side of the viewport.
 const SIZE: f64 = 640.0;
 
-/// How a page is made.
+/// The options of a page.
 #[derive(Clone, Copy, Debug)]
 struct Kind {
     is_single: bool,
@@ -85,7 +85,8 @@ impl Plane {
         number(&(a * x + b * y + c * z + d)).abs() / self.length
     }
 
-    /// How far the plane may be off at a vertex of its layer if each number of the matrix is off by a step.
+    /// The largest distance of the plane from a vertex of its layer if each number of the matrix is off by
+    /// a step.
     fn rounding(&self, given: &Given, vertex: &LayerVertex, step: f64) -> f64 {
         let DVec2 { x: u, y: v } = vertex.local.abs();
         let [of_u, of_v, _, of_1] = given.matrix.to_cols_array_2d();
@@ -140,7 +141,7 @@ struct Tally {
     exchanged: usize,
 }
 
-/// Judges all pairs of pieces of which the documentation says the order.
+/// Judges all pairs of pieces whose order is documented.
 fn judge(given: &[Given], kind: Kind, dice: &mut Dice, tally: &mut Tally) {
     let truths: Vec<Truth> = given.iter().map(Given::truth).collect();
     let planes: Vec<Plane> = truths.iter().map(Plane::of).collect();
@@ -150,7 +151,7 @@ fn judge(given: &[Given], kind: Kind, dice: &mut Dice, tally: &mut Tally) {
     let least = 4.0 * rounding.fold(0.0, f64::max);
     let reach = vertices().map(|(_, vertex)| vertex.position.abs().max_element());
     let largest = least.max(reach.fold(0.0, f64::max) * 2f64.powi(-45));
-    // What it is at least, and at most.
+    // Its lower and upper limits.
     let [least, largest] = [least, largest].map(|t| t.clamp(1e-9 * SIZE, 1e-5 * SIZE));
     let off = |plane: usize, layer: usize| {
         let of_layer = vertices().filter(|&(k, _)| k == layer);
@@ -198,7 +199,7 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
     for is_single in [false, true] {
         for is_clipped in [false, true] {
             let (mut dice, mut tally) = (Dice(101), Tally::default());
-            // Without a least tolerance for the grid, some page fails of those in `f64` that are not clipped.
+            // Without a least tolerance for the grid, some unclipped page in `f64` fails.
             let pages = if is_single || is_clipped { 200 } else { 600 };
             let mut exchanged = 0;
             for _ in 0..times(pages) {
@@ -214,8 +215,8 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
     }
 }
 
-/// Three cards that matrices of their own put into a plane seen nearly along its edge. The second reaches
-/// so near to the eye that the plane of the first, which is small, misses it by more than the tolerance.
+/// Three cards that separate matrices put into a plane seen nearly edge-on. The second reaches so near to
+/// the eye that the plane of the first, which is small, misses it by more than the tolerance.
 #[test]
 fn a_small_card_does_not_come_between_two_others_of_its_plane() {
     let z = [0.737760532083408, -0.675144008569573, -0.0007473646955752207, 7.473646955752207e-7];

@@ -72,7 +72,7 @@ fn layers(dice: &mut Dice) -> Vec<Given> {
     (0..count).map(layer).collect()
 }
 
-/// A point of the screen where two rectangles of one matrix overlap, well inside of both.
+/// A point of the screen where two rectangles of one matrix overlap, well inside both.
 fn overlap(dice: &mut Dice, [a, b]: [&Given; 2], [one, other]: [&Truth; 2]) -> Option<DVec2> {
     let low = DVec2::from(a.rect[0]).max(b.rect[0].into());
     let high = DVec2::from(a.rect[1]).min(b.rect[1].into());
@@ -125,8 +125,8 @@ fn layers_of_one_matrix_come_in_the_order_of_the_list() {
     assert!(judged[0] > 600 && judged[1] > 100, "{judged:?}");
 }
 
-/// A layer that is put into the plane of others is cut where the others are not: where it is cut, its
-/// place in the rectangle is that of the screen as well.
+/// A layer that is put into the plane of others is cut where the others are not: at a cut, its place in the
+/// rectangle is also that of the screen.
 #[test]
 fn cut_layers_of_one_matrix_know_their_places() {
     let mut dice = Dice(72);

@@ -7,8 +7,8 @@ use testkit::pages::{Page, SCREEN};
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by
-/// less in pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.
+/// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by less in
+/// pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.
 const MARGIN: f64 = 1e-4;
 
 #[derive(Default, Debug)]
@@ -89,7 +89,7 @@ fn pages_are_painted_by_depth() {
             let drawn = page_of(&layers);
             assert!(drawn.visible() <= count && drawn.len() >= drawn.visible());
             match page {
-                // What does not meet is not cut: known without looking at any piece.
+                // Layers that do not meet are not cut: known without reading any piece.
                 Page::Stack => assert_eq!((drawn.len(), drawn.visible()), (count, count)),
                 Page::Carousel | Page::Crossing => assert!(drawn.len() > drawn.visible()),
                 Page::Cubes => assert_eq!(drawn.visible(), count),

@@ -1,4 +1,4 @@
-//! What is seen of one layer, and where in it.
+//! The visible part of one layer, and its places.
 
 use super::oracle::{Point2, area, number};
 use super::{Given, VIEWPORT, layers_of, page_of, wild};
@@ -7,13 +7,13 @@ use testkit::pages::Page;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Twenty steps of `f64`, times what the terms of a coordinate add up to.
+/// Twenty steps of `f64`, times the sum of the terms of a coordinate.
 const STEPS: f64 = 20.0 * f64::EPSILON;
 /// The box that layers are clipped to.
 const REACH: f64 = 1920.0 * (1u64 << 20) as f64;
 
-/// How far x/w, y/w and z/w may be off where the layer's point (u, v) appears: what its terms add up
-/// to, over w, in `STEPS`.
+/// The error bound of x/w, y/w and z/w where the layer's point (u, v) appears: the sum of its terms, over
+/// w, in `STEPS`.
 fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
     let terms = |k: usize| {
         let [u, v, one] = [0, 1, 3].map(|column: usize| given.matrix.col(column)[k].abs());
@@ -45,7 +45,7 @@ fn what_is_seen_is_what_the_exact_clip_leaves() {
         for vertex in &vertices {
             let local = vertex.local.to_array().map(exact);
             assert!(truth.inside(&local) >= 0.0);
-            // It appears where it is said to.
+            // It appears at its stated position.
             let [x, y, z, w] = truth.homogeneous(&local);
             assert!((number(&w) - vertex.w).abs() <= bound(&given, vertex) * vertex.w);
             let off = DVec3::new(number(&(x / &w)), number(&(y / &w)), number(&(z / &w)))
@@ -56,7 +56,7 @@ fn what_is_seen_is_what_the_exact_clip_leaves() {
             let on_screen = vertex.position.truncate();
             assert_eq!(on_screen.clamp(low, high), on_screen);
         }
-        // In the rectangle, in the box, convex, and as large as what there is: it is what there is.
+        // In the rectangle, in the box, convex, and of the right area: so it is the visible part.
         let outline: Vec<Point2> = vertices.iter().map(|v| v.local.to_array().map(exact)).collect();
         let found = number(&area(&outline)).abs();
         assert!((found - expected).abs() <= 1e-9 * expected + 1e-9, "{found} {expected}");
@@ -95,8 +95,8 @@ fn edges_of_the_rectangle_are_told_from_clips() {
     enough!(own > 500, clips > 200; "{own} {clips}");
 }
 
-/// At random points of random pieces, what a graphics card makes of the vertices is where the exact
-/// inverse of the matrix says. And what it would make of u and v alone is not.
+/// At random points of random pieces, the interpolation of a GPU agrees with the exact inverse of the
+/// matrix. Interpolating u and v alone does not.
 #[test]
 fn places_in_a_layer_are_right_after_the_division() {
     let mut dice = Dice(13);
@@ -127,7 +127,7 @@ fn places_in_a_layer_are_right_after_the_division() {
                 continue;
             };
             let [u, v] = [0, 1].map(|k: usize| number(&exactly[k]));
-            // Steep layers turn a rounding on the screen into more in the layer.
+            // Steep layers magnify a rounding error on the screen in the layer.
             let [_, _, z, w] = truth.homogeneous(&exactly);
             assert!(w.is_positive() && !z.is_zero());
             let steep = steepness(&given, [u, v], number(&w));
@@ -149,7 +149,7 @@ fn places_in_a_layer_are_right_after_the_division() {
     enough!(compared > 1000, cut > 800, misled > 300; "{compared} {cut} {misled}");
 }
 
-/// How much u and v change for a change of one pixel, about.
+/// The approximate change of u and v for a change of one pixel.
 fn steepness(given: &Given, [u, v]: [f64; 2], w: f64) -> f64 {
     let truth = |u: f64, v: f64| {
         let h = given.matrix * binspace::glam::dvec4(u, v, 0.0, 1.0);

@@ -6,14 +6,14 @@ use binspace::layers::Layer;
 use testkit::pages::Page;
 use testkit::prelude::*;
 
-/// A page's camera as a program in `f32` makes it, product by product.
+/// A page's camera, computed in `f32`, product by product.
 fn single_camera() -> Mat4 {
     let mut perspective = Mat4::IDENTITY;
     perspective.z_axis.w = -1.0 / 1200.0;
     Mat4::from_translation(vec3(960.0, 540.0, 0.0)) * perspective
 }
 
-/// Each card has a matrix of its own, the product of its place in a tilted plane and the plane's.
+/// Each card has a separate matrix, the product of its place in a tilted plane and the plane's.
 #[test]
 fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
     let mut dice = Dice(41);
@@ -33,7 +33,7 @@ fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
         let page = page_on(VIEWPORT, true, matrices.iter().map(|&m| Layer::from_f32(card, m)));
         assert_eq!((page.len(), page.visible()), (40, 40));
         assert_eq!(order(&page), (0..40).collect::<Vec<_>>());
-        // As `f64` matrices, the same numbers are not in one plane: the case shows something.
+        // As `f64` matrices, the same numbers are not in one plane, so the test is effective.
         let exact = matrices.iter().map(|m| Layer::new(card, m.as_dmat4()));
         let page = page_on(VIEWPORT, true, exact);
         rounded += usize::from(page.len() > 40 || order(&page) != (0..40).collect::<Vec<_>>());
@@ -73,7 +73,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
             for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
                 assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
             }
-            // The wall may cut them, and have all on one side of it come first.
+            // The wall may cut them, and all parts on one side of it come first.
             let mut cards: Vec<usize> =
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
             cards.dedup();
@@ -99,7 +99,7 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     assert!(cards.len() >= 3 && is_right, "{cards:?}");
 }
 
-/// Cards in one plane keep the order of the document, though a floor reaches behind the eye.
+/// Cards in one plane keep the order of the document, although a floor reaches behind the eye.
 #[test]
 fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
     let mut compared = 0;
@@ -129,8 +129,8 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
             let Some(last) = cards.iter().rposition(has) else { continue };
             let on_screen = plane * dvec3(x, y, 0.0).extend(1.0);
             let found = page.hit([on_screen.x / on_screen.w, on_screen.y / on_screen.w]);
-            // The floor may hide all cards, but a card only those before it. (Near its edge it may be
-            // one that was not counted.)
+            // The floor may hide all cards, but a card only those before it. (Near its edge it may be one
+            // that was not counted.)
             match found {
                 Some((layer, _)) if layer > 0 => assert!(layer > last, "{layer}, not {last}"),
                 _ => continue,
@@ -157,7 +157,7 @@ fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
         }
     }
     enough!(compared > 100; "{compared}");
-    // What is beside the screen is there, whole.
+    // The layer beside the screen is there, whole.
     let beside = Layer::new([[-900.0, 50.0], [-100.0, 90.0]], DMat4::IDENTITY);
     let page = page_on(VIEWPORT, false, [beside]);
     let corners = page.back_to_front().flat_map(|piece| piece.vertices());

@@ -1,4 +1,4 @@
-//! Pieces with an edge so short that rounding decides where it points.
+//! Pieces with an edge so short that rounding decides its direction.
 
 use super::oracle::{Truth, number};
 use super::{Given, camera, outlines, page_on};
@@ -6,8 +6,8 @@ use binspace::glam::DMat4;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Cards that turn about one point, which is a corner of some and on an edge of others, on a screen
-/// far from the origin: their cuts pass the point by a rounding.
+/// Cards that turn about one point, which is a corner of some and on an edge of others, on a screen far
+/// from the origin: their cuts pass the point by a rounding error.
 fn cards(dice: &mut Dice, off: f64) -> Vec<Given> {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let pivot = dvec3(between(0.0, 100.0), between(0.0, 100.0), between(0.0, 100.0));

@@ -1,12 +1,12 @@
-//! Which polygons count as bent does not depend on what they are given with: at once, one after the other,
-//! or in cells.
+//! Whether a polygon counts as bent does not depend on the others: built at once, one after the other, or
+//! in cells.
 
 use binspace::Preparation;
 use binspace::partition::Extent;
 use testkit::prelude::*;
 use testkit::shapes::Claim;
 
-/// A quad of which a corner is off the plane of the others.
+/// A quad with a corner off the plane of the others.
 fn quad(at: f64, off: f64, precision: f64) -> Claim {
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, off], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let corners = corners.map(|corner| DVec3::from(corner) + DVec3::X * at).to_vec();
@@ -20,7 +20,7 @@ fn quads(extent: f64) -> Vec<Claim> {
         let off = extent * 1e-6 * 1.1f64.powi(k);
         let at = (extent - 1.0) * f64::from(k) / 59.0;
         quads.push(quad(at, off, 0.0));
-        // Some are written coarsely, so that bends are what their numbers are good for.
+        // Some have coarse coordinates, so that bends are within their precision.
         quads.push(quad(at, 8.0 * off, extent * 1e-4));
     }
     quads
@@ -60,7 +60,7 @@ fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
     }
 }
 
-/// Quads of coarse coordinates, a little bent, of which there are thousands: they are prepared in parts.
+/// Thousands of slightly bent quads with coarse coordinates: they are prepared in parts.
 #[test]
 fn bent_quads_of_all_parts_are_counted() {
     let quad = |k: usize| {
@@ -76,7 +76,7 @@ fn bent_quads_of_all_parts_are_counted() {
         (tree.preparation().bent, tree.preparation().bent_by)
     };
     let (all, by) = bent(0..5000);
-    // As many as in pieces that are each prepared as one part, but for what rounding is of them.
+    // As many as in pieces that are each prepared as one part, except for rounding.
     assert_eq!(all, 5000 / 5, "bent by {by}");
     assert!(by > 1e-6 && by < 1e-5, "{by}");
 }

@@ -1,6 +1,6 @@
-//! How tight the filter's bounds are. A hill climb searches for scenes on which a smaller bound
-//! would decide wrongly. The library decides them rightly, so the bound is large enough there; they
-//! exist, so the bound is hardly larger than necessary.
+//! The tightness of the filter's bounds. Hill climbing searches for scenes on which a smaller bound would
+//! decide wrongly. The library decides them rightly, so the bound is large enough there; they exist, so the
+//! bound is hardly larger than necessary.
 
 use binspace::internals::{PreparedPlane, Side, Vertex};
 use dashu_int::IBig;
@@ -25,7 +25,7 @@ fn faces(triangles: &[Triangle]) -> Faces {
     faces
 }
 
-/// What a plane is sought past: a place as numerators over a denominator, and as it is rounded.
+/// The target of a search for planes: a place as numerators over a denominator, and rounded.
 struct Place {
     over: [IBig; 3],
     denominator: IBig,
@@ -38,7 +38,7 @@ impl Place {
         Self { over: at.map(IBig::from), denominator: 1.into(), rounded }
     }
 
-    /// The rounded coordinate less the exact one.
+    /// The rounded coordinate minus the exact one.
     fn error(&self, axis: usize) -> f64 {
         let eighths = IBig::from((self.rounded[axis] * 8.0) as i128) * &self.denominator;
         let off: IBig = eighths - &self.over[axis] * 8;
@@ -74,8 +74,8 @@ fn shifted(mut triangle: Triangle, place: &Place, axis: usize) -> Option<Triangl
     triangle.iter().flatten().all(|c| c.abs() <= EDGE).then_some(triangle)
 }
 
-/// How far in front the filter takes a place to be that is not in front: in units of π, the sum of
-/// the products that the plane's normal is made of.
+/// The rounded distance in front of a place that is not in front: in units of π, the sum of the products in
+/// the plane's normal.
 fn distance(triangle: &Triangle, place: &Place) -> f64 {
     let faces = faces(&[*triangle]);
     let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
@@ -86,8 +86,8 @@ fn distance(triangle: &Triangle, place: &Place) -> f64 {
     prepared.distance(place.rounded) / size
 }
 
-/// Where all that errs errs most: a plane as steep along x as along z through the far ends of both,
-/// next to which the place is, and products a little above powers of two, of which most is lost.
+/// A start where all errors are largest: a plane as steep along x as along z through the far ends of both,
+/// next to which the place is, and products slightly above powers of two, which lose most.
 fn start(place: &Place, dice: &mut Dice) -> Option<Triangle> {
     let mut above = |power: u32, bits: u32| (1i64 << power) + dice.below(1 << bits) as i64;
     let [a, c] = [above(41, 33), above(41, 33)];
@@ -101,7 +101,7 @@ fn start(place: &Place, dice: &mut Dice) -> Option<Triangle> {
     shifted(triangle, place, 1)
 }
 
-/// Climbs: changes one coordinate at a time, and keeps what is no worse.
+/// Hill climbing: changes one coordinate at a time, and keeps the result if it is no worse.
 fn climb(place: &Place, steps: usize, dice: &mut Dice) -> Option<(f64, Triangle)> {
     let mut best = start(place, dice).map(|triangle| (distance(&triangle, place), triangle))?;
     for _ in 0..steps {
@@ -122,7 +122,7 @@ fn climb(place: &Place, steps: usize, dice: &mut Dice) -> Option<(f64, Triangle)
     Some(best)
 }
 
-/// The best of some climbs.
+/// The best of several climbs.
 fn sought(places: &[Place], climbs: usize, steps: usize) -> (f64, Triangle, &Place) {
     let mut dice = Dice(7);
     let tries = (0..climbs).filter_map(|i| {
@@ -132,13 +132,13 @@ fn sought(places: &[Place], climbs: usize, steps: usize) -> (f64, Triangle, &Pla
     tries.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a start")
 }
 
-/// Vertices where a plane perpendicular to y cuts an edge from one side of the scene to the other,
-/// in the corner of large x and small z; those that err most, upwards along x and z.
+/// Vertices where a plane perpendicular to y cuts an edge from one side of the scene to the other, in the
+/// corner of large x and small z; those with the largest errors upwards along x and z.
 fn cut_vertices(count: usize, dice: &mut Dice) -> Vec<(Triangle, i64, Place)> {
     let mut found: Vec<(f64, _)> = (0..20_000)
         .map(|_| {
             let mut near = |end: i64| end - end.signum() * dice.below(1 << 36) as i64;
-            // Numerator and denominator a little above powers of two.
+            // Numerator and denominator slightly above powers of two.
             let [a, b] = [[near(EDGE), 0, near(-EDGE)], [near(EDGE), 0, near(-EDGE)]];
             let mut above = || (1 << 50) + dice.below(1 << 38) as i64;
             let [a, b] = [[a[0], above(), a[2]], [b[0], -above(), b[2]]];
@@ -217,7 +217,7 @@ fn a_bound_of_six_tenths_would_put_a_corner_on_the_wrong_side_of_a_plane() {
     assert!(side.is_le() && side == exactly(&plane, place).0.cmp(&IBig::zero()));
 }
 
-/// A vertex may be rounded across the integer that a plane perpendicular to an axis stands at.
+/// A vertex may be rounded across the integer position of a plane perpendicular to an axis.
 #[test]
 fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_plane() {
     let (mut crossed, mut worst) = (0, 0f64);
@@ -243,8 +243,8 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
     assert!((0.3..0.5).contains(&worst), "{worst}");
 }
 
-/// The tolerance times the length of a normal is no whole number, and a determinant is one: the
-/// next larger one is beyond the tolerance, the next smaller one is not. So are distances from the plane
+/// The tolerance times the length of a normal is not an integer, and a determinant is one: the next larger
+/// one is beyond the tolerance, the next smaller one is not. The same holds for distances from the plane
 /// perpendicular to an axis.
 #[test]
 fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyond_it() {
@@ -287,8 +287,8 @@ fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyon
     }
 }
 
-/// Without a tolerance, even the least distance there is counts: a corner one lattice step off the
-/// plane of a triangle of single steps, where the plane's value is 1.
+/// Without a tolerance, even the least distance counts: a corner one lattice step off the plane of a
+/// triangle of single steps, where the plane's value is 1.
 #[test]
 fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
     let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];

@@ -4,7 +4,7 @@ use binspace::ErrorKind;
 use std::cell::Cell;
 use testkit::prelude::*;
 
-/// Corners without end.
+/// Endless corners.
 struct Endless<'a> {
     read: &'a Cell<usize>,
 }
@@ -46,8 +46,7 @@ fn comb(corners: usize) -> Vec<DVec3> {
 #[test]
 fn a_cancel_is_heard_while_one_polygon_is_triangulated() {
     let comb = comb(400_000);
-    // All calls that come before the tree is begun, which are those before the total is that of
-    // the triangles.
+    // All calls before the tree is begun: before the total is the number of triangles.
     let mut all = 0;
     let _ = BuildOptions::DEFAULT.build_with_progress([&comb], |progress| {
         if progress.total > 1 {

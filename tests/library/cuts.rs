@@ -47,7 +47,7 @@ fn with_neighbours(mut polygons: Vec<Corners>, apex: DVec3) -> Vec<Corners> {
 fn a_moved_corner_elsewhere_does_not_change_the_bits_of_a_common_edge() {
     let [a, b] = [DVec3::new(-1.0, 0.3, 0.7), DVec3::new(0.9, 0.1, -0.8)];
     let c = DVec3::new(1.1, 1.3, -0.1);
-    // Corners 0, 2 and 3 span most: corner 1 is moved.
+    // Corners 0, 2 and 3 span the largest triangle: corner 1 is moved.
     let last = a + (c - b) * 1.2 + DVec3::splat(1e-10);
     let cutting = |k: u32| {
         let at = a + (last - a) * (0.1 + 0.02 * f64::from(k));

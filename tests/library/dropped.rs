@@ -1,5 +1,5 @@
-//! Which polygons preparation drops, keeps whole and counts as duplicates, checked by brute force
-//! in big integers, on polygons with little or no area.
+//! The polygons that preparation drops, keeps whole and counts as duplicates, checked by brute force in big
+//! integers, on polygons with little or no area.
 
 use binspace::internals::Lattice;
 use dashu_int::IBig;
@@ -12,7 +12,7 @@ use testkit::vector::{difference, is_zero, product, scalar};
 
 type Vector = [IBig; 3];
 
-/// The corners on the lattice, those left out that are where the one before is.
+/// The corners on the lattice, without those equal to the one before.
 fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     let mut corners: Vec<Vector> =
         polygon.iter().map(|&p| lattice.snap(p).map(|c| IBig::from(c as i64))).collect();
@@ -35,20 +35,20 @@ fn known_outline(faces: &Faces, polygon: usize, corners: &[DVec3]) -> Vec<Vector
     numbers.into_iter().map(|number| snap(number).map(|c| IBig::from(c as i64))).collect()
 }
 
-/// Two arms from the first corner that are not on one line, if there are any.
+/// Two arms from the first corner that are not collinear, if there are any.
 fn plane(corners: &[Vector]) -> Option<Vector> {
     let arms: Vec<Vector> = corners.iter().map(|corner| difference(corner, &corners[0])).collect();
     let pairs = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
     pairs.into_iter().find(|normal| !is_zero(normal))
 }
 
-/// Whether every part of the outline is run through as often backwards as forwards: then it has no
-/// area, though its corners may not be on one line.
+/// Whether every part of the outline runs as often backwards as forwards: then it has no area, although its
+/// corners may not be collinear.
 fn is_run_through_both_ways(corners: &[Vector]) -> bool {
     let mut runs: HashMap<[&Vector; 2], i32> = HashMap::new();
     for (i, a) in corners.iter().enumerate() {
         let b = &corners[(i + 1) % corners.len()];
-        // Parted where other corners lie on it.
+        // Divided where other corners lie on it.
         let arm = difference(b, a);
         let mut along: Vec<(IBig, &Vector)> = corners
             .iter()
@@ -76,8 +76,7 @@ fn area(corners: &[Vector]) -> Vector {
     })
 }
 
-/// Whether the corners are in one plane, on the rim of what they span, and in order around their
-/// middle, once.
+/// Whether the corners are in one plane, on their convex hull, and in order around their middle, once.
 fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     let flat = |corner: &Vector| scalar(normal, &difference(corner, &corners[0])).is_zero();
     if !corners.iter().all(flat) {
@@ -96,7 +95,7 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     if sign.is_zero() || around.into_iter().any(|t| t.is_zero() || t.sign() != sign.sign()) {
         return false;
     }
-    // How often they pass the first arm.
+    // The number of times that they pass the first arm.
     let is_ahead = |arm: &Vector| {
         let across = turn(&arms[0], arm);
         if across.is_zero() {
@@ -116,23 +115,23 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     passes == 1 && on_rim
 }
 
-/// Whether one outline is another, from whichever corner and in whichever direction.
+/// Whether one outline equals another, from any corner and in either direction.
 fn is_same(a: &[Vector], b: &[Vector]) -> bool {
     let n = a.len();
     let matches = |start: usize, step: usize| (0..n).all(|i| a[i] == b[(start + i * step) % n]);
     n == b.len() && (0..n).any(|start| matches(start, 1) || matches(start, n - 1))
 }
 
-/// How many polygons were of which kind.
+/// The number of polygons of each kind.
 #[derive(Debug, Default)]
 struct Kinds {
     on_a_line: usize,
-    /// Those run through there and back that were dropped, and others whose parts cancel.
+    /// Dropped polygons that run out and back, and others whose parts cancel.
     folded: usize,
     cancelled: usize,
     whole: usize,
     triangulated: usize,
-    /// Those whose area is within a rounding of none: 2⁻⁴⁰ of the square of their size.
+    /// Polygons whose area is within rounding of zero: 2⁻⁴⁰ of the square of their size.
     thin: usize,
     duplicates: usize,
 }
@@ -158,8 +157,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
             corners.iter().map(|c| square(&difference(c, &corners[0]))).max().expect("corners");
         kinds.thin += usize::from(square(&area) << 80 < &size * &size && !is_zero(&area));
         if is_zero(&area) {
-            // Run through there and back, it has none; else its parts face both ways and cancel,
-            // and what it covers is what ear clipping makes of it.
+            // Running out and back, it has no area; otherwise its parts face both ways and cancel, and ear
+            // clipping gives its covered area.
             let is_fold = is_run_through_both_ways(corners);
             kinds.folded += usize::from(is_fold && is_dropped);
             kinds.cancelled += usize::from(!is_fold || !is_dropped);
@@ -184,8 +183,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Polygons of little area or none: corners on a line, off it by ulps, given again, run through
-/// there and back; needles; and other polygons, some given twice.
+/// Polygons of little or no area: collinear corners, corners off a line by ulps, repeated, running out and
+/// back; needles; and other polygons, some given twice.
 fn thin(seed: u64, count: usize) -> Vec<Corners> {
     let mut dice = Dice(seed);
     let lattice = dice.below(2) == 0;
@@ -202,7 +201,7 @@ fn thin(seed: u64, count: usize) -> Vec<Corners> {
         let mut polygon: Corners = match dice.below(6) {
             0 => (0..corners).map(|_| a + (b - a) * share(&mut dice)).collect(),
             1 => {
-                // There and back over some corners.
+                // Out and back over some corners.
                 let way: Corners = (0..corners).map(|_| point(&mut dice)).collect();
                 let back = way[1..corners - 1].iter().rev();
                 way.iter().chain(back).copied().collect()
@@ -256,8 +255,8 @@ fn the_same_holds_in_hard_scenes() {
     assert!(least > Some(10), "{kinds:?}");
 }
 
-/// Floats find no area between any two corners of this polygon and its first. In integers one of them is off the
-/// line of the others, and spans a triangle of twice the area 1 with two of them.
+/// In floats this polygon has no area between any two corners and its first. In integers one of them is off
+/// the line of the others, and spans a triangle of twice the area 1 with two of them.
 #[test]
 fn a_polygon_that_only_integers_see_an_area_of_is_kept() {
     const S: f64 = (1_u64 << 50) as f64;

@@ -14,8 +14,8 @@ fn duplicates(polygons: &[Vec<[f64; 3]>]) -> usize {
     tree.duplicates()
 }
 
-/// A face given again from any corner in either direction is counted, also with a corner repeated or rounded
-/// to the same place; with other corners, or the same in another order around, it is no duplicate.
+/// A repeated face is counted from any corner in either direction, also with a corner repeated or rounded
+/// to the same place. With other corners, or the same in another cyclic order, it is not a duplicate.
 #[test]
 fn faces_given_again_are_counted() {
     let first = || named([0, 1, 2, 3]);
@@ -35,7 +35,7 @@ fn faces_given_again_are_counted() {
         (vec![tie, named([1, 3, 0, 2])], 1),
         (vec![first(), rounded], 1),
         (vec![first(), other], 0),
-        // What has no area is dropped.
+        // Polygons without area are dropped.
         (vec![named([0, 1, 0]), named([0, 1, 0]), first()], 0),
     ] {
         assert_eq!(duplicates(&polygons), expected, "{polygons:?}");

@@ -1,5 +1,5 @@
-//! The side of a plane on which an eye lies, against exact rationals; and the lattice that eyes and
-//! corners are put on.
+//! The side of a plane on which an eye lies, compared with exact rationals; and the lattice of eyes and
+//! corners.
 
 use binspace::internals::{Eye, Lattice};
 use proptest::prelude::*;

@@ -1,5 +1,5 @@
-//! Eyes are rounded once: what lies on the grid stays where it is, however many digits its place on the
-//! grid has more than the eye's own coordinates.
+//! Eyes are rounded once: points of the grid are not moved, even if their position on the grid has more
+//! digits than the eye's own coordinates.
 
 use binspace::Facing;
 use binspace::internals::Lattice;

@@ -1,4 +1,4 @@
-//! Facts about the faces of any scene: convex, planar, where the input is, and whole if they can be.
+//! Facts about the faces of any scene: convex, planar, at the input's positions, and whole if possible.
 
 use binspace::internals::{PreparedPlane, Side, Vertex, split};
 use proptest::prelude::*;
@@ -26,7 +26,7 @@ fn assert_corners_are_the_input_s(
             .contains(&(faces.corner_range(face).start as u32 + k as u32));
         prop_assert!(moved == 0.0 || !reference);
     }
-    // Of a corner moved onto the plane, the nearest lattice point is kept.
+    // For a corner moved onto the plane, the nearest lattice point is stored.
     let exact = Face::new(faces, face);
     let half = Rational::from_parts_signed(1.into(), 2.into());
     for (kept, exact) in faces.corners(face).iter().zip(&exact.corners) {
@@ -45,7 +45,7 @@ fn with_repeats(mut scene: HardScene, repeats: &[(Index, Index)]) -> HardScene {
     scene
 }
 
-/// Any finite number, those of every size and those a scene would have.
+/// Any finite number: of every size, and typical of a scene.
 fn any_finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>().prop_filter("finite", |x| x.is_finite()),
@@ -55,7 +55,7 @@ fn any_finite() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Every decision that the faces of a scene lead to.
+/// Every decision about the faces of a scene.
 fn decide_all(faces: &Faces) {
     for face in 0..faces.len() as u32 {
         let corners = 0..faces.corners(face).len() as u32;

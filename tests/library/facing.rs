@@ -1,4 +1,4 @@
-//! Which side of a fragment faces a viewpoint, against exact rationals.
+//! The side of a fragment that faces a viewpoint, compared with exact rationals.
 
 use binspace::Facing;
 use binspace::verify::verify_fronts;
@@ -56,7 +56,7 @@ fn fragments_face_the_side_that_rationals_say() {
     assert!(back.min(front) > 2000 && edge_on > 200, "{counts:?}");
 }
 
-/// By hand: the sign convention.
+/// The sign convention, by hand.
 #[test]
 fn a_front_is_where_corners_run_counter_clockwise() {
     let tree = BspTree::build([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();
@@ -67,14 +67,14 @@ fn a_front_is_where_corners_run_counter_clockwise() {
     assert_eq!(facing(Viewpoint::direction([0.0, 0.0, -1.0])), Facing::Front);
     assert_eq!(facing(Viewpoint::direction([3.0, 0.0, 1e-9])), Facing::Back);
     assert_eq!(facing(Viewpoint::direction([3.0, -1.0, 0.0])), Facing::EdgeOn);
-    // As orders take them: no number is no error.
+    // As for orders: NaN is not an error.
     assert_eq!(facing(Viewpoint::direction([0.0; 3])), Facing::Front);
     assert_eq!(facing(Viewpoint::eye([0.0, 0.0, f64::NEG_INFINITY])), Facing::Back);
     assert_eq!(facing(Viewpoint::eye([f64::INFINITY, 0.0, 5.0])), Facing::EdgeOn);
 }
 
-/// A room with its walls facing inwards: from outside, those between the eye and the room are left
-/// out, and what is behind them shows.
+/// A room with its walls facing inwards: from outside, the walls between the eye and the room are left out,
+/// and everything behind them is visible.
 #[test]
 fn a_room_is_seen_from_outside_without_the_walls_that_face_away() {
     let room = scene::cornell_box();

@@ -1,5 +1,5 @@
-//! Bounds tell which side polygons show only where the exact predicate tells the same: eyes far away in
-//! the plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
+//! Bounds decide the side that polygons show only where the exact predicate agrees: eyes far away in the
+//! plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
 
 use binspace::Facing;
 use testkit::prelude::*;
@@ -39,7 +39,7 @@ fn bounds_of_normals_hold_the_exact_normals() {
             let along = Viewpoint::direction(u * (i + 1.0) + v * j);
             assert_eq!(root.facing_all(along), None, "{seed}: {i} {j}, along the plane");
         }
-        // And it does tell where the eye is clearly off.
+        // They do decide if the eye is clearly off.
         let eye = Viewpoint::eye(at + normal * 1e4);
         decided += usize::from(root.facing_all(eye) == Some(Facing::Front));
     }

@@ -1,4 +1,4 @@
-//! Inputs that a fuzz target once failed on, and a few to start from, replayed.
+//! Replays inputs on which a fuzz target once failed, and some seeds.
 
 use std::path::Path;
 use testkit::prelude::*;
@@ -18,7 +18,7 @@ const TARGETS: [Target; 9] = [
     ("obj", targets::obj::run),
 ];
 
-/// Runs each target on every file of its folder; the file's name says what it is about.
+/// Runs each target on every file of its folder; the file's name describes it.
 #[test]
 fn regressions_of_every_target_pass() {
     let folders = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions");

@@ -1,5 +1,4 @@
-//! Where polygons in exactly one plane keep the order of the input, and where the tolerance may take it from
-//! them.
+//! Polygons in exactly one plane keep the input order, except where the tolerance may change it.
 
 use binspace::Fragment;
 use testkit::prelude::*;
@@ -33,7 +32,7 @@ fn is_in_order(tree: &BspTree, x: f64) -> bool {
     })
 }
 
-/// Of the reduced case: from above, the third comes first.
+/// The reduced case: from above, the third comes first.
 #[test]
 fn a_third_polygon_within_the_tolerance_of_the_overlap_may_take_the_input_order() {
     let exchanged =

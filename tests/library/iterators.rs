@@ -1,4 +1,4 @@
-//! Iterators over orders, fragments, their parts and nodes: read from both ends, and as long as they say.
+//! Iterators over orders, fragments, their parts and nodes: read from both ends, and of the stated length.
 
 use std::fmt::Debug;
 use std::iter::FusedIterator;
@@ -43,8 +43,8 @@ fn reversed<T>(iterator: impl Iterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// Holds an iterator against a list: from the front, from the back, and from both ends in a random
-/// pattern; and copies of it made on the way.
+/// Compares an iterator with a list: from the front, from the back, and from both ends in a random pattern;
+/// and copies of it made on the way.
 fn check_ends<I>(iterator: I, expected: &[I::Item], dice: &mut Dice)
 where
     I: DoubleEndedIterator<Item: PartialEq + Debug> + ExactSizeIterator + FusedIterator + Clone,
@@ -104,7 +104,7 @@ fn fragments_and_nodes_are_read_from_both_ends() {
         check_ends(tree.fragments().map(|f| f.index()), &numbers, &mut dice);
         assert_eq!(tree.fragments().nth(2).map(|f| f.index()), numbers.get(2).copied());
         let stats = tree.stats();
-        // As many fragments as faces say that nothing was cut.
+        // As many fragments as faces: nothing was cut.
         assert_eq!(tree.face_count(), stats.faces);
         assert_eq!(tree.len() == tree.face_count(), stats.splits == 0);
         let nodes: Vec<_> = tree.nodes().collect();

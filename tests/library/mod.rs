@@ -1,4 +1,4 @@
-//! The library's parts, each against an oracle of its own. One program: it links once.
+//! The library's parts, each compared with a separate oracle. One program: it links once.
 
 mod bent_counts;
 mod bounds;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The text of a module's files, without comments and without what follows the first test.
+/// The text of a module's files, without comments and without everything from the first test on.
 fn text_of(path: &Path) -> String {
     if path.file_stem().is_some_and(|name| name == "tests") {
         return String::new();
@@ -43,7 +43,7 @@ fn modules_import_one_way() {
         left.insert(name, named.collect());
     }
     assert!(left.values().map(BTreeSet::len).sum::<usize>() > 20, "too few imports are found");
-    // Those that import none of the others are taken away, until none are left.
+    // Modules that import none of the others are removed, until none are left.
     while let Some(name) = left.iter().find(|(_, of)| of.is_empty()).map(|(&name, _)| name) {
         left.remove(name);
         left.values_mut().for_each(|of| _ = of.remove(name));

@@ -1,4 +1,4 @@
-//! Rays of narrow views are where the camera says, or there are none.
+//! Rays of narrow views are at the camera's positions, or there are none.
 
 use binspace::view::Projection;
 use dashu_int::IBig;
@@ -18,8 +18,8 @@ fn is_parallel(camera: &Camera) -> bool {
     matches!(camera.projection(), Projection::Parallel { .. })
 }
 
-/// How far, in pixels, the rays of a camera are from where it has them, at the corners of the picture; of parallel ones
-/// from where they are seen from the middle of the picture. `None` if there are no rays.
+/// The distance, in pixels, of a camera's rays from their true positions at the corners of the picture; for
+/// parallel rays as seen from the middle of the picture. `None` if there are no rays.
 fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     let rays = Rays::sampled(camera, faces, samples).ok()?;
     let axes = [camera.forward(), camera.right(), -camera.up()].map(point);
@@ -30,7 +30,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     for [x, y] in [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1]] {
         let [start, way] = rays.ray(x, y).map(rational);
         let found = if is_parallel(camera) {
-            // Less what it is at the opposite corner: twice what it is at the middle.
+            // Minus the value at the opposite corner: twice the value at the middle.
             let opposite = rational(rays.ray(width - 1 - x, height - 1 - y)[0]);
             let arm = std::array::from_fn(|i| (&start[i] - &opposite[i]) / exact(2.0));
             let pixel = exact(faces.lattice().length_to_lattice(camera.pixel_size()[1]));
@@ -59,7 +59,7 @@ fn rays_are_less_than_a_thousandth_of_a_pixel_off() {
     for round in 0..3000 {
         let size = sizes[round % 6];
         let eye = random.point(-3.0, 3.0);
-        // From a wide view to one whose pixels are smaller than anything.
+        // From a wide view to one with extremely small pixels.
         let narrow = 10.0_f64.powf(-13.0 * dice.share());
         let camera = match dice.below(3) {
             0 => Camera::parallel(eye, DVec3::Z, random.point(0.0, 1.0), narrow, size),

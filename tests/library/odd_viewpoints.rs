@@ -1,4 +1,4 @@
-//! Viewpoints of coordinates that are no numbers or infinite, and directions of no length.
+//! Viewpoints with NaN or infinite coordinates, and directions of zero length.
 
 use testkit::prelude::*;
 use testkit::snapshot::polygons;

@@ -1,4 +1,4 @@
-//! What was made from one tree, beside another of the same size: refused, or right.
+//! Objects made from one tree, used with another of the same size: refused, or right.
 
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
@@ -8,19 +8,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use testkit::prelude::*;
 use testkit::shapes::sheet;
 
-/// How many squares a frame has, one above another.
+/// The number of squares of a frame, one above another.
 const CARDS: usize = 5;
 
 fn square(height: f64) -> [[f64; 3]; 4] {
     sheet(2, height, 4.0)
 }
 
-/// The squares from the lowest to the highest, or the other way round.
+/// The squares from the lowest to the highest, or reversed.
 fn frame(is_turned: bool) -> impl Iterator<Item = [[f64; 3]; 4]> {
     (0..CARDS).map(move |card| square(if is_turned { CARDS - 1 - card } else { card } as f64))
 }
 
-/// Two frames that differ in nothing that is counted, and not in grid or tolerance; and the first again.
+/// Two frames that differ in no count, grid or tolerance; and the first again.
 fn frames() -> Vec<[BspTree; 3]> {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let build = |is_turned| options.build(frame(is_turned)).expect("within budget");
@@ -43,7 +43,7 @@ fn frames() -> Vec<[BspTree; 3]> {
     frames
 }
 
-/// What is asked for must not come.
+/// The result must not be returned.
 fn ignore<T>(_: T) {}
 
 const ABOVE: Viewpoint = Viewpoint::Direction(DVec3::NEG_Z);
@@ -69,7 +69,7 @@ fn an_overlay_of_another_frame_is_refused() {
         overlay.replace(&one.clone(), [square(2.5)]).expect("a copy is the same");
         overlay.order(one, ABOVE).expect("its own").write_into(&mut order);
         assert_eq!(order.len(), CARDS + 1);
-        // One that was given nothing so far.
+        // An overlay without contents.
         assert!(Overlay::new(one).order(other, ABOVE).is_err());
     }
 }
@@ -97,7 +97,7 @@ fn boxes_are_those_of_the_polygons_that_the_tree_has_now() {
     assert_eq!(builder.tree().bounds(), None);
 }
 
-/// Whether bodies are closed is asked of each frame.
+/// Each frame tests again whether bodies are closed.
 #[test]
 fn open_edges_are_those_of_the_polygons_that_the_frame_has_now() {
     let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -131,7 +131,7 @@ fn triangles_of_another_frame_are_refused() {
     }
 }
 
-/// What was made before does not belong to the tree that is extended, read again or refilled.
+/// Earlier objects do not belong to the tree that is extended, read again or refilled.
 #[test]
 fn a_tree_that_changes_is_another_one() {
     let mut tree = BspTree::build(frame(false)).expect("within budget");
@@ -140,11 +140,11 @@ fn a_tree_that_changes_is_another_one() {
     tree.write(&mut file).expect("a list takes all");
     let read = BspTree::read(&file[..]).expect("its own file");
     assert!(overlay.replace(&read, [square(2.5)]).is_err());
-    // What it was made for comes with no file.
+    // A file does not store its identity.
     let mut again = Vec::new();
     BspTree::build(frame(false)).expect("within budget").write(&mut again).expect("a list");
     assert_eq!(file, again);
-    // It stays the same tree where it cannot be extended.
+    // It stays the same tree if it cannot be extended.
     assert!(tree.extend([square(1e9)]).is_err());
     overlay.replace(&tree, [square(2.5)]).expect("unchanged");
     // A polygon without area adds no fragment.
@@ -167,7 +167,7 @@ fn camera() -> Camera {
     Camera::perspective(eye, target, DVec3::Z, 0.9, [32, 24]).expect("a camera")
 }
 
-/// Rays are numbers on a grid: trees with the same one share them, others would show another picture.
+/// Rays are numbers on a grid: trees with the same grid share them, others would show another picture.
 #[test]
 fn rays_of_another_grid_are_refused() {
     let tree = BspTree::build(frame(false)).expect("within budget");
@@ -201,8 +201,8 @@ fn rays_of_another_grid_are_refused() {
     panic_of(|| ignore(zbuffer(&rays.rows(3..9).with_front_faces_only(), faces)));
 }
 
-/// A fragment of another frame, or a piece of an overlay, covers what it covers in its own picture, not
-/// what a face of the mask's tree with the same number does.
+/// A fragment of another frame, or a piece of an overlay, covers the pixels of its own picture, not those
+/// of a face of the mask's tree with the same number.
 #[test]
 fn a_mask_covers_what_a_fragment_of_another_frame_covers() {
     let build = |sizes: [f64; 2]| {

@@ -1,5 +1,5 @@
-//! Where the polygons, a tree's file or its mesh do not fit into memory, there is an error and not the end of
-//! the program. Each case runs in a process of its own, with limited memory.
+//! If the polygons, a tree's file or its mesh do not fit into memory, there is an error and the program
+//! continues. Each case runs in a separate process, with limited memory.
 #![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
 
 use binspace::ErrorKind;
@@ -20,8 +20,8 @@ fn heap() -> Polygons {
     polygons(&scene::random_triangles(1500, 1))
 }
 
-/// Small blocks of free memory, which no longer list fits into: what little is asked for without a
-/// check is to be had, so that only the lists meet the limit.
+/// Small blocks of free memory, into which no longer list fits: small unchecked allocations succeed, so
+/// that only the lists meet the limit.
 fn keep_small_change() -> Vec<Box<[u8]>> {
     let (change, kept): (Vec<_>, Vec<_>) = (0..200)
         .map(|_| (vec![1_u8; 40_000].into_boxed_slice(), vec![1_u8; 64].into_boxed_slice()))
@@ -37,7 +37,7 @@ fn status(name: &str) -> usize {
     line.split_whitespace().nth(1).and_then(|figure| figure.parse().ok()).expect("a number")
 }
 
-/// Runs a case, and tells whether memory ran out.
+/// Runs a case, and returns whether memory ran out.
 fn run(case: &str) -> bool {
     let polygons: Polygons = match case {
         "sphere" => polygons(&scene::sphere(20_000)),
@@ -50,7 +50,7 @@ fn run(case: &str) -> bool {
         "sampled" => BuildOptions::DEFAULT.with_heuristic("sampled(16)".parse().expect("a name")),
         _ => BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0)),
     };
-    // What the case begins with is made before: the limits that the parent sets are above what it takes.
+    // The input of the case is made before: the limits that the parent sets are above its memory.
     match case {
         "extend" => {
             let mut tree = options.build(&polygons[..700]).expect("room");
@@ -93,19 +93,19 @@ fn began() {
     println!("began at {} kB", status("VmPeak"));
 }
 
-/// Where the parent leaves a tree.
+/// The file in which the parent stores a tree.
 fn tree_file() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("out_of_memory.tree")
 }
 
-/// This program again, as a case, with some room.
+/// This program again, as a case, with some memory.
 fn process(case: &str, kilobytes: Option<usize>) -> Output {
     let program = env::current_exe().expect("this program");
     let limit = kilobytes.map_or("unlimited".to_owned(), |kilobytes| kilobytes.to_string());
     Command::new("sh")
         .args(["-c", &format!("ulimit -v {limit}; exec \"$0\" library::out_of_memory::one_case --exact --ignored --nocapture")])
         .arg(program)
-        // One arena, and room by need: a limit then meets the lists that grow.
+        // One arena, grown on demand: a limit then meets the lists that grow.
         .envs([("MALLOC_ARENA_MAX", "1"), ("MALLOC_TOP_PAD_", "0"), ("RAYON_NUM_THREADS", "2")])
         .env("RUST_TEST_THREADS", "1")
         .env("MALLOC_MMAP_THRESHOLD_", "65536")
@@ -114,7 +114,7 @@ fn process(case: &str, kilobytes: Option<usize>) -> Output {
         .expect("a shell")
 }
 
-/// The number behind some words in what a process has printed.
+/// The number after some words in the output of a process.
 fn printed(output: &Output, words: &str) -> Option<usize> {
     let text = String::from_utf8_lossy(&output.stdout);
     let (_, rest) = text.split_once(words)?;
@@ -125,7 +125,7 @@ fn printed(output: &Output, words: &str) -> Option<usize> {
 #[ignore = "a part of the other test, which runs it in processes of its own"]
 fn one_case() {
     let case = env::var(CASE).expect("the other test names it");
-    // The pool's threads, before there is a limit to meet.
+    // The pool's threads, started before there is a limit.
     rayon::join(|| (), || ());
     let kept = keep_small_change();
     let failed = run(&case);
@@ -145,7 +145,7 @@ fn memory_that_runs_out_is_an_error() {
         };
         assert_eq!(printed(&free, "failed: "), Some(0), "{case}");
         assert!(peak > from + 500, "{case}: it takes no memory, {from} to {peak} kB");
-        // A build fails while it reads polygons; what it makes of them is limited by its budgets.
+        // A build fails while it reads polygons; its budgets limit the later steps.
         let eighths = if ["read", "mesh"].contains(&case) { 1..8 } else { 1..2 };
         let (cases, mut failed) = (eighths.len(), 0);
         for eighth in eighths {

@@ -1,12 +1,12 @@
-//! A progress callback that panics is not called again by what it was called from.
+//! After a progress callback has panicked, the same operation does not call it again.
 
 use binspace::Progress;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use testkit::prelude::*;
 
-/// Runs a call on several threads with a callback that panics at one of its calls, and gives how often it
-/// was called.
+/// Runs a call on several threads with a callback that panics at one of its calls, and returns the number
+/// of calls.
 fn calls_until_panic(
     at: usize,
     call: impl FnOnce(&(dyn Fn(Progress) -> ControlFlow<()> + Sync)) + Send,

@@ -3,16 +3,15 @@
 use binspace::Preparation;
 use testkit::prelude::*;
 
-/// More than what is prepared at once, which is sixteen parts of 1024 polygons.
+/// More than are prepared at once: sixteen parts of 1024 polygons.
 const COUNT: usize = 20_000;
 /// The polygons stand on a square grid with this many cells a side.
 const ACROSS: usize = 150;
 
 const TOLERANCE: f64 = 1e-3;
 
-/// One of several kinds of polygons, in a cell of its own. The number of kinds and that of a part's
-/// polygons have no divisor in common, so that every part begins and ends with another kind; but
-/// two parts have nothing but triangles.
+/// One of several kinds of polygons, in a separate cell. The number of kinds and that of a part's polygons
+/// are coprime, so that every part begins and ends with another kind; but two parts have only triangles.
 fn polygon(i: usize) -> Corners {
     let kind = if [3, 17].contains(&(i / 1024)) { 0 } else { i % 7 };
     let flat: &[[f64; 3]] = match kind {
@@ -63,7 +62,7 @@ fn prepare(polygons: &[Corners]) -> (Faces, Preparation) {
     Faces::new(polygons, Some(TOLERANCE)).expect("finite")
 }
 
-/// Corners, their numbers, the polygon's edges, and which corners span the plane.
+/// Corners, their numbers, the polygon's edges, and the corners that span the plane.
 type FaceFacts = (Vec<[f64; 3]>, Vec<u32>, Vec<Option<u32>>, [u32; 3]);
 
 fn facts(faces: &Faces, face: u32) -> FaceFacts {
@@ -142,8 +141,8 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
     }
 }
 
-/// The rest follows the faces of a finished tree. A mesh has corners as they were given, also those that were
-/// moved onto a plane.
+/// The rest follows the faces of a finished tree. A mesh has the given corners, also those that were moved
+/// onto a plane.
 #[test]
 fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
     let polygons = scene(5000);

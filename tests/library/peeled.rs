@@ -1,11 +1,11 @@
-//! Trees of convex bodies, which are taken apart piece by piece: valid, uncut, in input order on
-//! each plane, and within their budgets.
+//! Trees of convex bodies, which are peeled piece by piece: valid, uncut, in input order on each plane, and
+//! within their budgets.
 
 use binspace::ErrorKind;
 use binspace::glam::{DQuat, EulerRot};
 use testkit::prelude::*;
 
-/// A turned cube, each side a grid of squares that face one way, in no order.
+/// A rotated cube, each side a grid of squares that face one way, in random order.
 fn cube(side: usize, inwards: bool) -> Vec<[DVec3; 4]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let mut squares = Vec::new();

@@ -1,12 +1,12 @@
 //! The default tolerance follows the precision of the input, and merges nothing that the input
-//! tells apart.
+//! distinguishes.
 
 use binspace::Tolerance;
 use binspace::glam::{Mat4, Quat, Vec3, vec3};
 use testkit::prelude::*;
 use testkit::shapes::{Claim, rectangle};
 
-/// How many turns of the cards are tried.
+/// The number of rotations of the cards.
 const TURNS: u64 = 24;
 
 fn turn(number: u64) -> Mat4 {
@@ -48,7 +48,8 @@ fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
     enough!(cut_without > 12; "only {cut_without} of the scenes tell one tolerance from another");
 }
 
-/// The planes of small cards are rounded most, and differ by more than the tolerance further away.
+/// The planes of small cards have the largest rounding errors, and differ by more than the tolerance
+/// further away.
 #[test]
 fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     for size in [0.4, 0.1, 0.01] {
@@ -57,8 +58,8 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
-/// The plane of a small card is rounded far more than that of the page on which it lies: wherever the card
-/// lies, and whichever comes first, the page's plane tells that they are one.
+/// The plane of a small card has a far larger rounding error than that of the page on which it lies.
+/// Wherever the card lies, and whichever comes first, the page's plane shows that they are coplanar.
 #[test]
 fn a_page_and_a_small_card_keep_their_order() {
     let mut dice = Dice(4);
@@ -101,8 +102,8 @@ fn a_page_of_cards_of_every_size_is_not_cut() {
     }
 }
 
-/// Builds a page of cards, none of them thin, half of them upon the one before, and gives the pairs of overlapping cards
-/// that were found in input order.
+/// Builds a page of cards, none of them thin, half of them upon the one before, and returns the pairs of
+/// overlapping cards found in input order.
 fn pairs_in_order(number: u64, size: f64) -> usize {
     let (turn, mut dice) = (turn(number), Dice(number));
     let mut low = Vec3::ZERO;

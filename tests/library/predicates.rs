@@ -1,4 +1,4 @@
-//! Decisions and cuts against rationals, on scenes that are hard to decide.
+//! Decisions and cuts compared with rationals, on scenes that are hard to decide.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -7,7 +7,7 @@ use testkit::hard::HardScene;
 use testkit::judge::Verdict;
 use testkit::prelude::*;
 
-/// Which face to cut, and by what: a face's plane, or perpendicular to an axis through a corner.
+/// The face to cut, and the plane: that of a face, or perpendicular to an axis through a corner.
 #[derive(Clone, Debug)]
 struct Plan {
     face: Index,

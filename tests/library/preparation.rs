@@ -1,5 +1,5 @@
-//! From polygons of any kind to convex planar faces, by example: what becomes triangles, what is
-//! dropped, what is an error.
+//! From polygons of any kind to convex planar faces, by example: triangulated polygons, dropped polygons,
+//! errors.
 
 use binspace::Preparation;
 use binspace::glam::DMat3;
@@ -18,7 +18,7 @@ fn flat(corners: &[[f64; 2]]) -> Corners {
     corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
 }
 
-/// The faces together have the polygon's area, and each faces as it does.
+/// The faces together have the polygon's area, and each has its orientation.
 fn assert_area_is_conserved(faces: &Faces, polygon: &[DVec3]) {
     let whole = area(faces, polygon);
     let mut total = rational::point(DVec3::ZERO);
@@ -145,8 +145,8 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
     );
 }
 
-/// The fan over a bent polygon leaves out corners in the middle of its first side, which is one edge
-/// of the polygon's all the same; diagonals are none.
+/// The fan over a bent polygon leaves out corners in the middle of its first side, which still is one edge
+/// of the polygon; diagonals are not edges of it.
 #[test]
 fn a_side_of_several_steps_is_the_outline_s_where_its_corners_are_left_out() {
     for middle in 1..5 {
@@ -258,8 +258,8 @@ fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
 
 #[test]
 fn corners_folded_onto_one_another_are_not_taken_for_convex() {
-    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners are
-    // apart along one of them only: seen along that one they are one corner.
+    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners differ along
+    // only one of the axes: in a projection along that one they coincide.
     let fold = |along: DVec3| {
         let [left, right] = [DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)];
         let tip = DVec3::new(0.0, 0.0, 1.05);

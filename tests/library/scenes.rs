@@ -172,8 +172,8 @@ fn teapot_patches_meet_without_cracks() {
     }
 }
 
-/// The signed volume, with the openings closed by fans: positive if the faces
-/// look outwards. `at_first_end` tells the rims of two openings apart.
+/// The signed volume, with the openings closed by fans: positive if the faces look outwards. `at_first_end`
+/// distinguishes the boundaries of two openings.
 fn volume<'a>(
     polygons: impl Iterator<Item = &'a [DVec3]> + Clone,
     at_first_end: fn(DVec3) -> bool,
@@ -318,8 +318,8 @@ fn the_seed_alone_decides() {
     }
 }
 
-/// FNV-1a over the view, all coordinates, and all colours: the scenes must not change by machine,
-/// compiler or accident. A scene that is changed on purpose gets a new number.
+/// FNV-1a over the view, all coordinates, and all colours: the scenes must not depend on machine or
+/// compiler, or change by accident. A scene that is changed on purpose gets a new number.
 #[test]
 fn scenes_are_the_same_everywhere() {
     let hash = |scene: Scene| {

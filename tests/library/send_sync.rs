@@ -1,4 +1,4 @@
-//! Public types are `Send` and `Sync`: trees above all, with everything that they return.
+//! Public types are `Send` and `Sync`: above all trees, with everything that they return.
 
 use binspace::choose::{PieceSet, SplitPlane};
 use binspace::drawing::{Paint, Path, Region, Stroke, VectorPicture};
@@ -20,7 +20,7 @@ use binspace::{
 };
 use testkit::prelude::*;
 
-/// Compiles only if its types are; a type that holds a cell or a raw pointer is not.
+/// Compiles only if its types are; a type that contains a cell or a raw pointer is not.
 macro_rules! assert_shared {
     ($($type:ty),* $(,)?) => {
         const _: () = {
@@ -30,7 +30,7 @@ macro_rules! assert_shared {
     };
 }
 
-// Trees, and what they hand out; building, and what can go wrong.
+// Trees, and the types that they return; building, and errors.
 assert_shared!(Layer, LayerPiece<'_>, LayerVertex, Layers, FrameBuilder);
 assert_shared!(Child<'_>, CoverageMask<'_>, Culling, Frustum, Order<'_>, Part<'_>);
 assert_shared!(

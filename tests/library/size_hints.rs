@@ -1,5 +1,4 @@
-//! Size hints are hints: an iterator that is wrong about its size is read all the same, wherever one
-//! is taken.
+//! Size hints are hints: every iterator with a wrong size hint is read completely.
 
 use binspace::scene::Material;
 use binspace::{ErrorKind, Frustum};
@@ -39,7 +38,7 @@ fn outlines() -> Vec<Vec<DVec3>> {
     flat.chain([upright.map(DVec3::from).to_vec()]).collect()
 }
 
-/// Everything that a tree was made of.
+/// All polygons of a tree.
 fn pieces(tree: &BspTree) -> Vec<(usize, Vec<DVec3>)> {
     tree.fragments().map(|piece| (piece.polygon(), piece.vertices().collect())).collect()
 }
@@ -91,7 +90,7 @@ fn iterators_that_are_wrong_about_their_size_are_read_all_the_same() {
             }
             let (faces, _) = Faces::new(hinted(&outlines), None).unwrap();
             assert_eq!(faces.len(), BspTree::build(&outlines).unwrap().faces().len(), "{name}");
-            // The limit is on what comes, not on what a hint says.
+            // The limit applies to the polygons read, not to the hint.
             let most = options.clone().with_max_fragments(outlines.len() - 1);
             assert!(
                 most.build(hinted(&outlines)).unwrap_err().kind() == ErrorKind::OverBudget,

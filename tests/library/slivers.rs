@@ -1,4 +1,4 @@
-//! Triangles so thin that rounding takes their normals: the tolerance is a length at their planes too.
+//! Triangles so thin that rounding destroys their normals: the tolerance is a length at their planes too.
 //! Trees are judged by exact distances.
 
 use binspace::Ray;
@@ -45,7 +45,7 @@ fn rays_meet_a_square_beside_a_sliver() {
     let polygons = [sliver.to_vec(), square(S, 0.1 * S), square(S, -0.1 * S), wall.to_vec()];
     for &heuristic in Heuristic::ALL {
         let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(&polygons).unwrap();
-        // It ends before it comes to the sliver's plane.
+        // It ends before it reaches the sliver's plane.
         let down = Ray::between([0.3 * S, 0.1 * S, S], [0.3 * S, 0.1 * S, 0.05 * S]);
         let hits: Vec<usize> = tree.hits(down).map(|hit| hit.polygon()).collect();
         assert_eq!(hits, [1], "{heuristic}");
@@ -53,7 +53,7 @@ fn rays_meet_a_square_beside_a_sliver() {
     }
 }
 
-/// What was judged.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
     on: usize,
@@ -64,7 +64,7 @@ struct Score {
     lost: usize,
 }
 
-/// Everything on a plane is within the tolerance of it, and nothing reaches further beyond it, up to a
+/// All fragments on a plane are within the tolerance of it, and none reaches further beyond it, up to a
 /// share of 10⁻⁹: by exact distances.
 fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
     let faces = tree.faces();
@@ -76,7 +76,7 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
         let plane = model::plane(faces, node.plane());
         let square = rational::scalar(&plane.normal, &plane.normal);
         score.lost += usize::from(is_lost(tree, node.plane(), &square));
-        // Beyond a limit on a side: by squares, as lengths are no rationals.
+        // Beyond a limit on a side: by squares, because lengths are not rational.
         let beyond = |corner: [f64; 3], limit: &Rational, side: i32| {
             let value = plane.at(&corner.map(rational::exact)) * Rational::from(side);
             rational::sign(&value).is_gt() && &value * &value > limit * limit * &square
@@ -150,8 +150,8 @@ fn doubles(polygons: &[Vec<Point>]) -> Vec<Vec<[f64; 3]>> {
     polygons.iter().map(|polygon| polygon.iter().map(|p| p.map(|c| c as f64)).collect()).collect()
 }
 
-/// The same in `f32`, where products of whole numbers would be exact: the sliver has a corner next to the
-/// middle of its long side, of far smaller numbers.
+/// The same in `f32`, where products of integers would be exact: the sliver has a corner next to the middle
+/// of its long side, with far smaller numbers.
 fn singles(dice: &mut Dice) -> Vec<[Vec3; 3]> {
     const SIZE: f64 = (1 << 22) as f64;
     let mut point = |size: f64| dice.point(-1.0, 1.0) * size;
@@ -186,7 +186,7 @@ fn file(polygons: &[Vec<Point>]) -> Scene {
     Scene::from_obj("slivers", text.as_bytes(), |_| None).unwrap().0
 }
 
-/// All heuristics, and frames: each tree of the polygons, as they are given.
+/// All heuristics, and frames: each tree of the polygons, as given.
 fn judge_all<P: binspace::Polygon>(polygons: &[P], name: &str, score: &mut Score) {
     for (by, tree) in &trees(polygons, BuildOptions::DEFAULT) {
         judge(tree, score).unwrap_or_else(|what| panic!("{name}, {by}: {what}"));

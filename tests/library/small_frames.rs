@@ -1,5 +1,5 @@
-//! Trees of frames of small sets, whose own planes are tried first: squares of a few planes, many on one plane
-//! and many cut.
+//! Trees of frames of small sets, whose own planes are tried first: squares of a few planes, many on one
+//! plane and many cut.
 
 use testkit::prelude::*;
 

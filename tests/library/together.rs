@@ -1,4 +1,4 @@
-//! What works together, as the crate page has it.
+//! The combinations in the table of the crate page.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::partition::Extent;
@@ -17,7 +17,7 @@ fn squares() -> Vec<Vec<DVec3>> {
     (0..6).map(|k| rectangle([0.0, 0.25 * f64::from(k)], [2.0, 3.0], f64::from(k % 3))).collect()
 }
 
-/// All but drawings, of which the kind of the error is returned.
+/// All uses except drawings; returns the kind of a drawing's error.
 fn use_all(tree: &BspTree) -> Option<ErrorKind> {
     let culling = Culling::NONE.with_facing(Facing::Front);
     let mut order = Vec::new();

@@ -1,4 +1,4 @@
-//! Which orders the coplanar tolerance leaves open, and which not: the statements of `docs/guide/exact.md`.
+//! The orders that the coplanar tolerance leaves open: the statements of `docs/guide/exact.md`.
 
 use binspace::internals::LATTICE_LIMIT;
 use testkit::prelude::*;
@@ -18,7 +18,7 @@ fn is_met(outline: &[DVec3], eye: DVec3, target: DVec3) -> bool {
     sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
 }
 
-/// The polygon that shows where one looks from an eye to a target: the last one painted.
+/// The polygon visible from an eye at a target: the last one painted.
 fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
     let mut painted = Vec::new();
     for fragment in tree.back_to_front(Viewpoint::Eye(eye)) {
@@ -54,9 +54,9 @@ fn layers_up_to_twice_the_tolerance_apart_may_be_exchanged_and_none_further_apar
     assert_eq!(shown_at(1.9 * tolerance, 0.0), upper);
 }
 
-/// A near wall that reaches below the plane of a floor, and a far one that reaches above it, by
-/// less than the tolerance each. The eye is a hundred tolerances away from that plane, but its
-/// ray keeps within the tolerance from one wall to the other.
+/// A near wall that reaches below the plane of a floor, and a far one that reaches above it, by less than
+/// the tolerance each. The eye is a hundred tolerances away from that plane, but its ray keeps within the
+/// tolerance from one wall to the other.
 #[test]
 fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_tolerance_of_a_plane() {
     let unit = 1e-3;
@@ -91,12 +91,12 @@ fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
     assert_eq!(look(&[upper, lower, stray], None), 0);
     stray[2].x = 1.000_01e6;
     assert_eq!(look(&[upper, lower, stray], None), 1, "in input order, as if coplanar");
-    // Not so with a tolerance that is given as a length.
+    // A tolerance given as a length avoids this.
     assert_eq!(look(&[upper, lower, stray], Some(1e-9)), 0);
     assert_eq!(look(&[upper, lower, stray], Some(0.0)), 0);
 }
 
-/// Layers count as coplanar, and so come in input order from below, up to the tolerance that counts.
+/// Layers count as coplanar, and so come in input order from below, up to the effective tolerance.
 #[test]
 fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
     let wide = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -1,4 +1,4 @@
-//! The errors of the vertices that a tree returns, in the scene's own coordinates, against exact
+//! The errors of the vertices that a tree returns, in the scene's own coordinates, compared with exact
 //! rationals: in scenes far from the origin, tiny, and huge.
 
 use binspace::internals::{EdgeLine, PlaneKind, VertexKind};
@@ -10,7 +10,7 @@ use testkit::judge::meeting;
 use testkit::model::Face;
 use testkit::prelude::*;
 
-/// World coordinates as (lattice + origin) · step, found from the corners of the scene if they tell.
+/// World coordinates as (lattice + origin) · step, computed from the corners of the scene if these decide.
 struct World {
     step: Rational,
     origin: [Rational; 3],
@@ -29,7 +29,7 @@ impl World {
                 Some(corner) => {
                     place(corner).round() - rational::exact(faces.lattice().snap(*corner)[axis])
                 }
-                // Of a scene of nothing else, no corner tells.
+                // Without other points, no corner decides.
                 None => rational::exact(faces.lattice().to_world([0.0; 3])[axis]) / &step,
             }
         });
@@ -100,14 +100,15 @@ fn vertices_in_the_world_are_as_near_their_exact_places_as_stated() {
     });
     let Errors { vertices, far, steps, ulps, relative } = errors;
     enough!(vertices > 10_000, far > 500; "{vertices} coordinates, {far} far out");
-    // Nothing is claimed that is far from what happens.
+    // The stated bounds are not far from the actual errors.
     assert!(steps > 0.2 && ulps > 0.4, "{steps} steps, {ulps} of the coordinates' own");
     // Near zero a coordinate's own steps are smaller than any error.
     assert!(relative > 100.0, "{relative}");
 }
 
-/// Vertices on planes perpendicular to an axis have their coordinate exactly, however the others are
-/// rounded. Counts them: by the plane alone that cuts an edge, as the first of two planes, and as the second.
+/// Vertices on planes perpendicular to an axis have their coordinate exactly, whatever the rounding of the
+/// others. Counts them: by the plane alone that cuts an edge, as the first of two planes, and as the
+/// second.
 fn check_axis_planes(tree: &BspTree, compared: &mut [usize; 3]) {
     for fragment in tree.fragments() {
         for (vertex_id, position) in fragment.vertex_ids().zip(fragment.lattice_vertices()) {

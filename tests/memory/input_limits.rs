@@ -1,4 +1,4 @@
-//! Wrong size hints, and polygons without end.
+//! Wrong size hints, and endless polygons.
 
 use super::{counted, most_bytes};
 use binspace::Error;
@@ -10,7 +10,7 @@ use testkit::prelude::*;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Corners that come round again, up to a number, with a hint of how many there are.
+/// Corners that repeat, up to a number, with a hint of their number.
 fn round(len: usize, claim: usize, read: &Cell<usize>) -> impl Polygon {
     let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
     let items = (0..len).map(move |k| {
@@ -24,7 +24,7 @@ fn claimed<I>(items: I, claim: usize) -> Hinted<I> {
     Hinted { items, hint: (claim, Some(claim)) }
 }
 
-/// A result, and the most memory that was in use at once until then.
+/// A result, and the largest memory in use until then.
 fn peak<T>(run: impl FnOnce() -> T) -> (T, usize) {
     (run(), most_bytes())
 }
@@ -42,9 +42,9 @@ fn hints_and_polygons_without_end_take_little_memory() {
     counted(read_too_much);
 }
 
-/// In the order of the memory that is allowed.
+/// In the order of the allowed memory.
 fn read_too_much() {
-    // A claim beyond every limit is an error once a million polygons have come.
+    // A claim beyond every limit is an error after a million polygons.
     let claims: [fn() -> Option<Error>; 5] = [
         || unlimited().build(endless_with_hint(1 << 40)).err(),
         || unlimited().build(iter::repeat(TRIANGLE)).err(),
@@ -59,7 +59,7 @@ fn read_too_much() {
         assert!(bytes < 100 << 20, "{bytes} bytes");
     }
 
-    // Claims within the limits are not believed: no memory is asked for what may not come.
+    // Claims within the limits are not trusted: no memory is reserved for polygons that may not come.
     for claim in [1 << 25, 1 << 28] {
         let polygons = claimed(iter::repeat_n(TRIANGLE, 3), claim);
         let (tree, bytes) = peak(|| unlimited().build(polygons));
@@ -77,12 +77,12 @@ fn read_too_much() {
         let error = error.expect("a limit");
         assert_eq!(error.polygon(), Some(1));
         assert!(error.to_string().contains("corners"), "{error}");
-        // The precision of the triangle before takes another look at its corners.
+        // The precision of the triangle before reads its corners again.
         assert_eq!(read.get(), 2 * 3 + MAX_CORNERS + 1);
         assert!(bytes < 300 << 20, "{bytes} bytes");
     }
 
-    // The limit is no invitation: half a million corners take some hundred bytes each.
+    // The limit does not reserve memory: half a million corners take some hundred bytes each.
     let (read, len) = (Cell::new(0), 1 << 19);
     let (faces, bytes) = peak(|| Faces::new([round(len, len, &read)], None));
     assert_eq!(faces.expect("a square").0.len(), 2);

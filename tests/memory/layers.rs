@@ -5,7 +5,7 @@ use binspace::layers::{Layer, Layers};
 use testkit::pages::{Page, SCREEN};
 use testkit::prelude::*;
 
-/// Reads all of a page, so that nothing of it is left out.
+/// Reads a whole page, so that no part is skipped.
 fn read(page: &Layers) -> usize {
     let pieces = page.back_to_front().map(|piece| {
         let own = piece.edges().flatten().count();
@@ -27,7 +27,7 @@ fn look_at_unchanged_frames() {
             .map(|layer| Layer::new([layer.half.map(|side| -side), layer.half], layer.matrix))
             .collect();
         let mut page = Layers::new([[0.0; 2], SCREEN]);
-        // What is counted is counted: the first frame has to make room.
+        // The counter works: the first frame has to allocate.
         assert!(allocations(|| assert!(page.update(&layers).unwrap())) > 10, "{kind:?}");
         let mut corners = 0;
         let unchanged = least_allocations(|| {

@@ -1,4 +1,4 @@
-//! A file asks for memory in proportion to its size, whatever lengths it claims.
+//! A file allocates memory in proportion to its size, whatever lengths it claims.
 
 use super::{counted, most_bytes};
 use testkit::prelude::*;
@@ -13,7 +13,7 @@ fn a_false_length_asks_for_little_memory() {
 
 fn read_forged(file: &[u8]) {
     let mut refused = 0;
-    // Most of these are not where a length is, but all that are, are among them.
+    // Most of these places are not lengths, but all lengths are among them.
     let places = (16..2000).chain(file.len() - 2000..file.len() - 12).step_by(4);
     for at in places.chain((2000..file.len() - 2000).step_by(3372)) {
         for length in [(1_u64 << 27) - 1, (1 << 28) - 1, 1 << 50, u64::MAX] {
@@ -22,7 +22,7 @@ fn read_forged(file: &[u8]) {
             refused += usize::from(BspTree::read(&forged[..]).is_err());
         }
     }
-    // Right files too: the tree, the file, and a copy of each.
+    // Also for right files: the tree, the file, and a copy of each.
     assert!(BspTree::read(file).is_ok());
     let most = most_bytes();
     assert!(most < 8 * file.len() + (1 << 20), "{most} bytes for {} ", file.len());

@@ -1,5 +1,5 @@
-//! How often and how much memory is asked for, of the whole process: a program of its own, as its
-//! allocator counts what all threads allocate.
+//! The number and size of allocations of the whole process: a separate program, because its allocator
+//! counts those of all threads.
 
 mod input_limits;
 mod layers;
@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
 
-/// Counts while something runs, and nothing else of this program does.
+/// Counts while `work` runs and nothing else of this program does.
 fn counted(work: impl FnOnce()) {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -20,7 +20,7 @@ fn counted(work: impl FnOnce()) {
     work();
 }
 
-/// How often memory was asked for while something ran.
+/// The number of allocations while `work` runs.
 fn allocations(work: impl FnOnce()) -> u64 {
     let before = HeapStats::get().total_blocks;
     work();
@@ -40,7 +40,7 @@ fn least_allocations(mut work: impl FnMut()) -> u64 {
     least
 }
 
-/// The most memory that was in use at once.
+/// The largest memory in use at once.
 fn most_bytes() -> usize {
     HeapStats::get().max_bytes
 }

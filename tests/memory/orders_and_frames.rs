@@ -28,8 +28,8 @@ fn order_again() {
         scene::random_triangles(300, 1),
         scene::city(3000, 1),
     ];
-    // Eyes apart from the scenes, in them and on planes, and directions along axes and not: those
-    // that a filter decides and those that integers do.
+    // Eyes outside the scenes, in them and on planes, and directions along axes and others: for the filter
+    // and for the integers.
     let viewpoints = [
         Viewpoint::eye(FROM_ABOVE),
         Viewpoint::eye([0.0, 0.0, 0.0]),
@@ -49,7 +49,7 @@ fn order_again() {
                 }
                 assert_eq!(order.len(), tree.len());
             };
-            // What is counted is counted: the first order has to make room.
+            // The counter works: the first order has to allocate.
             assert!(allocations(|| write(viewpoints[0])) > 0, "{}", scene.name());
             let again = least_allocations(|| viewpoints.into_iter().for_each(&mut write));
             assert_eq!(again, 0, "{}, back to front: {forwards}", scene.name());
@@ -67,7 +67,7 @@ fn order_again() {
     }
 }
 
-/// Rays and points: those that a filter decides and those that integers do.
+/// Rays and points: for the filter and for the integers.
 fn ask() {
     for scene in [scene::random_triangles(300, 1), scene::terrain(3000, 1)] {
         let tree = BspTree::build(scene.polygons()).unwrap();
@@ -87,7 +87,7 @@ fn ask() {
     }
 }
 
-/// Frames of few layers that are all moved.
+/// Frames of few layers that all move.
 fn frame_again() {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     let mut order = Vec::new();
@@ -108,7 +108,7 @@ fn frame_again() {
         })
     };
     assert!(frame(0) > 10);
-    // The lists have grown to their sizes after a few frames that are alike.
+    // The lists have grown to their sizes after a few similar frames.
     (1..6).for_each(|turn| _ = frame(turn));
     let rounds = [6..12, 12..18, 18..24].map(|turns| turns.map(&mut frame).sum::<u64>());
     // The program that runs the tests may allocate beside one of them.

@@ -1,10 +1,10 @@
-//! All fragments as arrays, against fragments one by one, and against the polygons as given.
+//! All fragments as arrays, compared with fragments one by one, and with the polygons as given.
 
 use binspace::mesh::FragmentArrays;
 use proptest::test_runner::TestCaseError;
 use testkit::prelude::*;
 
-/// The part of an array that belongs to an item, by where each item's part begins.
+/// The part of an array that belongs to an item, by the offsets of the items.
 fn part<'a, T>(array: &'a [T], offsets: &[u32], item: usize) -> &'a [T] {
     &array[offsets[item] as usize..offsets[item + 1] as usize]
 }
@@ -53,8 +53,8 @@ fn assert_copied(tree: &BspTree) {
     assert_eq!((double.edges, double.weight_corners), (single.edges, single.weight_corners));
 }
 
-/// Each vertex as the sum of the polygon's given corners by its weights, in rationals. Gives how many vertices
-/// have one weight, two, and three.
+/// Each vertex as the sum of the polygon's given corners by its weights, in rationals. Returns the number
+/// of vertices with one weight, two, and three.
 fn sums(tree: &BspTree, polygons: &[Corners]) -> Result<[usize; 3], TestCaseError> {
     let arrays = tree.arrays().expect("room");
     let lattice = tree.faces().lattice();
@@ -97,10 +97,10 @@ fn arrays_have_the_numbers_of_all_fragments() {
             assert_copied(&options.build(scene.polygons()).expect("a tree"));
         }
     }
-    // Frames keep the positions of their vertices.
+    // Frames store the positions of their vertices.
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     assert_copied(builder.build(scene::random_triangles(150, 2).polygons()).expect("a tree"));
-    // No fragments: only where they would end.
+    // No fragments: only the end of the offsets.
     let arrays = BspTree::build([[[0.0; 3]; 3]; 0]).expect("a tree").arrays().expect("room");
     assert_eq!((arrays.offsets, arrays.weight_offsets), (vec![0], vec![0]));
 }

@@ -9,7 +9,7 @@ use testkit::real_scenes;
 use testkit::scenes::polygons;
 use testkit::shapes::{cuboid, rotation};
 
-/// Boxes that cross each other, turned so that their quads are bent by rounding.
+/// Boxes that cross each other, rotated so that their quads are bent by rounding.
 fn boxes(count: usize) -> Vec<Vec<DVec3>> {
     let at = |k: usize, a: f64| (k as f64 * a).sin();
     (0..count)
@@ -21,7 +21,7 @@ fn boxes(count: usize) -> Vec<Vec<DVec3>> {
         .collect()
 }
 
-/// A body, and how many cuts it has, at least.
+/// A body, and the least number of its cuts.
 fn check(name: &str, polygons: &[Vec<DVec3>], heuristic: Heuristic, tolerance: Tolerance) -> usize {
     let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     options.tolerance = tolerance;
@@ -56,8 +56,8 @@ fn closed_bodies_stay_closed() {
     enough!(open > 1000; "only {open} edges to be welded: the cases show little");
 }
 
-/// A body in `f32`, whose quads are bent, among triangles at random that cut it. It comes first, or
-/// last: then other polygons are prepared before it, in other parts.
+/// A body in `f32`, whose quads are bent, among random triangles that cut it. It comes first, or last: then
+/// other polygons are prepared before it, in other parts.
 #[test]
 fn a_body_that_others_cut_stays_closed() {
     let body: Vec<Vec<[f32; 3]>> = boxes(2)

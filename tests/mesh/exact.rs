@@ -1,4 +1,4 @@
-//! Points, triangles and weights against exact rationals.
+//! Points, triangles and weights compared with exact rationals.
 
 use super::open_edges;
 use binspace::internals::{EdgeLine, LATTICE_LIMIT};
@@ -11,7 +11,7 @@ use testkit::model::{Face, main_axis};
 use testkit::prelude::*;
 use testkit::rational::{Point, difference, product};
 
-/// What was checked.
+/// The counts of checks.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
     pub(crate) triangles: usize,
@@ -19,11 +19,11 @@ pub(crate) struct Seen {
     fragments: usize,
     /// Fragments of faces that have moved corners.
     moved: usize,
-    /// Fragments that are not judged, as two of their vertices are too near to be told apart.
+    /// Fragments that are not judged because two of their vertices are too near to be distinguished.
     skipped: usize,
 }
 
-/// The exact place of each point, from the fragments that have it as a vertex of their own.
+/// The exact place of each point, from the fragments that have it as a vertex.
 fn places(
     tree: &BspTree,
     mesh: &Mesh,
@@ -102,7 +102,7 @@ fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(),
     inner_edges_match(tree, &mesh, 1e-11 * hard_size(tree))
 }
 
-/// The weights of every vertex give its place, to within a length.
+/// The weights of every vertex give its place, up to a length.
 fn weights_match(mesh: &Mesh, polygons: &[Vec<DVec3>], slack: f64) -> Result<(), TestCaseError> {
     for vertex in mesh.vertices() {
         let sum: f64 = vertex.weights.iter().map(|&(_, weight)| weight).sum();
@@ -117,8 +117,8 @@ fn weights_match(mesh: &Mesh, polygons: &[Vec<DVec3>], slack: f64) -> Result<(),
     Ok(())
 }
 
-/// Where corners are moved onto planes, points are where they were given. In the face's plane they
-/// are found by their weights, in `f64`: up to the tolerance, triangles fill their fragments there.
+/// If corners are moved onto planes, points stay at their given places. In the face's plane they are found
+/// by their weights, in `f64`: up to the tolerance, triangles fill their fragments there.
 pub(crate) fn check_moved(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],
@@ -186,7 +186,7 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
     }
     for (face, fragments) in by_face {
         let open = open_edges(mesh, mesh.triangles(), &fragments);
-        // The open edges are one closed way: each point is left as often as it is come to.
+        // The open edges are one closed path: each point has as many outgoing as incoming edges.
         let mut balance: HashMap<u32, i32> = HashMap::new();
         for (&[a, b], &count) in &open {
             *balance.entry(a).or_default() += count;
@@ -203,7 +203,7 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
     Ok(())
 }
 
-/// Whether both ends are as near to one edge of a face as `slack`.
+/// Whether both ends are within `slack` of one edge of a face.
 fn is_on_outline(tree: &BspTree, mesh: &Mesh, face: u32, ends: [u32; 2], slack: f64) -> bool {
     let lattice = tree.faces().lattice();
     let corners: Vec<DVec3> =

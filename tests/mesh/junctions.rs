@@ -9,8 +9,8 @@ fn whole(dice: &mut Dice, bits: i32) -> DVec3 {
     dvec3(number(), number(), number())
 }
 
-/// An edge through the lattice's centre, where another polygon has a corner and oblique polygons
-/// cut it. The coordinates are 0 there, so that a share of their size is no bound on their rounding.
+/// An edge through the lattice's centre, where another polygon has a corner and oblique polygons cut it.
+/// The coordinates are 0 there, so that a share of their size does not bound their rounding.
 #[test]
 fn a_junction_at_the_centre_of_the_scene_is_one_point() {
     let mut dice = Dice(31);
@@ -37,7 +37,7 @@ fn a_junction_at_the_centre_of_the_scene_is_one_point() {
         let mesh = tree.welded_mesh().unwrap();
         let is_long = |f: &binspace::Fragment<'_>| f.polygon() == 3;
         cut += usize::from(tree.fragments().filter(is_long).count() > 1);
-        // On the long edge there is one point in the place, whatever is cut by what.
+        // On the long edge there is one point at the place, whatever cuts there are.
         let mut points: Vec<u32> = mesh
             .vertices()
             .filter(|v| (3..6).contains(&v.polygon) && v.position.length() < 1.0)
@@ -57,7 +57,7 @@ fn a_book_of_many_pages_is_welded() {
     let mut polygons =
         vec![vec![[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]]];
     polygons.extend((0..pages).map(|k| {
-        // In an order in which any page halves the rest: shares of a turn by an irrational number.
+        // In an order in which any page halves the rest: multiples of an irrational share of a turn.
         let (y, x) = (TAU * (f64::from(k) * SQRT_2).fract()).sin_cos();
         vec![[0.0, 0.0, -1.0], [x, y, -1.0], [x, y, 1.0], [0.0, 0.0, 1.0]]
     }));

@@ -1,4 +1,4 @@
-//! Meshes of trees: what is shared, what is welded, and in which order indices are written.
+//! Meshes of trees: sharing, welding, and the order of written indices.
 
 mod arrays;
 mod closed;
@@ -10,8 +10,8 @@ mod tips;
 use binspace::mesh::{Mesh, Triangles};
 use std::collections::HashMap;
 
-/// The directed edges between points of some fragments' triangles, each with how often it is run
-/// through, less how often in the other direction; only those that do not cancel.
+/// The directed edges between points of some fragments' triangles, each with the number of times that it is
+/// run through, minus those in reverse; only those that do not cancel.
 fn open_edges(mesh: &Mesh, triangles: &Triangles, fragments: &[u32]) -> HashMap<[u32; 2], i32> {
     let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
     for &fragment in fragments {

@@ -1,4 +1,4 @@
-//! Indices written for a viewpoint, against the order of the fragments.
+//! Indices written for a viewpoint, compared with the order of the fragments.
 
 use binspace::mesh::Triangles;
 use testkit::prelude::*;
@@ -86,7 +86,7 @@ fn fragments_keep_their_vertices() {
             assert_eq!(own.len(), fragment.vertex_count());
             for (position, weights) in fragment.vertices().zip(fragment.weights()) {
                 let found = own.iter().map(|&v| mesh.vertex(v)).find(|v| {
-                    // Triangles of one polygon may name the ends of their common edge in turn.
+                    // Triangles of one polygon may list the ends of their common edge in either order.
                     let is_same = |&(k, w): &(u32, f64)| {
                         weights
                             .iter()

@@ -1,10 +1,11 @@
-//! Tips that a plane cuts off a face as its corners were moved, and not as they were given.
+//! Tips that a plane cuts off a face with moved corners, but not off the face as given.
 
 use crate::mesh::exact::{Seen, check_moved};
 use binspace::Fragment;
 use testkit::prelude::*;
 
-/// How far the topmost corner of a quad is given below the plane of the others: less than the tolerance.
+/// The distance of a quad's topmost corner, as given, below the plane of the others: less than the
+/// tolerance.
 const OFF: f64 = 1.0 / 64.0;
 
 /// A floor through that corner as given, triangles that cut the tip above it, and the quad.

@@ -1,4 +1,4 @@
-//! What is refused, and what the error says.
+//! Refused files, and their errors.
 
 use crate::obj::{CORNERS, read, with_corners};
 use binspace::internals::MAX_CORNERS;

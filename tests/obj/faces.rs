@@ -1,4 +1,4 @@
-//! What is kept of faces, and how they may be written.
+//! The data kept of faces, and their syntax.
 
 use crate::obj::{CORNERS, read, sides, with_corners};
 use binspace::scene::ObjReport;

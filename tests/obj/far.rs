@@ -1,4 +1,4 @@
-//! Files far from the origin, as geodata are: their decimals say how precise they are, wherever they lie.
+//! Files far from the origin, such as geodata: their decimals define their precision, at any place.
 
 use std::fmt::Write;
 use testkit::prelude::*;
@@ -52,8 +52,8 @@ fn slabs_of_a_site_plan_keep_their_order_wherever_it_lies() {
     }
 }
 
-/// Cards of a tilted plane, turned by a matrix of `f32` far from the origin, and written with all digits
-/// that an `f32` has: their steps count, however large a share of the extent they are.
+/// Cards of a tilted plane, rotated by a matrix of `f32` far from the origin, and written with all digits
+/// of an `f32`: their steps count, however large a share of the extent they are.
 #[test]
 fn files_of_single_precision_far_out_are_as_precise_as_that() {
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! Faces that name vertices far beyond those of the file: an error, before any memory is asked for.
+//! Faces that name vertices far beyond those of the file: an error, before any memory is allocated.
 
 use std::fs;
 use testkit::prelude::*;
@@ -28,14 +28,14 @@ fn a_vertex_number_beyond_the_file_asks_for_no_memory() {
     }
 }
 
-/// The most memory that this process has had, in kB; 0 where that is not known.
+/// The largest memory that this process has had, in kB; 0 where it is not known.
 fn peak() -> usize {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmHWM"));
     line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
 }
 
-/// Vertices may come behind the faces that name them, and each is a corner once.
+/// Vertices may come after the faces that name them, and each is a corner once.
 #[test]
 fn vertices_that_come_later_are_corners() {
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! Reading OBJ files: what is kept, what is refused, and that nothing panics.
+//! Reading OBJ files: kept and refused data, and that nothing panics.
 
 mod attributes;
 mod errors;
@@ -30,7 +30,7 @@ fn read_with(text: &str, libraries: &[(&str, &str)]) -> (Scene, ObjReport) {
     Scene::from_obj("test.obj", text.as_bytes(), find).expect(text)
 }
 
-/// An empty folder of a test's own.
+/// An empty folder for one test.
 fn folder(test: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = fs::remove_dir_all(&folder);
@@ -49,7 +49,7 @@ fn sides(scene: &Scene) -> Vec<usize> {
     scene.polygons().map(|polygon| polygon.points().len()).collect()
 }
 
-/// Five corners; the last stands apart.
+/// Five corners; the last is separate.
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 5\n";
 
 fn with_corners(rest: &str) -> String {

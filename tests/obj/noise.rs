@@ -5,7 +5,7 @@ use binspace::scene::ObjReport;
 use proptest::prelude::*;
 use testkit::prelude::*;
 
-/// What a scene read from anything must satisfy.
+/// Requirements for a scene read from any bytes.
 fn check(result: Result<(Scene, ObjReport), binspace::Error>) {
     match result {
         Ok((scene, report)) => {

@@ -19,14 +19,14 @@ fn make_pipe(path: &Path) {
     assert!(Command::new("mkfifo").arg(path).status().expect("mkfifo").success());
 }
 
-/// What a call returns, which must not wait for anything.
+/// The result of a call, which must not wait for anything.
 fn soon<T: Send + 'static>(call: impl FnOnce() -> T + Send + 'static) -> T {
     let (send, receive) = mpsc::channel();
     thread::spawn(move || send.send(call()));
     receive.recv_timeout(Duration::from_secs(20)).expect("it waits for somebody to write")
 }
 
-/// How both ways to read a file refuse it.
+/// The messages with which both ways to read a file refuse it.
 fn refused(path: &Path) -> [String; 2] {
     let (whole, streamed) = (path.to_owned(), path.to_owned());
     [
@@ -54,7 +54,7 @@ fn folders_and_devices_are_refused() {
     for message in refused(&folder) {
         assert!(message.contains("cannot be read"), "{message}");
     }
-    // Endless, and nothing.
+    // An endless device, and an empty one.
     for (device, says) in [("/dev/zero", "zero byte"), ("/dev/null", "no faces")] {
         let [whole, streamed] = refused(Path::new(device));
         assert!(whole.contains(says), "{device}: {whole}");
@@ -63,7 +63,7 @@ fn folders_and_devices_are_refused() {
     }
 }
 
-/// A pipe without a name, as a shell passes to a program, has somebody who writes to it.
+/// An unnamed pipe, as a shell passes to a program, has a writer.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_pipe_without_a_name_is_read() {
@@ -119,7 +119,7 @@ fn a_file_that_becomes_a_pipe_is_refused() {
     assert!(message.contains("regular"), "{message}");
 }
 
-/// As the shell's `<` has it: the file is open, and named by its number.
+/// As with the shell's `<`: the file is open, and named by its number.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_regular_file_behind_a_device_is_read() {

@@ -5,8 +5,7 @@ use testkit::prelude::*;
 
 use super::{read, with_corners};
 
-/// Quads with a normal, so many units of the last of six decimals apart, written with a number
-/// format.
+/// Quads with a normal, `units` units of the last of six decimals apart, written with a number format.
 fn layers(count: usize, units: f64, write: impl Fn(f64) -> String) -> (Scene, DVec3) {
     let normal = DVec3::new(1.0, 2.0, 3.0).normalize();
     let (across, along) = normal.any_orthonormal_pair();
@@ -41,7 +40,7 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
     let prepared = *BspTree::build(scene.polygons()).unwrap().preparation();
     enough!(prepared.flattened > 40; "{prepared:?}");
     assert!(prepared.triangulated == 0, "{prepared:?}");
-    // Of the same numbers, as if they were exact, most are triangulated.
+    // With the same numbers taken as exact, most are triangulated.
     let exact: Vec<Vec<DVec3>> =
         scene.polygons().map(|polygon| polygon.points().to_vec()).collect();
     let prepared = *BspTree::build(&exact).unwrap().preparation();
@@ -49,8 +48,8 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
     assert_eq!(prepared.bent, prepared.triangulated);
 }
 
-/// Ways that files write six decimals: as they are, filled up with zeros, and with a stray here and
-/// there that has as many digits as an `f64`.
+/// The forms in which files write six decimals: directly, padded with zeros, and with occasional strays
+/// that have as many digits as an `f64`.
 fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
     let written = std::cell::Cell::new(0_u32);
     [
@@ -83,7 +82,7 @@ fn neither_zeros_at_the_end_nor_strays_raise_it() {
     }
 }
 
-/// Layers further apart than the precision are told apart, from both sides.
+/// Layers further apart than the precision are distinguished, from both sides.
 #[test]
 fn layers_some_units_apart_keep_their_order() {
     for (write, units) in writers().iter().flat_map(|w| [6.0, 10.0, 30.0].map(|units| (w, units))) {
@@ -92,8 +91,8 @@ fn layers_some_units_apart_keep_their_order() {
     }
 }
 
-/// Cards of one tilted plane, as a matrix makes them, written with six decimals: none is cut, and those
-/// that overlap come in the file's order.
+/// Cards of one tilted plane, computed by a matrix, written with six decimals: none is cut, and those that
+/// overlap come in the file's order.
 #[test]
 fn cards_of_one_plane_keep_their_order() {
     let mut random = testkit::dice::Dice(5);
@@ -133,7 +132,7 @@ fn cards_of_one_plane_keep_their_order() {
     enough!(compared > 5000; "{compared}");
 }
 
-/// Whole numbers, filled up with zeros, and two thin layers over a floor: they are few, but not strays.
+/// Integers, padded with zeros, and two thin layers over a floor: they are few, but not strays.
 #[test]
 fn few_thin_layers_among_short_numbers_keep_their_order() {
     let mut text = String::new();

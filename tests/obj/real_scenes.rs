@@ -1,4 +1,4 @@
-//! Real files, where there are any: the folder of them is what `BINSPACE_SCENES` names.
+//! Real files in the folder that `BINSPACE_SCENES` names.
 
 use crate::obj::sides;
 use std::path::Path;

@@ -1,5 +1,4 @@
-//! What lies in one plane comes in input order: polygons, lines, points. And an overlay of nothing
-//! changes nothing.
+//! Coplanar polygons, lines and points come in input order. An empty overlay changes nothing.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;
@@ -9,7 +8,7 @@ fn square(x: f64, z: f64) -> Vec<DVec3> {
     vec![point(0.0, 0.0), point(2.0, 0.0), point(2.0, 2.0), point(0.0, 2.0)]
 }
 
-/// A decal lies over what it is coplanar with, from both sides, in leaves and on planes of nodes.
+/// A decal lies over coplanar polygons, from both sides, in leaves and on planes of nodes.
 #[test]
 fn decals_come_after_what_they_lie_on() {
     let still: Vec<_> = (0..40).map(|k| square(f64::from(k), f64::from(k % 3))).collect();
@@ -114,7 +113,7 @@ fn lines_and_points_of_a_plane_come_after_its_polygons_in_input_order() {
     for z in BOTH_SIDES {
         assert_eq!(painted(&tree, &overlay, from(z)), "0 1 l0 l1 p0 p1 p2");
     }
-    // The same where the polygons move, and nothing stays: in one cell.
+    // The same if the polygons move and the tree is empty: in one cell.
     let tree = tree_of(&[], 0.0);
     let mut overlay = Overlay::new(&tree);
     let shapes = Shapes::NONE.with_polygons([square(0.0, 0.0), square(1.0, 0.0)]);
@@ -177,8 +176,8 @@ fn a_line_goes_through_a_polygon_in_two_pieces() {
     }
 }
 
-/// What reaches no further from a plane than the tolerance lies on it; what reaches further on one side
-/// is not cut for less than the tolerance on the other.
+/// A polygon that reaches no further from a plane than the tolerance lies on it; one that reaches further
+/// on one side is not cut for less than the tolerance on the other.
 #[test]
 fn the_tolerance_counts_for_lines_and_points_as_for_polygons() {
     let tree = tree_of(&[0.0], 0.01);

@@ -1,4 +1,4 @@
-//! What moves is cut where it must be, and no more.
+//! Moving polygons are cut where necessary, and no more.
 
 use binspace::overlay::Overlay;
 use testkit::prelude::*;

@@ -4,8 +4,7 @@ use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;
 
-/// Polygons above each other, each tilted a little, and as many lines; so many that their box is
-/// looked at.
+/// Polygons above each other, each slightly tilted, and as many lines: enough that their box is tested.
 const LAYERS: usize = 140;
 
 /// For each polygon, and then for each line, whether it has pieces that come before the only polygon of

@@ -1,4 +1,4 @@
-//! Culled orders of a tree and an overlay, against the vertices of what is kept and left out.
+//! Culled orders of a tree and an overlay, compared with the vertices of all shapes.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::{Culling, Facing, Frustum};

@@ -1,4 +1,4 @@
-//! What an overlay refuses, and what is left of it then.
+//! The errors of an overlay, and its contents after them.
 
 use binspace::ErrorKind;
 use binspace::overlay::{Overlay, Shapes};
@@ -162,7 +162,7 @@ fn a_replacement_says_how_far_it_is_and_can_be_cancelled() {
     assert_eq!(overlay.len(), whole);
 }
 
-/// Whatever the overlay is at when the caller's callback or iterator panics.
+/// At any step of the overlay when the caller's callback or iterator panics.
 #[test]
 fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
     let scene = scene::random_triangles(60, 3);

@@ -12,11 +12,11 @@ use testkit::judge::{Verdict, ensure};
 use testkit::model::Face;
 use testkit::rational::Point;
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 pub(crate) struct Judged {
     pub(crate) pictures: usize,
-    /// Pixels that show something, and those of them that show what moves.
+    /// Pixels that show something, and those of them that show moving polygons.
     pub(crate) covered: usize,
     pub(crate) moving: usize,
     pub(crate) contested: usize,
@@ -77,7 +77,8 @@ impl Judged {
         Ok(())
     }
 
-    /// At least so many pictures, pixels, and pixels that show what moves; a tenth contested at most.
+    /// At least this many pictures, pixels, and pixels that show moving polygons; a tenth contested at
+    /// most.
     pub(crate) fn assert_floor(&self, pictures: usize, covered: usize, moving: usize) {
         let is_enough = self.pictures >= pictures && self.covered >= covered;
         assert!(
@@ -112,7 +113,7 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     Ok(order)
 }
 
-/// Whether the pieces of every moving face have its area, exactly; how many faces there are.
+/// Whether the pieces of every moving face have its area, exactly; returns the number of faces.
 pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> {
     let faces = overlay.faces();
     let first = tree.faces().len() as u32;
@@ -138,7 +139,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
     Ok(models.len())
 }
 
-/// Whether two overlays have the same pieces: what one had before leaves no trace.
+/// Whether two overlays have the same pieces: earlier contents leave no trace.
 pub(crate) fn same(tree: &BspTree, overlays: [&Overlay; 2]) -> Verdict {
     let [bytes, others] = overlays.map(|overlay| overlay.faces().memory_usage());
     ensure(bytes == others, || format!("faces of {bytes} and {others} bytes"))?;

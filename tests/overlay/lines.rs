@@ -114,14 +114,15 @@ fn eyes(scene: &Scene, dice: &mut Dice) -> Vec<DVec3> {
     eyes
 }
 
-/// Puts the polygons of odd number into the tree, and all else over it, and judges it from some eyes.
+/// Puts the polygons of odd number into the tree, and everything else into the overlay, and judges it from
+/// some eyes.
 fn judge(scene: &Scene, by: Heuristic, eyes: &[DVec3], counts: &mut Counts) {
     let bounds = DVec3::splat(ROOM);
     let options = BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0);
     let still = scene.polygons.iter().skip(1).step_by(2);
     let tree = options.with_bounds(-bounds, bounds).build(still).expect("a tree");
     let mut overlay = Overlay::new(&tree);
-    // Something else before, so that what is left of it would show.
+    // Other contents before, so that remains of them would be visible.
     let before = Shapes::NONE.with_lines(&scene.lines);
     let before = before.with_points(scene.lines[0].iter().copied());
     overlay.replace_with(&tree, before).expect("on the grid");

@@ -10,8 +10,8 @@ const ROOM: f64 = 64.0;
 /// Different corners of a curve.
 const CORNERS: usize = 8;
 
-/// A line, and points at every second of its corners: a plane cannot hold what meets at two corners
-/// next to each other.
+/// A line, and points at every second of its corners: a plane cannot contain both meetings at two
+/// consecutive corners.
 struct Curve {
     corners: Vec<DVec3>,
     marks: Vec<Mark>,
@@ -53,7 +53,7 @@ fn tree_of_nothing() -> BspTree {
     options.build(Vec::<Vec<DVec3>>::new()).expect("a tree of nothing")
 }
 
-/// How many marks came after both of their segments: all, from all eyes.
+/// Returns the number of marks that came after both of their segments: all, from all eyes.
 fn compare(curves: &[Curve], dice: &mut Dice) -> usize {
     let tree = tree_of_nothing();
     let mut overlay = Overlay::new(&tree);
@@ -115,8 +115,8 @@ fn a_point_where_a_line_is_closed_comes_after_what_meets_there() {
     check(true, 3);
 }
 
-/// Thousands of points in one place, where thousands of segments meet: the callback counts the pieces
-/// that are looked at, and that is not each point for each segment.
+/// Thousands of points in one place, where thousands of segments meet: the callback counts the examined
+/// pieces, which is not each point for each segment.
 #[test]
 fn points_where_many_segments_meet_take_no_square_of_the_work() {
     let tree = tree_of_nothing();
@@ -145,7 +145,7 @@ fn points_where_many_segments_meet_take_no_square_of_the_work() {
         lines.iter().map(|line| &line[..]).collect()
     }
     for lines in [slices(&rays), slices(&reversed), slices(&through), vec![&flower[..]]] {
-        // Each call stands for 65 536 looks. A square would be 244 calls and more; n log n is 3.
+        // Each call stands for 65 536 examined pieces. A square would be 244 calls and more; n log n is 3.
         let calls = calls(&lines);
         assert!(calls < 40, "{calls} calls for {} lines", lines.len());
     }

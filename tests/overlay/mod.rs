@@ -1,5 +1,5 @@
-//! Overlays: one order of a tree and of polygons that move, held against an exact depth buffer that
-//! knows neither, and against exact areas.
+//! Overlays: one order of a tree and moving polygons, compared with an exact depth buffer that uses
+//! neither, and with exact areas.
 
 mod cleared;
 mod coplanar;
@@ -58,7 +58,7 @@ fn the_painter_shows_what_the_depth_buffer_sees() {
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
         let Divided { tree, moving, all } = divide(&scene, bits, by)?;
         let mut overlay = Overlay::new(&tree);
-        // Something else before, so that what is left of it would show.
+        // Other contents before, so that remains of them would be visible.
         overlay.replace(&tree, &all).map_err(fail)?;
         overlay.replace(&tree, &moving).map_err(fail)?;
         let bounds = hard::bounds(&all).expect("corners");

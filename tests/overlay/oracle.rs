@@ -14,15 +14,15 @@ use testkit::rational::{Plane, Point};
 
 type Verdict = Result<(), String>;
 
-/// Shares and distances closer to an end or an edge than this are not judged, as what is compared has
-/// rounded ends: a share of a segment, and of the grid.
+/// Shares and distances closer to an end or an edge than this are not judged, because compared ends are
+/// rounded: a share of a segment, and of the grid.
 const NEAR: f64 = 1e-7;
-/// How many places of each piece are looked at.
+/// The number of judged places of each piece.
 const PLACES: u32 = 3;
-/// How many pieces of segments are held against polygons, about, of each order.
+/// The approximate number of pieces of segments compared with polygons in each order.
 const MOST: usize = 60;
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 pub(crate) struct Counts {
     pub(crate) lines: usize,
@@ -191,7 +191,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Holds a place of a segment, or a point, against all faces: how many it was on, and not on.
+    /// Compares a place of a segment, or a point, with all faces; returns how many contain it, and how many
+    /// do not.
     fn against_faces(
         &self,
         at: &Point,
@@ -211,7 +212,7 @@ impl Judge<'_> {
             let seen = between(&[self.eye.clone(), at.clone()], &ratio);
             let Some(fragment) = self.painted.fragment_at(number, &seen) else { continue };
             let is_on = ratio.is_one();
-            // What goes through a face is on neither side of it there.
+            // A segment that goes through a face is on neither side of it there.
             let leaves = |ends: &[Point; 2]| ends.iter().any(|end| !face.plane.at(end).is_zero());
             if is_on && ends.is_some_and(leaves) {
                 continue;

@@ -43,8 +43,8 @@ pub(crate) fn crossing(
     ratio.is_positive().then_some(([of_a, of_b], ratio))
 }
 
-/// Whether the ends of a segment are on different sides of the plane through the eye and another, if
-/// floats tell: only to save time.
+/// Whether the ends of a segment are on different sides of the plane through the eye and another, if floats
+/// decide: only to save time.
 pub(crate) fn may_cross(eye: DVec3, of: [DVec3; 2], by: [DVec3; 2]) -> bool {
     let normal = (by[0] - eye).cross(by[1] - eye);
     let [from, to] = of.map(|end| normal.dot((end - eye).normalize_or_zero()) / GRID / GRID);

@@ -1,4 +1,4 @@
-//! What an overlay was given, and whether its pieces tile that.
+//! The contents of an overlay, and whether its pieces tile them.
 
 use binspace::overlay::{Overlay, Shape};
 use testkit::prelude::*;
@@ -8,7 +8,7 @@ use crate::overlay::sight::{between, to_f64};
 use testkit::model::Face;
 use testkit::rational::Point;
 
-/// What an overlay was given, on its grid.
+/// The contents of an overlay, on its grid.
 pub(crate) struct Given {
     /// Each with its line, its number in the line, and its ends.
     pub(crate) segments: Vec<(usize, usize, [Point; 2])>,

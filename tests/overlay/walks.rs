@@ -48,7 +48,7 @@ impl Mover {
     }
 }
 
-/// How many pixels showed what moved, over so many frames.
+/// The number of pixels that showed moving polygons, over `frames` frames.
 fn walk(scene: &Scene, tolerance: Option<f64>, frames: usize, movers: usize) -> Judged {
     let (low, high) = scene.bounds().expect("corners");
     let margin = DVec3::splat((high - low).max_element() * 0.2);
@@ -94,7 +94,7 @@ fn movers_among_crossing_triangles_are_right_in_every_pixel() {
     judged.assert_floor(12, 50_000, 10_000);
 }
 
-/// With the default tolerance, what it contests is counted.
+/// With the default tolerance, contested pixels are counted.
 #[test]
 fn movers_under_the_default_tolerance_are_right_in_every_pixel() {
     let judged = walk(&scene::city(300, 3), None, 20, 30);

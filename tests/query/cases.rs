@@ -1,4 +1,4 @@
-//! By hand: what the pages of `BspTree::hits` and `BspTree::is_occluded` say.
+//! By hand: the statements of the pages of `BspTree::hits` and `BspTree::is_occluded`.
 
 use binspace::{Facing, Ray};
 use testkit::prelude::*;
@@ -162,7 +162,7 @@ fn parameters_follow_the_direction() {
     }
 }
 
-/// As other iterators of the library.
+/// Like other iterators of the library.
 #[test]
 fn hits_can_be_copied_and_go_on_saying_none() {
     let tree = BspTree::build((0..20).map(|k| square(f64::from(k)))).unwrap();

@@ -55,7 +55,7 @@ fn stars(n: usize, dice: &mut Dice) -> Polygons {
     (0..n).map(star).collect()
 }
 
-/// Scenes, with how many rays are shot at each.
+/// Scenes, with the number of rays shot at each.
 fn scenes() -> Vec<(&'static str, Polygons, usize)> {
     let mut dice = Dice(3);
     vec![
@@ -102,7 +102,7 @@ fn rays_through_large_scenes_hit_what_integers_say() {
     assert!(all.blocked.min(all.clear) > 1400, "{scores:#?}");
 }
 
-/// What is hit does not depend on how the tree was built.
+/// The hits do not depend on how the tree was built.
 #[test]
 fn hits_are_the_same_in_every_tree() {
     let scene = polygons(&scene::random_triangles(120, 5));

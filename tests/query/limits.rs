@@ -1,4 +1,4 @@
-//! How far along a ray is searched for what may come before the nearest hit so far.
+//! The distance along a ray searched for hits that may come before the nearest so far.
 
 use binspace::Ray;
 use testkit::prelude::*;

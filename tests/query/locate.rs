@@ -1,4 +1,4 @@
-//! Where points are, by planes in rationals.
+//! The leaves of points, by planes in rationals.
 
 use binspace::{Child, Ray};
 use testkit::hits::Oracle;
@@ -46,13 +46,13 @@ fn points_are_where_rationals_say() {
     enough!(inside > 20; "{inside}");
 }
 
-/// On how many planes a point is, and whether it was asked if what contains it is in its leaf.
+/// The number of planes that contain a point, and whether its leaf was tested.
 struct Found {
     planes: usize,
     inside: usize,
 }
 
-/// Holds the way to a point's leaf against planes in rationals.
+/// Compares the path to a point's leaf with planes in rationals.
 fn check(oracle: &Oracle<'_>, point: DVec3) -> Found {
     let tree = oracle.tree();
     let location = tree.locate(point).expect("a point within reach");

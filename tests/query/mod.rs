@@ -1,5 +1,5 @@
-//! What rays hit, what blocks a line of sight, and where points are, against exact rationals: every ray
-//! against every polygon.
+//! Hits of rays, occlusion of lines of sight, and leaves of points, compared with exact rationals: every
+//! ray with every polygon.
 
 mod beginnings;
 mod cases;

@@ -1,4 +1,4 @@
-//! From what the library says in public, everything about a hit can be computed exactly.
+//! Everything about a hit can be computed exactly from public data.
 
 use binspace::{Grid, Ray};
 use num_traits::One;
@@ -100,7 +100,7 @@ fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
         let (low, high) = scene.bounds().unwrap();
         let slack = 1e-8 * (high - low).max_element();
         for fragment in tree.fragments() {
-            // The corners as given, but for the rounding to the grid.
+            // The corners as given, except for the rounding to the grid.
             for point in fragment.grid_points().map(|point| world(grid, point)) {
                 let near = |c: &DVec3| rational::distance_to_rounded(&point, c.to_array());
                 let least = polygons[fragment.polygon()].iter().map(near).fold(1.0, f64::min);

@@ -1,4 +1,4 @@
-//! Which fragments meet a region, by clipping every one of them in rationals.
+//! The fragments that meet a region, by clipping every one of them in rationals.
 
 use binspace::{Culling, Frustum};
 use proptest::prelude::*;
@@ -8,17 +8,17 @@ use testkit::rational::{Plane, Point};
 use testkit::shapes::sheet;
 use testkit::shots::Shots;
 
-/// What was compared: of all pairs of a fragment and a region.
+/// The counts of all pairs of a fragment and a region.
 #[derive(Clone, Copy, Debug, Default)]
 struct Score {
     pairs: usize,
-    /// That meet.
+    /// Pairs that meet.
     met: usize,
-    /// That meet in nothing but their borders.
+    /// Pairs that meet only at their borders.
     touching: usize,
-    /// That do not meet, although the fragment is behind none of the planes.
+    /// Pairs that do not meet, although the fragment is behind none of the planes.
     passed: usize,
-    /// That culling keeps in vain.
+    /// Pairs that culling keeps although they do not meet.
     kept_in_vain: usize,
 }
 

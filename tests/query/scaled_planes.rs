@@ -1,5 +1,5 @@
-//! A region's plane is the same whatever power of two its numbers are multiplied by, down to the least that
-//! there are.
+//! A region's plane is the same if its numbers are multiplied by any power of two, down to the smallest
+//! numbers.
 
 use binspace::{Culling, Frustum};
 use testkit::prelude::*;

@@ -87,7 +87,7 @@ impl Bodies {
                     if edges().all(|(&a, &b)| dot(normal, cross(a, b)) >= 0) {
                         return None;
                     }
-                    // In the plane, beside the polygon: a ray out of it does not come back.
+                    // In the plane, beside the polygon: a ray that leaves it does not return.
                     if way == 0 {
                         continue 'directions;
                     }

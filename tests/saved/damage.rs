@@ -1,4 +1,4 @@
-//! Files that are cut short, damaged, forged, or of something else.
+//! Truncated, damaged and forged files, and files of other kinds.
 
 use testkit::effort::effort;
 use testkit::prelude::*;
@@ -27,11 +27,11 @@ fn message(file: &[u8]) -> String {
 }
 
 #[test]
-fn every_part_of_a_file_is_cut_short() {
+fn every_truncated_file_is_refused() {
     for file in files() {
         for len in 0..file.len() {
             let message = message(&file[..len]);
-            assert!(message.contains("cut short"), "{len}: {message}");
+            assert!(message.contains("truncated"), "{len}: {message}");
         }
     }
 }
@@ -47,7 +47,7 @@ fn a_checksum_shows_every_changed_byte() {
                 damaged[at] ^= change;
                 let message = message(&damaged);
                 let is_told = match at {
-                    0..8 => message.contains("no file of binspace"),
+                    0..8 => message.contains("not a binspace file"),
                     8..12 => message.contains("where a \"tree\" is expected"),
                     12..16 => message.contains("version"),
                     _ => message.contains("damaged"),
@@ -58,8 +58,8 @@ fn a_checksum_shows_every_changed_byte() {
     }
 }
 
-/// Every byte changed, in one way or with more effort in several, and the checksum made right: refused, or as
-/// good as any tree to use.
+/// Every byte changed, in one way or with more effort in several, and the checksum corrected: refused, or
+/// as usable as any tree.
 #[test]
 fn a_forged_file_is_refused_or_usable() {
     let (mut usable, mut refused) = (0, 0);
@@ -77,14 +77,14 @@ fn a_forged_file_is_refused_or_usable() {
             }
         }
     }
-    // Corners may be moved a little, and counts be false.
+    // Corners may be slightly moved, and counts be false.
     enough!(usable > 200, refused > 200; "{usable} {refused}");
 }
 
 #[test]
 fn an_absurd_length_is_refused() {
     let file = &files()[0];
-    // Where the lengths of lists are: in place of one, 2⁵⁶ and what is just allowed.
+    // The lengths of lists: each is replaced by 2⁵⁶ and by the largest allowed value.
     let mut tried = 0;
     for at in (16..file.len() - 12).step_by(4) {
         for length in [1_u64 << 56, (1 << 28) - 1, (1 << 29) - 1, u64::MAX] {
@@ -106,14 +106,14 @@ fn another_version_is_named() {
         seal(&mut file);
         let message = message(&file);
         let is_named = message.contains(&format!("version {version},"));
-        assert!(is_named && message.contains("reads version 3"), "{message}");
+        assert!(is_named && message.contains("reads only version 3"), "{message}");
     }
 }
 
 #[test]
 fn other_files_are_told() {
-    assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("no file of binspace"));
-    assert!(message(b"binspacescene").contains("cut short"));
+    assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("not a binspace file"));
+    assert!(message(b"binspacescene").contains("truncated"));
     assert!(message(b"binspacescen\x01\0\0\0").contains("it holds a \"scen\""));
-    assert!(message(b"").contains("cut short"));
+    assert!(message(b"").contains("truncated"));
 }

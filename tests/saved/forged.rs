@@ -1,5 +1,5 @@
-//! Forged nodes and fragments, in files of right faces: what is read is a right tree, of the planes that the
-//! file names.
+//! Forged nodes and fragments, in files of right faces: the tree read is right for the planes that the file
+//! names.
 
 use super::File;
 use std::time::Instant;
@@ -19,7 +19,7 @@ fn at_height(z: f64) -> Square {
     FLAT.map(|[x, y, _]| [x, y, z])
 }
 
-/// A tree's file, and where its nodes and fragments begin.
+/// A tree's file, and the start of its nodes and fragments.
 fn places(tree: &BspTree) -> (File, [usize; 2]) {
     let file = File::of(tree);
     let fragments = file.0.len() - 4 - FRAGMENT * tree.len();
@@ -45,7 +45,7 @@ fn every_node_but_the_first_has_a_parent() {
     file.refused("are not those of its fragments");
 }
 
-/// The numbers of a node's fragments follow from what is on its plane: no other is read.
+/// The numbers of a node's fragments follow from those on its plane: no other is read.
 #[test]
 fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
     let mut other = FLAT;
@@ -65,7 +65,7 @@ fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
     }
 }
 
-/// Two squares on one side, and the file says that they are in its leaf.
+/// Two squares on one side, but the file puts both into its leaf.
 #[test]
 fn a_leaf_has_no_more_than_one_piece() {
     let (mut file, [nodes, fragments]) = file(&[0.0, 1.0, 2.0].map(at_height));
@@ -91,7 +91,7 @@ fn a_plane_that_is_used_again_is_refused() {
     }
 }
 
-/// By nodes that each cut everything, a small file would have more pieces than memory holds.
+/// With nodes that each cut everything, a small file would have more pieces than memory holds.
 #[test]
 fn there_are_no_more_pieces_than_fragments_in_the_file() {
     // Long strips side by side, and walls across all of them.

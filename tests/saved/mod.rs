@@ -1,4 +1,4 @@
-//! Trees and scenes that are written and read back, and files that are not right.
+//! Trees and scenes that are written and read back, and wrong files.
 
 mod damage;
 mod forged;
@@ -37,14 +37,14 @@ impl File {
         self.0[at..at + bytes.len()].copy_from_slice(bytes);
     }
 
-    /// What it is with the right checksum.
+    /// The tree read with the right checksum.
     fn read(&self) -> Result<BspTree, String> {
         let mut bytes = self.0.clone();
         seal(&mut bytes);
         BspTree::read(&bytes[..]).map_err(|error| error.to_string())
     }
 
-    /// What reading says; nothing if it is a tree.
+    /// The message of reading; empty for a tree.
     fn message(&self) -> String {
         self.read().err().unwrap_or_default()
     }

@@ -1,9 +1,9 @@
-//! Each check of a file of a tree: a file that is wrong in that alone is refused, and says so.
+//! Each check of a tree's file: a file that is wrong only there is refused with that message.
 
 use super::File;
 use testkit::prelude::*;
 
-/// Where the parts of the file are; `BspTree::write` describes the layout.
+/// The start of the file's parts; `BspTree::write` describes the layout.
 const TOLERANCE: usize = 72;
 const FACES: usize = 88;
 const CORNERS: usize = FACES + 2 * 12;
@@ -82,7 +82,7 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
         ("has more fragments than there are", |file| file.put(NODES + 4, 9 << 4)),
         ("are not those of its fragments", |file| file.put(NODES + 4, 2 << 4)),
         ("names a face or corner that does not exist", |file| file.put(NODES, 1 << 28 | 2)),
-        // The plane of the other square: nothing of this one is on it.
+        // The plane of the other square, which contains no part of this one.
         ("node 0 has other fragments than its plane makes", |file| file.put(NODES, 2 << 28)),
         ("fragment 2 is of another face than its plane's", |file| file.put(FRAGMENTS + 8, 0)),
     ];
@@ -113,8 +113,8 @@ fn triangles_are_checked() {
     }
 }
 
-/// A length one above what it may be is refused for that, and the largest for something else: that so
-/// much is not there.
+/// A length one above its limit is refused for that, and the limit itself for another reason: the data are
+/// missing.
 #[test]
 fn limits_are_where_they_are_said_to_be() {
     let file = file();
@@ -134,7 +134,7 @@ fn limits_are_where_they_are_said_to_be() {
             let mut file = file.clone();
             file.put_bytes(at, &u64::to_le_bytes(len));
             let message = file.read().expect_err(what);
-            let says = message.contains(&format!(" {limit} is the most"));
+            let says = message.contains(&format!("limit of {limit}:"));
             assert_eq!(says, is_too_many, "{what}, {len}: {message}");
         }
     }
@@ -143,7 +143,7 @@ fn limits_are_where_they_are_said_to_be() {
         let mut file = file.clone();
         file.put(FACES + 4, corners as u32 - 4);
         let message = file.read().expect_err("corners");
-        assert_eq!(message.contains(" 268435455 is the most"), is_too_many, "{corners}: {message}");
+        assert_eq!(message.contains("limit of 268435455:"), is_too_many, "{corners}: {message}");
     }
 }
 

@@ -1,4 +1,4 @@
-//! What is read is what was written, bit for bit.
+//! Reading returns the written tree, bit for bit.
 
 use proptest::prelude::*;
 use std::io;
@@ -94,7 +94,7 @@ fn trees_of_nothing_come_back() {
     assert_same(FrameBuilder::new(BuildOptions::DEFAULT).tree(), &EYES);
 }
 
-/// As a file may hold a tree and something else.
+/// A file may hold a tree and other data.
 #[test]
 fn no_more_is_read_than_was_written() {
     let trees = [scene::crossing(3), scene::chain(7)]
@@ -109,7 +109,7 @@ fn no_more_is_read_than_was_written() {
     assert_eq!(rest, b"rest");
 }
 
-/// A reader that gives a byte at a time, and is interrupted.
+/// A reader that returns a byte at a time, and is interrupted.
 struct Slow<'a>(&'a [u8], bool);
 
 impl io::Read for Slow<'_> {
@@ -155,7 +155,7 @@ fn errors_of_readers_and_writers_are_passed_on() {
     assert_eq!(tree.write(Broken).unwrap_err().to_string(), "the disk is full");
 }
 
-/// A writer that fails at one of its calls, counted from 0, and takes everything else.
+/// A writer that fails at one of its calls, counted from 0, and otherwise accepts everything.
 struct FailsOnce {
     calls: usize,
     at: usize,
@@ -175,10 +175,10 @@ impl io::Write for FailsOnce {
     }
 }
 
-/// Wherever it fails, in each of the lists of a file.
+/// At any position, in each of the lists of a file.
 #[test]
 fn a_writer_that_fails_once_is_reported() {
-    // Each list is longer than what is written at once, 64 kB: a wall cuts all of many squares.
+    // Each list is longer than one write, 64 kB: a wall cuts all of many squares.
     const COUNT: usize = 9000;
     let square = |k: usize| {
         let z = (k * 2753 % COUNT) as f64;

@@ -10,7 +10,7 @@ fn bytes(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
-/// With all that a file can say.
+/// With every attribute that a file can have.
 fn full() -> Scene {
     let text =
         b"mtllib m\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 5 5 5\nvt 0.5 0.25\nvn 0 0 1\n\
@@ -46,7 +46,7 @@ fn damaged_scenes_are_refused_and_forged_ones_usable() {
     let file = bytes(&full());
     for len in 0..file.len() {
         let error = Scene::read(&file[..len]).unwrap_err();
-        assert!(error.to_string().contains("cut short"), "{len}: {error}");
+        assert!(error.to_string().contains("truncated"), "{len}: {error}");
     }
     let (mut usable, mut refused) = (0, 0);
     for at in 0..file.len() {

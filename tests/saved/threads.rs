@@ -1,4 +1,4 @@
-//! What is read, and which fault is found, on any number of threads.
+//! The tree read, and the fault found, on any number of threads.
 
 use super::File;
 use testkit::prelude::*;
@@ -7,7 +7,7 @@ use testkit::saved::bytes;
 /// Where the faces begin; each is 12 bytes.
 const FACES: usize = 88;
 
-/// What reading says on some threads: the fault, or the file of the same tree.
+/// The result of reading on some threads: the fault, or the file of the same tree.
 fn read(file: &File, threads: usize) -> Result<Vec<u8>, String> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let read = || file.read().map(|tree| bytes(&tree));
@@ -33,7 +33,7 @@ fn the_same_is_read_by_any_number_of_threads() {
         (corners + 72 * (faces / 2), "outside the grid"),
         (corners + 72 * 5000, "corner 15000 is outside the grid"),
     ];
-    // From the last to the first: what comes first is told, whatever is behind it.
+    // From the last to the first: the first fault is reported, regardless of later ones.
     let mut forged = file.clone();
     forged.0[nodes + 4] |= 3;
     let mut cases = vec![(file.clone(), Ok(file.0.clone()))];

@@ -1,11 +1,11 @@
-//! Numbers of a file that no tree has: each is refused, and the message says which it is.
+//! Numbers of a file that no tree has: each is refused, with a message that names it.
 
 use super::File;
 use binspace::partition::Extent;
 use testkit::prelude::*;
 use testkit::shapes::sheet;
 
-/// Where the number of faces is; `BspTree::write` describes the layout.
+/// The place of the number of faces; `BspTree::write` describes the layout.
 const FACES: usize = 80;
 /// Where the flags are.
 const FLAGS: usize = 16;
@@ -13,7 +13,7 @@ const FLAGS: usize = 16;
 const LIMIT: i64 = 1 << 51;
 const OPEN: i64 = LIMIT + (1 << 44);
 
-/// Where the parts of a file are.
+/// The places of the parts of a file.
 struct Places {
     corners: usize,
     moved: usize,
@@ -52,7 +52,7 @@ fn square(z: f64) -> [[f64; 3]; 4] {
     sheet(2, z, 4.0)
 }
 
-/// Without a node, nothing says where the fragment comes in an order.
+/// Without a node, the fragment has no place in an order.
 #[test]
 fn a_fragment_without_a_node_is_refused() {
     let mut file = File::of(&BspTree::build([square(0.0)]).expect("a tree"));
@@ -61,7 +61,7 @@ fn a_fragment_without_a_node_is_refused() {
     file.put_bytes(nodes, &0_u64.to_le_bytes());
     file.0.drain(nodes + 8..nodes + 16);
     file.refused("its nodes are not those of its fragments");
-    // Neither: then the face has none.
+    // Neither: then the face has no fragment.
     file.put_bytes(nodes + 8, &0_u64.to_le_bytes());
     file.0.drain(nodes + 16..nodes + 20);
     file.refused("its nodes are not those of its fragments");
@@ -197,7 +197,7 @@ fn a_corner_is_moved_along_its_faces_axis_and_from_the_grid() {
             file.put_step(given, axis, step);
             assert_eq!(file.message(), "", "on its border");
         }
-        // A corner of the flat square, even if it stays where it is; and none at all.
+        // A corner of the flat square, even if it is not moved; and none at all.
         let mut flat = file.clone();
         let corners = file.places().corners;
         let first = flat.0[corners..corners + 24].to_vec();

@@ -5,7 +5,7 @@ use testkit::prelude::*;
 use testkit::scenes::polygons;
 use testkit::snapshot::Snapshot;
 
-/// Options under which a part of a scene has the grid and the tolerance of all of it.
+/// Options that give a part of a scene the grid and the tolerance of the whole scene.
 fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
     let (low, high) = scene.bounds().expect("corners");
     BuildOptions::DEFAULT.with_bounds(low, high).with_heuristic(by).with_tolerance(1e-6)

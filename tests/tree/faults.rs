@@ -1,4 +1,4 @@
-//! Faults that were found once, reduced.
+//! Faults found earlier, reduced.
 
 use testkit::judge::judge;
 use testkit::prelude::*;

@@ -1,4 +1,4 @@
-//! One builder, scene after scene, against trees that are built alone.
+//! One builder, scene after scene, compared with trees that are built alone.
 
 use crate::tree::{heuristic, shoot};
 use binspace::internals::{Tuning, tree_of};
@@ -14,7 +14,7 @@ fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
     assert_eq!(order(one, viewpoint), order(other, viewpoint));
 }
 
-/// The tree of a frame, built alone and to stay.
+/// The tree of a frame, built alone and permanently.
 fn alone<P: Polygon>(
     options: &BuildOptions,
     polygons: impl IntoIterator<Item = P>,
@@ -72,7 +72,7 @@ fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Erro
     Ok(())
 }
 
-/// What options say holds from the next frame on, and no longer than they say it.
+/// Options apply from the next frame on, until they are set again.
 #[test]
 fn options_count_from_the_next_frame_on() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -89,7 +89,7 @@ fn options_count_from_the_next_frame_on() {
     }
 }
 
-/// The precision of a frame's numbers counts for that frame alone.
+/// The precision of a frame's numbers applies to that frame alone.
 #[test]
 fn the_default_tolerance_of_a_frame_is_that_of_its_own_polygons() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -117,7 +117,7 @@ fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Cards that all go through each other, as many as a small set has whose planes are all tried, and more:
+/// Cards that all cross each other, in the number for which all planes of a small set are tried, and more:
 /// budgets are counted to the last piece and node.
 #[test]
 fn crossing_cards_of_every_small_number_keep_their_budgets()

@@ -1,4 +1,4 @@
-//! Input with little or nothing in it, and viewpoints that are nowhere: stated results, no panics.
+//! Input with little or no content, and degenerate viewpoints: stated results, no panics.
 
 use binspace::ErrorKind;
 use testkit::orders;
@@ -7,7 +7,7 @@ use testkit::snapshot::polygons;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Viewpoints that no picture is taken from, and some that are merely awkward.
+/// Viewpoints without a picture, and some that are merely awkward.
 fn viewpoints() -> Vec<Viewpoint> {
     let odd =
         [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 5e-324];

@@ -1,5 +1,5 @@
-//! Trees of hard scenes against oracles of their own: exact rationals for what the fragments are,
-//! rays in big integers for the order.
+//! Trees of hard scenes compared with separate oracles: exact rationals for the fragments, rays in big
+//! integers for the order.
 
 mod cases;
 mod extend;

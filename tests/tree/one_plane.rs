@@ -1,5 +1,5 @@
-//! Small cards of one plane, whose corners are rounded by less than the tolerance: by no heuristic is a
-//! card cut by the plane of one that lies within the tolerance of its own.
+//! Small cards of one plane, whose corners are rounded by less than the tolerance: no heuristic cuts a card
+//! by the plane of another that lies within the tolerance of its own.
 
 use binspace::glam::{DQuat, EulerRot};
 use binspace::internals::PlaneKind;
@@ -15,13 +15,13 @@ type Card = [DVec3; 4];
 
 struct Cards {
     all: Vec<Card>,
-    /// How many of the first lie in one plane, and the plane's axes.
+    /// The number of the first cards that lie in one plane, and the plane's axes.
     level: usize,
     axes: [DVec3; 3],
 }
 
-/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance, and
-/// others that go through it, or none.
+/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance, and possibly
+/// others that cross it.
 fn cards(dice: &mut Dice, others: usize) -> Cards {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let mut turn = || {
@@ -58,7 +58,7 @@ fn cards(dice: &mut Dice, others: usize) -> Cards {
     Cards { all, level, axes: [plane * DVec3::X, plane * DVec3::Y, plane * DVec3::Z] }
 }
 
-/// Whether all corners of a face clearly are within the tolerance of another's plane.
+/// Whether all corners of a face are clearly within the tolerance of another's plane.
 fn is_on(faces: &Faces, face: u32, other: u32) -> bool {
     let plane = model::plane(faces, PlaneId::face(other));
     let most = exact(faces.tolerance()) * exact(1.0 - 1e-6);
@@ -101,7 +101,7 @@ fn exchanged(tree: &BspTree, cards: &Cards) -> usize {
     found
 }
 
-/// The cards of the two that were found: a hundredth of the other's size, and cut it.
+/// The two cards of the original fault: one is a hundredth of the other's size, and cut it.
 #[test]
 fn a_frame_does_not_cut_a_card_by_a_small_one_in_its_plane() {
     let small: [[f32; 3]; 4] = [
@@ -154,8 +154,8 @@ fn a_polygon_is_not_cut_by_the_plane_of_one_that_lies_on_its_own() {
     assert!(cuts > 3000 && pairs > 100, "{cuts} {pairs}");
 }
 
-/// If of any two one lies on the plane of the other, none is cut; and as the default heuristic and
-/// frames take the planes of large cards, the small ones keep their order too.
+/// If for any two cards one lies on the plane of the other, none is cut; and because the default heuristic
+/// and frames use the planes of large cards, the small ones keep their order too.
 #[test]
 fn cards_of_one_plane_stay_whole_by_every_heuristic() {
     let mut dice = Dice(62);

@@ -1,4 +1,4 @@
-//! Orders against the tree's planes, of which exact rationals say on which side the eye is.
+//! Orders compared with the tree's planes; exact rationals give the eye's side.
 
 use binspace::Node;
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ use testkit::views::View;
 struct Sides<'t> {
     tree: &'t BspTree,
     planes: Vec<(Node<'t>, Plane)>,
-    /// How many planes have had the eye behind them, on them, and in front.
+    /// The number of planes with the eye behind them, on them, and in front.
     counts: [usize; 3],
 }
 
@@ -26,8 +26,8 @@ impl<'t> Sides<'t> {
         Self { tree, planes: tree.nodes().map(plane).collect(), counts: [0; 3] }
     }
 
-    /// Whether every plane has what is on its far side, then what is on it in input order, then
-    /// what is on the near side; an eye on the plane may take either.
+    /// Whether every plane has the far side, then the fragments on it in input order, then the near side;
+    /// for an eye on the plane either side is right.
     fn check(&mut self, view: &View) -> Verdict {
         orders::check(self.tree, view.viewpoint)?;
         let mut place = vec![0; self.tree.len()];
@@ -66,8 +66,8 @@ impl<'t> Sides<'t> {
         })
     }
 
-    /// Whether the orders of two viewpoints are the same exactly if no plane lies between them; a
-    /// plane that an eye is on may.
+    /// Whether the orders of two viewpoints are the same exactly if no plane lies between them; a plane
+    /// that contains an eye may count as between.
     fn check_same(&self, a: &View, b: &View) -> Verdict {
         let planes = self.planes.iter().map(|(_, plane)| plane);
         let sides: Vec<_> = planes.map(|plane| (a.side(plane), b.side(plane))).collect();
@@ -78,8 +78,8 @@ impl<'t> Sides<'t> {
     }
 }
 
-/// Eyes on the planes of a face, at its corners, level with them along an axis, and all of these
-/// missed by one step of the lattice.
+/// Eyes on the planes of a face, at its corners, level with them along an axis, and all of these missed by
+/// one step of the lattice.
 fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let mut eyes = vec![p, q];
@@ -96,8 +96,8 @@ fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     eyes.into_iter().chain(missed).map(|eye| View::eye(faces, eye)).collect()
 }
 
-/// Eyes from one extent away to where only their direction counts: along the axes, along planes
-/// and edges of a face, and anywhere.
+/// Eyes from one extent away to where only their direction counts: along the axes, along planes and edges
+/// of a face, and anywhere.
 fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let axis = DVec3::AXES[dice.below(3)];
@@ -153,8 +153,8 @@ fn eyes_far_away_and_on_planes_are_on_the_sides_that_rationals_say() {
     assert!(counts.iter().all(|&count| count > 500), "{counts:?}");
 }
 
-/// What the layout of orders counts on: no plane has all fragments on one side, and no node has
-/// fewer than two, but for the only one.
+/// The layout of orders relies on this: no plane has all fragments on one side, and no node has fewer than
+/// two, except the only one.
 #[test]
 fn every_plane_has_something_on_it_or_on_both_sides() {
     let scenes = [scene::sphere(900), scene::random_triangles(300, 8), scene::teapot(4)];

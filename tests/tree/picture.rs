@@ -1,4 +1,4 @@
-//! The painter's picture of a hard scene against the depth buffer's, which knows no tree.
+//! The painter's picture of a hard scene compared with the depth buffer's, which uses no tree.
 
 use binspace::paint::paint_tree;
 use binspace::raster::{Image, Verdict, zbuffer};
@@ -45,7 +45,7 @@ fn check(tree: &BspTree, camera: &Camera) -> Result<Option<Verification>, TestCa
     Ok(Some(result))
 }
 
-/// What pictures were compared, and how many pixels of them.
+/// The counts of compared pictures and pixels.
 #[derive(Default)]
 struct Compared {
     pictures: usize,
@@ -142,7 +142,7 @@ fn the_painter_is_right_along_a_partition_plane() {
     }
 }
 
-/// Where nothing is tied, the order of the input is no matter.
+/// Without ties, the input order does not matter.
 #[test]
 fn shuffled_polygons_give_the_same_picture() {
     let shuffled = hard::scene().prop_flat_map(|scene| {
@@ -177,7 +177,7 @@ fn shuffled_polygons_give_the_same_picture() {
     enough!(same > 10_000; "{same} pixels show the same polygon");
 }
 
-/// Whether two polygons may be equally far in a pixel: they have a point, to rounding, in common.
+/// Whether two polygons may be equally far in a pixel: they have a common point, up to rounding.
 fn is_tie(scene: &HardScene, a: usize, b: usize) -> bool {
     let bounds = |k: usize| hard::bounds(std::slice::from_ref(&scene.polygons[k]));
     let (Some([a_min, a_max]), Some([b_min, b_max])) = (bounds(a), bounds(b)) else { return false };

@@ -1,4 +1,4 @@
-//! Builds that say how far they are, and can be cancelled.
+//! Builds that report their progress, and can be cancelled.
 
 use binspace::{Error, ErrorKind, Progress};
 use testkit::prelude::*;
@@ -124,8 +124,8 @@ fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
     assert_eq!(options.build(std::iter::repeat_n(square, 1000)).unwrap().len(), 1000);
 }
 
-/// A callback that waits for other work of the pool may be given a part of the same build to do,
-/// which calls it again on the same stack.
+/// A callback that waits for other work of the pool may get a part of the same build to do, which calls it
+/// again on the same stack.
 #[test]
 fn a_callback_may_do_other_work_of_the_pool() {
     use std::sync::mpsc;

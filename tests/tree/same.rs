@@ -1,4 +1,4 @@
-//! What must give the same tree, bit for bit.
+//! Changes that must give the same tree, bit for bit.
 
 use proptest::prelude::*;
 use testkit::prelude::*;
@@ -58,7 +58,7 @@ proptest! {
             .iter()
             .map(|polygon| polygon.iter().map(|&corner| corner * factor).collect())
             .collect();
-        // Numbers near the least of all have no room to be scaled.
+        // The smallest numbers have no room to be scaled.
         let back = scaled.iter().flatten().map(|&corner| corner / factor);
         prop_assume!(back.eq(scene.polygons.iter().flatten().copied()));
         let (tree, mut options) = (scene.build(by).unwrap(), scene.options(by));

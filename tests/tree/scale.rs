@@ -60,7 +60,7 @@ fn a_chain_of_100_000_polygons_needs_a_small_stack_and_a_shallow_tree() {
 fn a_sphere_of_100_000_faces_needs_a_small_stack_and_a_shallow_tree() {
     let sphere = scene::sphere(LARGE);
     let stats = go_through(&sphere, BuildOptions::DEFAULT);
-    // Never cut: free planes part its rings, and what is left of a ring comes apart in a list.
+    // Never cut: free planes separate its rings, and the rest of a ring is divided in a list.
     assert_eq!(stats.fragments, stats.faces, "{stats:?}");
     assert!(stats.depth_max < 1000, "{stats:?}");
     validate(&sphere, BuildOptions::DEFAULT);
@@ -99,7 +99,7 @@ fn nested(count: u32) -> Scene {
     scene_of("nested", (0..count).map(|i| rectangle([-half(i); 2], [half(i); 2], 1.0)))
 }
 
-/// Squares that overlap, or triangles, at random in a tilted plane that all corners are in exactly.
+/// Random squares that overlap, or triangles, in a tilted plane that contains all corners exactly.
 fn tilted(count: usize, are_squares: bool) -> Scene {
     let mut dice = Dice(count as u64);
     let mut place = |most: u32| [0; 2].map(|_| dice.around_zero(most));

@@ -1,4 +1,4 @@
-//! Scenes turned off the axes, where free planes cut and own planes have to help.
+//! Scenes rotated off the axes, where free planes cut and own planes are needed.
 
 use super::scale::{mosaic, with_a_small_stack};
 use binspace::glam::DQuat;
@@ -8,7 +8,7 @@ use testkit::orders;
 use testkit::prelude::*;
 use testkit::scenes::scene_of;
 
-/// The same turned away from all axes, where every free plane cuts.
+/// The same scene rotated away from all axes, where every free plane cuts.
 fn tilted(scene: &Scene) -> Vec<Vec<DVec3>> {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
     let turned =
@@ -48,7 +48,7 @@ fn globe(slices: u32, rings: u32, radius: f64) -> Vec<[DVec3; 3]> {
     faces
 }
 
-/// Each with the fragments a face that it may become.
+/// Each with the largest allowed number of fragments per face.
 #[test]
 fn scenes_turned_off_the_axes_are_cut_little() {
     let stack = |gap: f64| {
@@ -78,7 +78,7 @@ fn scenes_turned_off_the_axes_are_cut_little() {
     }
 }
 
-/// How much work there is shows in how often a build says how far it is.
+/// The number of progress calls measures the work.
 #[test]
 fn a_disc_within_a_prism_does_not_keep_it_whole() {
     let calls = |polygons: &[Vec<DVec3>]| {
@@ -98,7 +98,7 @@ fn a_disc_within_a_prism_does_not_keep_it_whole() {
     assert!(whole <= 2 * empty, "{whole} calls, and {empty} without the disc");
 }
 
-/// A prism with some polygons inside: what is convex comes off at once, and the rest is divided.
+/// A prism with some polygons inside: the convex part is peeled at once, and the rest is divided.
 #[test]
 fn a_convex_set_with_things_inside_is_taken_apart_around_them() {
     let mut polygons = tilted(&scene_of("polygons", globe(600, 4, 2.0)));

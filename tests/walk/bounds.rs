@@ -1,4 +1,4 @@
-//! Boxes against exact vertices.
+//! Boxes compared with exact vertices.
 
 use crate::walk::trees;
 use testkit::model::Face;
@@ -66,15 +66,15 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
 }
 
 /// Corners that the tolerance moves are stored as the nearest points of the grid: the exact ones may be
-/// beyond, by half a step. And the exact vertices of cuts are on either side of the rounded ones. Scenes
-/// around the origin, where no rounding of the box itself makes up for it.
+/// beyond, by half a step. Exact vertices of cuts are on either side of the rounded ones. Scenes around the
+/// origin, where no rounding of the box itself compensates for it.
 #[test]
 fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
     let mut dice = Dice(8);
     let [mut moved, mut cut, mut beyond] = [0; 3];
     for _ in 0..times(60) {
         let mut share = || dice.point(-0.5, 0.5);
-        // Planar but for a rounding that counts, and through each other.
+        // Planar except for a rounding that counts, and crossing each other.
         let quad = |_| {
             let (at, u, v) = (share() * 0.25, share(), share());
             [at - u, at - v, at + u * 0.9, at + v * 1.1].map(|p| p + share() * 1e-12)
@@ -123,7 +123,7 @@ fn a_box_has_room_for_the_rounding_of_a_cut() {
     assert!(root.bounds()[1].x > 0.5 && tree.bounds().unwrap()[1].x > 0.5);
 }
 
-/// The box of a tree is that of its polygons, wherever they are in their room, and however many there are.
+/// The box of a tree is that of its polygons, at any place in their bounds, and for any number of them.
 #[test]
 fn polygons_in_a_corner_of_their_room_have_a_small_box() {
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-100.0), DVec3::splat(100.0));

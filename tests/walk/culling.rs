@@ -1,4 +1,5 @@
-//! What culled orders leave out, against brute force in rationals and against exact pictures.
+//! The fragments that culled orders leave out, compared with brute force in rationals and with exact
+//! pictures.
 
 use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
@@ -40,7 +41,7 @@ fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     found
 }
 
-/// A walk comes to no subtree that is outside as a whole, or turned away.
+/// A walk visits no subtree that is entirely outside, or turned away.
 #[test]
 fn a_culled_walk_skips_subtrees() {
     let tree = BspTree::build(scene::terrain(2000, 1).polygons()).unwrap();
@@ -66,8 +67,8 @@ fn a_culled_walk_skips_subtrees() {
     assert_eq!(subtrees(above, &Culling::NONE.with_facing(Facing::Back)), (0, 0));
 }
 
-/// Whether a fragment's box reaches over a plane of the region, exactly, and by how much at most it
-/// may be short of that and be kept all the same.
+/// Whether a fragment's box reaches over a plane of the region, exactly; `None` if it falls short by so
+/// little that it may be kept.
 fn must_be_kept(tree: &BspTree, fragment: u32, frustum: &Frustum) -> Option<bool> {
     let corners = tree.fragment(fragment).bounds();
     let [low, high] = tree.bounds().unwrap();
@@ -125,7 +126,7 @@ fn what_is_left_is_what_a_look_at_every_box_leaves() {
     let [mut kept, mut left_out, mut doubtful] = [0; 3];
     for tree in trees() {
         for frustum in frusta(&tree, &mut dice) {
-            // Only so many planes are used.
+            // Only 32 planes are used.
             let used = Frustum::new(frustum.planes().iter().copied().take(32));
             let expected: Vec<Option<bool>> =
                 (0..tree.len() as u32).map(|f| must_be_kept(&tree, f, &used)).collect();
@@ -219,7 +220,7 @@ fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
 proptest! {
     #![proptest_config(cases(48, file!()))]
 
-    /// Of a convex body, the fronts alone make the picture, in any order.
+    /// For a convex body, the fronts alone make the picture, in any order.
     #[test]
     fn the_fronts_of_a_convex_body_are_its_picture(body in body(), seed in any::<u64>()) {
         let tree = BspTree::build(&body).unwrap();
@@ -267,7 +268,8 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
             let found = culled(&tree, camera.viewpoint(), &culling);
             let whole = paint_tree(&tree, camera.viewpoint(), &rays);
             let picture = paint_order(&tree, &found, &rays);
-            // Not only who shows, but who is hidden: every one that covers a pixel is there.
+            // Not only the visible fragments, but also the hidden ones: every one that covers a pixel is
+            // there.
             assert_eq!((picture.faces(), picture.drawn()), (whole.faces(), whole.drawn()));
             left_out += tree.len() - found.len();
             all += tree.len();
@@ -277,8 +279,8 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
     assert!(pictures > 300 && left_out * 3 > all, "{pictures} {left_out} of {all}");
 }
 
-/// Within walls, few fragments are looked at that are not seen; and floors, which lie in one plane
-/// with many others, are left out too.
+/// Within walls, few invisible fragments are visited; and floors, which lie in one plane with many others,
+/// are left out too.
 #[test]
 fn indices_of_what_is_in_view_are_those_of_the_list() {
     let tree = BspTree::build(cells(12, &mut Dice(12))).unwrap();
@@ -303,8 +305,8 @@ fn indices_of_what_is_in_view_are_those_of_the_list() {
     assert!(triangles.write_order(&found, &mut indices[..count - 1]).is_err());
 }
 
-/// The margin of a scene's boxes: a step of its grid at least, even where coordinates are 0 and nothing is
-/// rounded, and not more than is documented.
+/// The margin of a scene's boxes: at least a step of its grid, even where coordinates are 0 and nothing is
+/// rounded, and not more than documented.
 #[test]
 fn boxes_count_as_larger_by_a_step_of_the_grid() {
     let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -321,7 +323,7 @@ fn boxes_count_as_larger_by_a_step_of_the_grid() {
     }
 }
 
-/// Of 1 to 40 fragments, tiny, huge and far out, by planes through the corners of their boxes and beside
+/// With 1 to 40 fragments, tiny, huge and far out, by planes through the corners of their boxes and beside
 /// them: from the first word of marks to the third, and to the ends of `f64`.
 #[test]
 fn scenes_of_every_size_are_culled_as_boxes_say() {
@@ -372,8 +374,8 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
     assert!(kept > 3000 && left_out > 3000 && doubtful < 600, "{kept} {left_out} {doubtful}");
 }
 
-/// Planes that go through a corner of a far-off box exactly, or as near behind it as an offset can be: their
-/// products are a million times their sum, and rounded by more than a step of the grid.
+/// Planes that go through a corner of a far-off box exactly, or as near behind it as an offset can be:
+/// their products are a million times their sum, and rounded by more than a step of the grid.
 #[test]
 fn a_box_is_kept_however_the_test_is_rounded() {
     let mut dice = Dice(31);
@@ -411,7 +413,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
     enough!(kept > 960, inexact > 300; "{inexact} of {kept}");
 }
 
-/// Of many coplanar polygons, whose boxes are looked at by the block, those in the region alone.
+/// Among many coplanar polygons, whose boxes are tested by the block, only those in the region.
 #[test]
 fn blocks_that_a_plane_goes_through_are_looked_into() {
     let square = |k: u32| {
@@ -442,7 +444,7 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
     enough!(compared > 4000; "{compared}");
 }
 
-/// Of coplanar polygons that face either way, as many as do not fill the last block, those of one side.
+/// Among coplanar polygons that face either way and do not fill the last block, only those of one side.
 #[test]
 fn one_side_of_a_plane_of_both_is_drawn() {
     for count in (1..70).chain([255, 257, 1000]) {

@@ -1,4 +1,4 @@
-//! Walking a tree: its nodes, its bounds, and orders that leave out what cannot be seen.
+//! Walking a tree: its nodes, its bounds, and orders without invisible fragments.
 
 mod bounds;
 mod culling;
@@ -35,7 +35,7 @@ fn scenes() -> Vec<Vec<Vec<DVec3>>> {
     scenes
 }
 
-/// Trees of all kinds, for one view too.
+/// Trees of all kinds, also for one view.
 fn trees() -> Vec<BspTree> {
     let mut trees = Vec::new();
     for scene in scenes() {

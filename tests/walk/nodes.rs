@@ -53,7 +53,7 @@ fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
     enough!(deep > 20; "{deep}");
 }
 
-/// Planes against the polygons as given, in rationals: no lattice, no library.
+/// Planes compared with the polygons as given, in rationals: no lattice, no library.
 #[test]
 fn planes_are_those_of_the_polygons_that_they_name() {
     let [mut named, mut free] = [0; 2];
@@ -77,9 +77,9 @@ fn planes_are_those_of_the_polygons_that_they_name() {
                     free += 1;
                     continue;
                 };
-                // All corners are on it, but for the grid and the tolerance.
+                // All corners are on it, up to the grid and the tolerance.
                 let slack = step * 4.0 + tree.stats().tolerance;
-                // Of a polygon that is bent, those of one of its triangles.
+                // For a bent polygon, the corners of one of its triangles.
                 let is_on = |p: &&DVec3| (normal.dot(**p) - offset).abs() <= slack;
                 let on = scene[polygon].iter().filter(is_on).count();
                 enough!(on >= 3; "{node:?} of {polygon}");
@@ -101,7 +101,7 @@ fn planes_are_those_of_the_polygons_that_they_name() {
     enough!(named > 300, free > 100; "{named} {free}");
 }
 
-/// Fragments have their own planes, whichever way they were cut, in rationals of the grid.
+/// Fragments have the planes of their faces, however they were cut, in rationals of the grid.
 #[test]
 fn fragments_tell_the_planes_of_their_faces() {
     let (mut fragments, mut on_nodes) = (0, 0);
@@ -121,7 +121,7 @@ fn fragments_tell_the_planes_of_their_faces() {
             let unit = DVec3::from(scaled.each_ref().map(|c| c.to_f64().value())).normalize();
             let (normal, offset) = (fragment.normal(), fragment.offset());
             assert!((normal - unit).abs().max_element() <= 3.0 * f64::EPSILON, "{normal} {unit}");
-            // The square of the exact offset, as roots are no fractions.
+            // The square of the exact offset, because roots are irrational.
             let square = |x: &rational::Rational| x * x;
             let length = rational::total(scaled.iter().map(square));
             let exact = rational::scalar(&scaled, &points[0]);

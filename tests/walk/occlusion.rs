@@ -1,4 +1,4 @@
-//! Coverage masks against exact pictures.
+//! Coverage masks compared with exact pictures.
 
 use crate::walk::trees;
 use binspace::occlusion::CoverageMask;
@@ -9,7 +9,7 @@ use binspace::{Flow, Part};
 use testkit::prelude::*;
 use testkit::scenes::cells;
 
-/// The fragments that a mask lets through, back to front, and how many parts were visited.
+/// The fragments that a mask lets through, back to front, and the number of visited parts.
 fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32>, usize) {
     let mut mask = CoverageMask::new(tree, rays, cell);
     let (mut found, mut visited) = (Vec::new(), 0);
@@ -44,7 +44,7 @@ fn nothing_that_owns_a_pixel_is_hidden() {
                     skipped += usize::from(visited < parts);
                     all += 1;
                     if cell == 1 {
-                        // Each owns a pixel: without it, the picture is another one.
+                        // Each owns a pixel: without it, the picture differs.
                         for gone in (0..found.len()).step_by(17) {
                             let mut rest = found.clone();
                             rest.remove(gone);
@@ -62,9 +62,10 @@ fn nothing_that_owns_a_pixel_is_hidden() {
     assert!(skipped * 2 > all && hidden > 500, "{skipped} of {all}, {hidden}");
 }
 
-/// Which fragment shows in each pixel.
+/// The visible fragment in each pixel.
 fn paint_fragments(tree: &BspTree, order: &[u32], rays: &Rays) -> Vec<u32> {
-    // How often pixels are covered tells of fragments of one face that hide nothing of each other.
+    // The number of times that pixels are covered reveals fragments of one face that hide nothing of each
+    // other.
     let image = paint_order(tree, order, rays);
     let mut shown = image.faces().to_vec();
     shown.push(image.drawn() as u32);

@@ -1,10 +1,10 @@
-//! Walks against whole orders.
+//! Walks compared with whole orders.
 
 use crate::walk::{trees, viewpoints};
 use binspace::{Flow, Node, Part};
 use testkit::prelude::*;
 
-/// The fragments and nodes that a walk comes to.
+/// The fragments and nodes that a walk visits.
 fn walked(
     tree: &BspTree,
     viewpoint: Viewpoint,

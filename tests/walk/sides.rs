@@ -45,7 +45,7 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
                 let all = 0..tree.len() as u32;
                 assert!(found.into_iter().eq(all.filter(|&f| sides[f as usize] == side)));
             }
-            // What normals of `f32` say, all polygons being about as high.
+            // The side by normals of `f32`, where all polygons are about equally high.
             let rounded = tree.fragment(0).normal().as_vec3().as_dvec3();
             let eye = way + normal * above;
             misleading += usize::from(rounded.dot(eye) * above < 0.0 && above.abs() > 2.0);

@@ -1,10 +1,10 @@
-//! Boxes that many threads ask for at once.
+//! Boxes that many threads need at once.
 
 use binspace::Ray;
 use rayon::prelude::*;
 use testkit::prelude::*;
 
-/// The first queries of a tree come from all threads of a pool, and from outside of it. Large enough that the
+/// The first queries of a tree come from all threads of a pool, and from outside it. Large enough that the
 /// boxes take a while.
 #[test]
 fn the_first_queries_may_come_from_all_threads_at_once() {

@@ -166,16 +166,16 @@ fn files_that_are_not_right_are_refused_by_name() {
         file
     };
     for (content, problem) in [
-        (file[..at - 9].to_vec(), "cut short"),
+        (file[..at - 9].to_vec(), "truncated"),
         (file[..at].to_vec(), "where its scene must be"),
-        (file[..file.len() - 1].to_vec(), "cut short"),
+        (file[..file.len() - 1].to_vec(), "truncated"),
         (with(at / 2, 1), "damaged"),
         (with(file.len() - 30, 4), "damaged"),
         (with(12, 1), "version 3"),
         ([&file[..], b"more"].concat(), "more follows"),
         ([&file[..at], &other[other_at..]].concat(), "not one of its scene"),
-        (CROSSING.as_bytes().to_vec(), "no file of binspace"),
-        (Vec::new(), "cut short"),
+        (CROSSING.as_bytes().to_vec(), "not a binspace file"),
+        (Vec::new(), "truncated"),
     ] {
         folder.write("bad.bsp", &content);
         let message = folder.run("order bad.bsp --eye=1,2,3").refused();

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What Chromium is called.
+/// The possible names of Chromium.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"];
 
 /// The browser's name.
@@ -19,8 +19,8 @@ pub fn browser() -> &'static str {
     NAMES.iter().find(runs).unwrap_or_else(|| panic!("none of {NAMES:?} is installed"))
 }
 
-/// What a script says at the end of a page: the body of a function that returns a text without markup.
-/// The folder is the browser's meanwhile.
+/// Runs a script at the end of a page, and returns its text, without markup. The script is the body of a
+/// function. The browser uses the folder meanwhile.
 pub fn said(browser: &str, folder: &Path, page: &str, script: &str) -> String {
     let page = page.replace(
         "</body>",
@@ -54,7 +54,7 @@ pub fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }
 
-/// The same of a list of the script's.
+/// The same hash, of a list in the script.
 pub fn hash_in_script(list: &str) -> String {
     format!(
         "({list}.reduce((hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0)"
@@ -69,9 +69,9 @@ pub fn eye_at(tree: &BspTree, point: [f64; 3]) -> Option<Viewpoint> {
     (at - away == grid.base && at - grid.base == away).then_some(Viewpoint::Eye(at))
 }
 
-/// Turns the camera of a page around its scene twice: first without edges, then with all edges.
-/// Asserts that each picture is painted, differs from the last, and has the library's order. Returns the median time
-/// of a picture in milliseconds, without and with edges.
+/// Turns the camera of a page around its scene twice: first without edges, then with all edges. Asserts
+/// that each picture is painted, differs from the last, and has the library's order. Returns the median
+/// time of a picture in milliseconds, without and with edges.
 pub fn turn(browser: &str, folder: &Path, page: &str, tree: &BspTree, pictures: u32) -> [f64; 2] {
     let script = format!(
         "[CANVAS.width, CANVAS.height] = [1280, 720];

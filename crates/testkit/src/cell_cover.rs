@@ -16,12 +16,12 @@ fn name(tree: &BspTree, face: u32, polygon: usize) -> Name {
     (polygon, corners.map(|k| tree.faces().corner_number(face, k)).collect())
 }
 
-/// How many faces were cut by planes of cells.
+/// Checks the cover. Returns the number of faces that planes of cells cut.
 pub fn check(scene: &Divided, options: BuildOptions) -> Result<usize, String> {
     let mut covers: BTreeMap<Name, (Cover, usize)> = BTreeMap::new();
     for (number, cell) in scene.cells.iter().enumerate() {
         let [low, high] = scene.partition.bounds(number);
-        // The tolerance, and the rounding of vertices.
+        // The tolerance, and the rounding error of vertices.
         let step = cell.tree.faces().lattice().length_to_world(1.0);
         let slack = DVec3::splat(4.0 * (scene.partition.tolerance() + step));
         for fragment in cell.tree.fragments() {

@@ -1,4 +1,4 @@
-//! The orders of cells, one after the other, are an order of the scene: held against rays, in big
+//! The orders of cells, one after the other, are an order of the scene: compared with rays, in big
 //! integers.
 
 use binspace::Viewpoint;
@@ -10,13 +10,13 @@ use super::judge::{Verdict, ensure, judge_cell};
 use super::rays::{Hit, Ray, Rays};
 use super::views::some_view;
 
-/// What has been compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 pub struct Score {
     pub scenes: usize,
     pub empty_cells: usize,
     pub pairs: usize,
-    /// Of these, pairs in different cells.
+    /// The pairs of these in different cells.
     pub apart: usize,
     pub coplanar: usize,
     pub excused: usize,

@@ -20,8 +20,8 @@ pub fn face_area(faces: &Faces, face: u32) -> Point {
     rational::area(&corners)
 }
 
-/// In rationals, corners moved onto the plane: every edge has a length, all turns are to the left
-/// seen from the front, and they add up to one.
+/// Checks in rationals, with corners moved onto the plane: every edge has a length, all turns are to the
+/// left seen from the front, and they add up to one full turn.
 pub fn assert_convex_and_planar(faces: &Faces, face: u32) -> Result<(), TestCaseError> {
     let exact = Face::new(faces, face);
     let n = exact.corners.len();

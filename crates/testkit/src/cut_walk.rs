@@ -1,4 +1,4 @@
-//! A face cut by one plane after the other, each sign and each part against exact rationals.
+//! A face cut by one plane after the other; each sign and each part is compared with exact rationals.
 
 use super::judge::{POSITION_ERROR, Verdict, ensure};
 use super::model::{self, Face};
@@ -8,33 +8,33 @@ use binspace::internals::{
 };
 use num_traits::Signed;
 
-/// What a run of tests went through.
+/// The counts of a run of tests.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
-    /// Vertices held against planes.
+    /// Vertices compared with planes.
     pub signs: usize,
-    /// Those that the filter left to the integers.
+    /// Vertices that the filter left to the integers.
     pub undecided: usize,
-    /// Those exactly on the plane.
+    /// Vertices exactly on the plane.
     pub on_plane: usize,
-    /// Pieces held against planes, and those cut.
+    /// Pieces compared with planes, and pieces cut.
     pub pieces: usize,
     pub cuts: usize,
     /// Vertices made by two cuts.
     pub inside: usize,
     /// Pieces of faces that are planar by definition only.
     pub moved: usize,
-    /// Pieces for which the tolerance alone decided.
+    /// Pieces that the tolerance alone decided.
     pub tolerated: usize,
-    /// Pieces as far from a plane as the tolerance to within its rounding.
+    /// Pieces as far from a plane as the tolerance, up to its rounding error.
     pub ambiguous: usize,
-    /// Those that a rounded distance alone would put on the wrong side.
+    /// Vertices that a rounded distance alone would put on the wrong side.
     pub wrong: usize,
     /// The largest error of a coordinate, in lattice units.
     pub worst_position: f64,
 }
 
-/// One face, cut by one plane after the other; one of the two parts is followed.
+/// A face that is cut by one plane after the other; one of the two parts is followed.
 pub struct Walk<'a> {
     faces: &'a Faces,
     face: u32,
@@ -53,7 +53,7 @@ impl<'a> Walk<'a> {
         Self { faces, face, exact, piece, outline, whole: true, tally }
     }
 
-    /// Holds the piece against a plane, and cuts it if the plane does.
+    /// Compares the piece with a plane, and cuts it if the plane does.
     pub fn step(&mut self, plane: PlaneId, keep_back: bool) -> Verdict {
         let prepared = PreparedPlane::new(self.faces, plane);
         let by = model::plane(self.faces, plane);
@@ -136,7 +136,7 @@ impl<'a> Walk<'a> {
         let rounded = prepared.distance(vertex.position());
         let bound = stated_bound(self.faces, plane);
         if self.faces.tolerance() == 0.0 {
-            // Without a tolerance the slack is the bound that the filter goes by.
+            // Without a tolerance the slack is the bound of the filter.
             let is_enough = prepared.slack() >= bound * (1.0 - 1e-12);
             ensure(is_enough, || format!("the slack at {plane:?}"))?;
         }
@@ -152,8 +152,8 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The bound of a distance of the wrong sign: 9.2 επm, π the sum of the magnitudes of the products
-/// that the normal is made of; for an axis 3.05 εm.
+/// The bound of a distance with the wrong sign: 9.2 επm, with π the sum of the magnitudes of the products
+/// in the normal; for an axis 3.05 εm.
 fn stated_bound(faces: &Faces, plane: PlaneId) -> f64 {
     let unit = 2f64.powi(-53) * 2f64.powi(51);
     let PlaneKind::Face(face) = plane.kind() else { return 3.05 * unit };

@@ -1,4 +1,4 @@
-//! Decodes bytes into scenes whose corners coincide, or nearly do, with earlier ones.
+//! Decodes bytes into scenes whose corners coincide, or nearly so, with earlier ones.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
@@ -29,8 +29,8 @@ pub fn polygons(bytes: &mut Unstructured<'_>, most: usize) -> Result<Vec<Vec<DVe
     Ok(polygons)
 }
 
-/// A corner: on a small lattice, where another one is or within a few ulps of it, on a line or a
-/// plane through others, or anywhere.
+/// A corner: on a small lattice, at another one or within a few ulps of it, on a line or a plane through
+/// others, or anywhere.
 fn corner(
     bytes: &mut Unstructured<'_>,
     known: &[DVec3],

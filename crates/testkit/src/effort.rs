@@ -1,4 +1,4 @@
-//! How much is tried: here alone it is decided.
+//! The effort of tests: the only place that decides it.
 //!
 //! `BINSPACE_EFFORT=10 cargo test` tries ten times as many scenes, rays and cases.
 

@@ -1,4 +1,4 @@
-//! Fills outlines at the centres of pixels, in floats: what is too near to tell is left out.
+//! Fills outlines at the centres of pixels, in floats; pixels too near to an outline are left out.
 
 use binspace::drawing::{Drawing, ViewOptions};
 use binspace::paint::paint_tree;
@@ -11,7 +11,7 @@ pub fn with_opacities(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> ViewOpt
     ViewOptions::DEFAULT.with_opacities((0..tree.preparation().polygons).map(opacity).collect())
 }
 
-/// What covers the centre of a pixel.
+/// The polygon that covers the centre of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pixel {
     Nothing,
@@ -20,11 +20,11 @@ pub enum Pixel {
     Unsure,
 }
 
-/// A picture that outlines are filled in, one after another.
+/// A picture in which outlines are filled, one after another.
 pub struct Picture {
     size: [usize; 2],
     pub pixels: Vec<Pixel>,
-    /// How many outlines cover each pixel.
+    /// The number of outlines that cover each pixel.
     pub layers: Vec<u32>,
 }
 
@@ -39,7 +39,7 @@ impl Picture {
         Self { size, layers: vec![0; pixels.len()], pixels }
     }
 
-    /// Fills what outlines wind around, whichever way.
+    /// Fills the points around which outlines wind, in either direction.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
@@ -121,8 +121,8 @@ pub struct Score {
     pub rays: usize,
 }
 
-/// Compares map and drawing of a view with what the tree's order paints, pixel by pixel, by integers
-/// of another hand. Of small scenes, also of polygons seen from their fronts alone.
+/// Compares the map and the drawing of a view with the picture of the tree's order, pixel by pixel, by
+/// separate integers. For small scenes also with front faces only.
 pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
     let rays = Rays::new(camera, tree.faces()).map_err(|error| error.to_string())?;
     if tree.len() < SMALL {
@@ -133,7 +133,7 @@ pub fn check(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), S
     check_view(tree, camera, &rays, &ViewOptions::DEFAULT, score)
 }
 
-/// Trees with fewer fragments are judged from their fronts as well.
+/// Trees with fewer fragments are also judged with front faces only.
 const SMALL: usize = 100;
 
 fn check_view(
@@ -160,7 +160,7 @@ fn check_view(
         let corners: Vec<[f64; 2]> = cell.corners().collect();
         by_cells.fill(cell.polygon(), std::iter::once(&corners[..]));
     }
-    // Of needles thinner than that, outlines have nothing.
+    // Outlines do not contain needles thinner than that.
     let is_unsure: Vec<bool> = by_cells.pixels.iter().map(|p| *p == Pixel::Unsure).collect();
     for (what, picture) in [("drawing", Picture::of(&drawing)), ("map", by_cells)] {
         for (i, (&found, &face)) in picture.pixels.iter().zip(truth.faces()).enumerate() {
@@ -188,12 +188,12 @@ fn check_view(
     Ok(())
 }
 
-/// Every polygon of a map is what a ray through its point meets first.
+/// Checks that every polygon of a map is the first hit of a ray through its point.
 pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<(), String> {
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     for shown in map.polygons().filter(|shown| shown.area > 0.1) {
         score.rays += 1;
-        // Nothing is seen edge-on; and of polygons of one plane the order decides.
+        // Nothing is seen edge-on; for polygons of one plane the order decides.
         let mut hits = tree
             .hits(ray(camera, shown.point))
             .filter(|hit| hit.facing() != Facing::EdgeOn && hit.parameter() > 0.0);

@@ -4,7 +4,7 @@ use binspace::internals::Pieces;
 use binspace::raster::{Piece, Rays, for_each_run};
 use binspace::{BspTree, Fragment};
 
-/// Calls a function with what a painter draws of a fragment.
+/// Calls a function with the piece that a painter draws for a fragment.
 pub fn with_piece(fragment: &Fragment<'_>, draw: impl FnOnce(Piece<'_>)) {
     draw(Pieces::default().of(fragment));
 }

@@ -1,6 +1,6 @@
-//! Scenes that are hard to decide: proptest strategies biased to coincidence and near coincidence.
+//! Scenes that are hard to decide: proptest strategies biased towards coincidence and near coincidence.
 //!
-//! [`scene`] is the one to use; the families are there to be named when a test is about one.
+//! Use [`scene`]; use a single family in a test about that family.
 
 use super::shapes::{self, Corners};
 use binspace::glam::{DMat3, DVec3};
@@ -9,7 +9,7 @@ use binspace::{BspTree, BuildOptions, Heuristic};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-/// Which coplanar tolerance to build with.
+/// The coplanar tolerance of a build.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// The library's.
@@ -18,7 +18,7 @@ pub enum Tolerance {
     Share(f64),
 }
 
-/// Polygons, and the tolerance to take them with.
+/// Polygons, and their tolerance.
 #[derive(Clone, Debug)]
 pub struct HardScene {
     pub polygons: Vec<Corners>,
@@ -26,7 +26,7 @@ pub struct HardScene {
 }
 
 impl HardScene {
-    /// The tolerance, as the library takes it.
+    /// The tolerance as a library option.
     pub fn tolerance(&self) -> Option<f64> {
         match self.tolerance {
             Tolerance::Default => None,
@@ -34,12 +34,12 @@ impl HardScene {
         }
     }
 
-    /// The same with another tolerance.
+    /// The same scene with another tolerance.
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The options that its tolerance and a heuristic make.
+    /// Options with its tolerance and a heuristic.
     pub fn options(&self, by: Heuristic) -> BuildOptions {
         let mut options = BuildOptions::DEFAULT.with_heuristic(by);
         options.tolerance = self.tolerance().into();
@@ -153,7 +153,7 @@ pub fn near_coplanar() -> impl Strategy<Value = Vec<Corners>> {
     })
 }
 
-/// Squares 1e-3 to 1e-7 apart, turned any way or none.
+/// Squares 1e-3 to 1e-7 apart, rotated in any way or not at all.
 pub fn layers() -> impl Strategy<Value = Vec<Corners>> {
     (prop_oneof![Just(DMat3::IDENTITY), turn()], -7..=-3i32, 2..7usize)
         .prop_map(|(turn, gap, count)| shapes::layers(turn, 10f64.powi(gap), count))
@@ -170,7 +170,7 @@ pub fn slivers() -> impl Strategy<Value = Vec<Corners>> {
     })
 }
 
-/// Boxes turned any way: their sides are planar but for rounding.
+/// Boxes rotated in any way: their sides are planar except for rounding.
 pub fn boxes() -> impl Strategy<Value = Vec<Corners>> {
     let one = (turn(), point(), prop::array::uniform3(0.125..1.0f64));
     prop::collection::vec(one, 1..3).prop_map(|list| {
@@ -179,7 +179,7 @@ pub fn boxes() -> impl Strategy<Value = Vec<Corners>> {
     })
 }
 
-/// Edges that end in the middle of another's edge, on a lattice or not.
+/// Edges that end in the middle of another edge, on a lattice or not.
 pub fn t_junctions() -> impl Strategy<Value = Vec<Corners>> {
     let at = prop_oneof![lattice_point().boxed(), point().boxed()];
     let one = (prop::array::uniform3(at.clone()), at);
@@ -188,7 +188,7 @@ pub fn t_junctions() -> impl Strategy<Value = Vec<Corners>> {
     })
 }
 
-/// Convex polygons that are planar to the last bit, some with corners on a straight line.
+/// Convex polygons that are planar to the last bit, some with collinear corners.
 pub fn lattice_ngons() -> impl Strategy<Value = Vec<Corners>> {
     prop::collection::vec(lattice_ngon(), 1..5)
 }
@@ -202,7 +202,7 @@ pub fn lattice_ngon() -> impl Strategy<Value = Corners> {
     })
 }
 
-/// Convex polygons that are planar but for rounding, or for a noise of 1e-15 to 1e-10.
+/// Convex polygons that are planar except for rounding, or for a noise of 1e-15 to 1e-10.
 pub fn rounded_ngons() -> impl Strategy<Value = Vec<Corners>> {
     let noise = prop_oneof![Just(0.0), (-15..=-10i32).prop_map(|e| 10f64.powi(e))];
     let one = (3..=12usize, turn(), point(), noise, prop::collection::vec(-1.0..1.0f64, 12));
@@ -217,7 +217,7 @@ pub fn rounded_ngons() -> impl Strategy<Value = Vec<Corners>> {
     })
 }
 
-/// Triangles with no relation to one another.
+/// Unrelated triangles.
 pub fn chaos() -> impl Strategy<Value = Vec<Corners>> {
     prop::collection::vec(prop::collection::vec(point(), 3), 2..7)
 }

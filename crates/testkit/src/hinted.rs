@@ -1,4 +1,4 @@
-//! Iterators that are wrong about how much they have.
+//! Iterators with wrong size hints.
 
 use binspace::Polygon;
 use binspace::glam::DVec3;
@@ -24,7 +24,7 @@ impl<I: Iterator> Iterator for Hinted<I> {
     }
 }
 
-/// A polygon whose corners come with such a hint.
+/// A polygon whose corners have such a hint.
 impl<I: Iterator<Item = DVec3> + Clone> Polygon for Hinted<I> {
     type Point = DVec3;
 

@@ -1,5 +1,5 @@
-//! What a ray hits, found from the faces alone, exactly: in integers over one denominator, which are never
-//! reduced, and with balls around runs of faces, to pass over most of them.
+//! The hits of a ray, computed from the faces alone, exactly: in integers over one denominator, which are
+//! never reduced. Balls around runs of faces exclude most of them.
 
 use super::model;
 use super::rational::{self, Point, Rational};
@@ -14,7 +14,7 @@ use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-/// How many faces in a row have a ball.
+/// The number of consecutive faces that share a ball.
 const RUN: usize = 16;
 
 /// The faces of a tree, or of a tree and an overlay, made ready for rays.
@@ -23,19 +23,19 @@ pub struct Oracle<'t> {
     overlay: Option<&'t Overlay>,
     given: &'t Faces,
     faces: Vec<Face>,
-    /// The same in rationals, as far as they were asked for.
+    /// The faces in rationals, computed on demand.
     models: Vec<OnceLock<model::Face>>,
     /// Each face in floats, with a bounding ball.
     rough: Vec<Rough>,
-    /// Bounding balls of [`RUN`] faces in a row.
+    /// Bounding balls of [`RUN`] consecutive faces.
     balls: Vec<Rough>,
-    /// Where the lattice's origin is, and the exponent of the length of its steps.
+    /// The lattice's origin, and the exponent of the length of its steps.
     origin: DVec3,
     step: i32,
     middle: DVec3,
 }
 
-/// A face in floats, or all that is in a ball.
+/// A face in floats, or the contents of a ball.
 struct Rough {
     corners: Vec<DVec3>,
     centre: DVec3,
@@ -46,7 +46,7 @@ struct Face {
     normal: Vector,
     offset: IBig,
     corners: Vec<Vector>,
-    /// The two axes along which it is looked at.
+    /// The two axes of its projection.
     seen: [usize; 2],
     polygon: usize,
 }
@@ -75,7 +75,7 @@ struct Chord {
     facing: Ordering,
 }
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
     pub rays: usize,
@@ -177,7 +177,8 @@ impl Face {
         }
     }
 
-    /// Which way the border turns from a corner to the next around a point `at` / `under`, for all.
+    /// The direction in which the border turns from a corner to the next around a point `at` / `under`, for
+    /// all corners.
     fn turns(&self, at: [&IBig; 2], under: &IBig) -> Vec<Ordering> {
         let [i, j] = self.seen;
         let next = self.corners.iter().cycle().skip(1);
@@ -193,7 +194,7 @@ impl Face {
         !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
     }
 
-    /// What a line has in common with the face, ends left aside.
+    /// The common part of a line and the face, without its ends.
     fn chord(&self, line: &Line) -> Option<([Fraction; 2], Ordering)> {
         let slope = scalar(&self.normal, &line.direction);
         let start = scalar(&self.normal, &line.from) - (&self.offset << line.bits);
@@ -207,7 +208,7 @@ impl Face {
         self.has([&at[0], &at[1]], &under).then(|| ([u.clone(), u], facing))
     }
 
-    /// The same of a line in the plane: from the least to the largest of where it meets the border.
+    /// The common part of a line in the plane: from the least to the largest intersection with the border.
     fn along(&self, line: &Line) -> Option<[Fraction; 2]> {
         let [i, j] = self.seen;
         let [dx, dy] = [&line.direction[i], &line.direction[j]];
@@ -216,7 +217,7 @@ impl Face {
             let inside = self.has([&line.from[i], &line.from[j]], &one);
             return inside.then(|| [Fraction::whole(0), Fraction::whole(0)]);
         }
-        // Corners relative to the beginning, and on which side of the line they are.
+        // Corners relative to the beginning, and their sides of the line.
         let arms: Vec<[IBig; 2]> = self
             .corners
             .iter()
@@ -346,8 +347,8 @@ impl<'t> Oracle<'t> {
         }
     }
 
-    /// The faces that a line may meet: looked for from where it is nearest to the scene, so that floats lose
-    /// little.
+    /// The faces that a line may meet: tested from the point where it is nearest to the scene, so that
+    /// floats lose little.
     fn near(&self, line: &Line) -> Vec<usize> {
         let number = |c: &IBig| c.to_f64().value();
         let unit = 2f64.powi(-(line.bits as i32));
@@ -424,7 +425,7 @@ impl<'t> Oracle<'t> {
         Some(line.parameter(&first))
     }
 
-    /// Whether a ray has a point so far from the scene that it may meet nothing, as the docs of `Ray` say.
+    /// Whether a ray has a point so far from the scene that it may meet nothing, see `Ray`.
     fn may_miss(&self, ray: Ray) -> bool {
         let faces = self.given;
         let corners = (0..faces.len() as u32).flat_map(|face| faces.corners(face));
@@ -439,7 +440,7 @@ impl<'t> Oracle<'t> {
         points.iter().any(|&point| (low - point).max(point - high).max_element() > far)
     }
 
-    /// Compares what the tree says of a ray with what it should.
+    /// Compares the tree's answers for a ray with the right ones.
     pub fn check(&self, ray: Ray, score: &mut Score) -> Result<(), String> {
         let line = self.line(ray);
         let chords = self.chords(&line);
@@ -471,7 +472,7 @@ impl<'t> Oracle<'t> {
         }
         for (hit, truth) in hits.iter().zip(&truth) {
             self.check_place(&line, hit, &truth.enter).map_err(|what| fault(&what))?;
-            // Rationals of a fragment's vertices are large, so only some are looked at.
+            // Rationals of a fragment's vertices are large, so only some are tested.
             let has_point = || {
                 let axis = main_axis(&self.faces[truth.face].normal);
                 let vertices = self.vertices(hit.fragment().index());
@@ -499,7 +500,7 @@ impl<'t> Oracle<'t> {
         Ok(())
     }
 
-    /// The parameter and the point are as near as is promised.
+    /// Checks that the parameter and the point are as near as documented.
     fn check_place(&self, line: &Line, hit: &Hit<'_>, u: &Fraction) -> Result<(), String> {
         let (exact, rounded) = (line.parameter(u), hit.parameter());
         if (rounded - exact).abs() > exact.abs() * 2f64.powi(-52) && exact.is_normal() {
@@ -540,7 +541,7 @@ impl Rough {
         Self { corners: vec![], centre, radius }
     }
 
-    /// Whether a line may meet the face: generous.
+    /// Whether a line may meet the face, with a margin.
     fn is_near(&self, from: DVec3, direction: DVec3) -> bool {
         let size = from.abs().max_element() + self.centre.abs().max_element() + self.radius;
         let slack = 1e-9 * size;

@@ -1,7 +1,7 @@
 //! Checks a tree's fragments in exact rationals.
 //!
-//! A fragment's vertices are computed from the lines that bound it, not from the library's own
-//! definition of them, and every decision is made again.
+//! A fragment's vertices are computed from the lines that bound it, not from the library's definition of
+//! them, and every decision is made again.
 
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
@@ -10,11 +10,11 @@ use binspace::internals::{EdgeLine, Lattice, Side, VertexId};
 use binspace::{BspTree, Fragment};
 use num_traits::Zero;
 
-/// What is wrong, in words.
+/// The fault, in words.
 pub type Verdict = Result<(), String>;
 
-/// What a library vertex may be off by, in lattice units, as its documentation says: three
-/// roundings of a coordinate a little beyond 2⁵¹.
+/// The largest error of a library vertex, in lattice units, as documented: three roundings of a coordinate
+/// slightly beyond 2⁵¹.
 pub const POSITION_ERROR: f64 = 0.77;
 
 /// A fragment in rationals.
@@ -45,7 +45,7 @@ pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
-/// Every check of this file that holds for a tree of a cell: all but that faces are there as a whole.
+/// Every check of this file that holds for the tree of a cell: all except that faces are complete.
 pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate()?;
     let judge = Judge::new(tree);
@@ -96,8 +96,8 @@ impl<'t> Judge<'t> {
         self.tree.fragments().zip(&self.pieces).map(move |(f, piece)| (f, face(&f), piece))
     }
 
-    /// Every fragment is a convex piece with area, and its rounded vertices are where the exact
-    /// ones are.
+    /// Checks that every fragment is a convex piece with area, and that its rounded vertices are at the
+    /// exact ones.
     fn outlines(&self) -> Verdict {
         for (fragment, face, piece) in self.with_pieces() {
             let n = piece.points.len();
@@ -127,13 +127,14 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// The fragments of a face have its area, exactly, and tile each of its edges from end to end.
+    /// Checks that the fragments of a face have its area, exactly, and tile each of its edges from end to
+    /// end.
     fn coverage(&self) -> Verdict {
         let mut covers = self.covers();
         covers.iter_mut().enumerate().try_for_each(|(face, cover)| self.is_covered(face, cover))
     }
 
-    /// What is there of each face.
+    /// The covered part of each face.
     pub fn covers(&self) -> Vec<Cover> {
         let empty = |face: &Face| Cover {
             area: Rational::zero(),
@@ -153,7 +154,7 @@ impl<'t> Judge<'t> {
         covers
     }
 
-    /// Whether a face is covered once by what is there of it.
+    /// Checks that a face is covered once.
     pub fn is_covered(&self, id: usize, cover: &mut Cover) -> Verdict {
         let face = &self.faces[id];
         let axis = model::main_axis(&face.plane);
@@ -172,7 +173,8 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// Every fragment lies where the rules of the library put it, of every plane above it.
+    /// Checks that every fragment lies on the right side of every plane above it, by the rules of the
+    /// library.
     fn sides(&self) -> Verdict {
         let faces = self.tree.faces();
         for node in self.tree.nodes() {
@@ -199,8 +201,8 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// Weights sum to 1 and give the vertices back from the polygon's own corners; edges said to
-    /// be the polygon's lie on them.
+    /// Checks that weights sum to 1 and give the vertices back from the polygon's own corners, and that
+    /// edges said to be the polygon's lie on them.
     fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
         let faces = self.tree.faces();
         let lattice = faces.lattice();
@@ -210,7 +212,7 @@ impl<'t> Judge<'t> {
         for (fragment, _, _) in self.with_pieces() {
             let corners = &polygons[fragment.polygon()];
             let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
-            // Next to 0 the least step of `f64` is more than all of these.
+            // Near 0 the least step of `f64` is more than all of these.
             let least = f64::from_bits(1);
             let allowed = 8.0 * (moved + step + size * f64::EPSILON + least);
             for (vertex, weights) in fragment.vertices().zip(fragment.weights()) {
@@ -241,7 +243,7 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon on the lattice, from its corner to the next one that is elsewhere.
+/// An edge of a polygon on the lattice, from its corner to the next different one.
 fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
     let snapped = |corner: &DVec3| DVec3::from_array(lattice.snap(*corner));
     let a = snapped(&corners[edge]);
@@ -249,14 +251,14 @@ fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2]
     [a, next.find(|&next| next != a).unwrap_or(a)]
 }
 
-/// How far along an edge of a face a point on it is: 0 to 1.
+/// The position of a point along an edge of a face: 0 to 1.
 fn along(face: &Face, edge: usize, point: &Point) -> Rational {
     let [a, b] = [edge, (edge + 1) % face.corners.len()].map(|k| &face.corners[k]);
     let axis = (0..3).find(|&axis| a[axis] != b[axis]).expect("an edge of some length");
     (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
 }
 
-/// The vertex where two lines that follow one another around a piece meet.
+/// The vertex where two consecutive lines around a piece meet.
 pub fn meeting(before: EdgeLine, after: EdgeLine, corners: u32) -> VertexId {
     match (before.as_edge(), before.as_cut(), after.as_cut()) {
         (_, _, Some(plane)) => VertexId::crossing(before, plane),

@@ -1,6 +1,6 @@
-//! Drawings of translucent polygons: at the centre of each pixel, the same polygons in the same order as
-//! the fragments of the tree, by integers of another hand; where some are opaque, those before the first
-//! of these and itself.
+//! Drawings of translucent polygons: the centre of each pixel must have the same polygons in the same order
+//! as the fragments of the tree, by separate integers. If some are opaque, only the nearest opaque one and
+//! those in front of it.
 
 use std::collections::{HashMap, HashSet};
 
@@ -20,7 +20,7 @@ pub struct Layers {
     pub polygons: usize,
     pub fragments: usize,
     pub paths: usize,
-    /// Polygons that are drawn though no pixel shows them, and those that do not show at all.
+    /// Polygons that are drawn although no pixel shows them, and polygons that are not visible at all.
     pub small: usize,
     pub hidden: usize,
     /// Paths of opaque polygons that are parts.
@@ -51,7 +51,7 @@ pub fn check_layers(tree: &BspTree, camera: &Camera, score: &mut Layers) -> Resu
     Ok(())
 }
 
-/// The same of polygons with opacities.
+/// The same check for polygons with opacities.
 pub fn check_mixed(
     tree: &BspTree,
     camera: &Camera,
@@ -61,7 +61,7 @@ pub fn check_mixed(
     let truth = truth(tree, camera)?;
     let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     let drawing = map.drawing().expect("memory");
-    // Of needles thinner than that, outlines have nothing.
+    // Outlines do not contain needles thinner than that.
     let mut by_cells = Picture::new(map.size());
     for cell in map.cells() {
         let corners: Vec<[f64; 2]> = cell.corners().collect();
@@ -84,7 +84,7 @@ pub fn check_mixed(
             }
         }
     }
-    // What shows is drawn, and nothing else.
+    // Visible polygons are drawn, and nothing else.
     let shown: Vec<_> = map.polygons().collect();
     if shown.len() != paths.len() || shown.iter().any(|shown| !paths.contains_key(&shown.polygon)) {
         return Err(format!("shown {shown:?}, drawn {paths:?}"));
@@ -92,8 +92,8 @@ pub fn check_mixed(
     Ok(())
 }
 
-/// Nothing opaque is before the polygons that show, by rays. (Where polygons within the tolerance of one
-/// plane overlap, the order decides, and rays do not know.)
+/// Checks by rays that nothing opaque is in front of the visible polygons. (Where polygons within the
+/// tolerance of one plane overlap, the order decides, which rays do not know.)
 pub fn check_sight(
     tree: &BspTree,
     camera: &Camera,
@@ -117,8 +117,8 @@ pub fn check_sight(
     Ok(())
 }
 
-/// Each pixel is in the region of the polygons that show there, and in no other; and regions of a polygon
-/// have its area.
+/// Checks that each pixel is in the region of the polygons visible there, and in no other; and that regions
+/// of a polygon have its area.
 pub fn check_regions(
     map: &VisibilityMap<'_>,
     truth: &[Vec<usize>],
@@ -164,15 +164,15 @@ fn area(outline: &[[f64; 2]]) -> f64 {
     outline.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
-/// Of layers, back to front, those that show: opaque ones hide all before.
+/// The visible ones of some layers, back to front: opaque ones hide all before.
 fn visible(layers: &[usize], opacity: &dyn Fn(usize) -> f64) -> Vec<usize> {
     let last = layers.iter().rposition(|&polygon| opacity(polygon) == 1.0);
     let rest = &layers[last.unwrap_or(0)..];
     rest.iter().copied().filter(|&polygon| opacity(polygon) > 0.0).collect()
 }
 
-/// Compares what a drawing paints at each pixel with the polygons there, back to front; how many paths
-/// each polygon has, and how many of these are parts. `is_flat`: no polygon was flattened.
+/// Compares the paint of a drawing at each pixel with the polygons there, back to front. Returns the number
+/// of paths of each polygon, and the number of these that are parts. `is_flat`: no polygon was flattened.
 fn compare(
     drawing: &Drawing,
     truth: &[Vec<usize>],
@@ -202,7 +202,8 @@ fn compare(
     let mut seen = HashSet::new();
     for (i, (found, truth)) in found.iter().zip(truth).enumerate() {
         let (found, truth) = (visible(found, opacity), visible(truth, opacity));
-        // Flattened faces part at the edges that they share: there the tree's fragments reveal polygons behind them.
+        // Flattened faces have gaps at the edges that they share: there the tree's fragments reveal
+        // polygons behind them.
         if is_flat || !is_unsure[i] {
             seen.extend(truth.iter().copied());
         }

@@ -1,5 +1,5 @@
-//! The test kit: exact oracles to judge the library by, scenes that are hard to decide, choices from
-//! a seed, and the bodies of the fuzz targets. Tests, benches and fuzzing share it.
+//! The test kit: exact oracles for the library, scenes that are hard to decide, random choices from a seed,
+//! and the bodies of the fuzz targets. Tests, benches and fuzzing share it.
 
 pub mod as_given;
 pub mod browser;

@@ -1,13 +1,12 @@
-//! The library's faces and pieces in exact rationals, by formulas of its own: planes by their
-//! coefficients, vertices as crossings of segments and by Cramer's rule, pieces by
-//! Sutherland–Hodgman.
+//! The library's faces and pieces in exact rationals, by separate formulas: planes by their coefficients,
+//! vertices as crossings of segments and by Cramer's rule, pieces by Sutherland–Hodgman.
 
 use super::rational::{self, Plane, Point, Rational};
 use super::vector;
 use binspace::internals::{EdgeLine, Faces, PlaneId, PlaneKind, Side, VertexId, VertexKind};
 use std::cmp::Ordering;
 
-/// A vertex of a piece, and what bounds the piece from it to the next.
+/// A vertex of a piece, and the line that bounds the piece from it to the next.
 #[derive(Clone, Debug)]
 pub struct Vertex {
     pub point: Point,
@@ -43,7 +42,7 @@ impl Face {
         self.corners.iter().zip(lines).map(|(c, line)| Vertex { point: c.clone(), line }).collect()
     }
 
-    /// The point that a name stands for.
+    /// The point that has a name.
     pub fn resolve(&self, faces: &Faces, vertex_id: VertexId) -> Point {
         match vertex_id.kind() {
             VertexKind::Corner(k) => self.corners[k as usize].clone(),
@@ -71,8 +70,8 @@ impl Face {
         self.corners.iter().zip(next).map(turn).min().expect("corners")
     }
 
-    /// Every answer that the rules of the library allow: one, but where a corner is as far
-    /// from the plane as the tolerance, to within the rounding of the tolerance.
+    /// Every answer that the rules of the library allow: one, except if a corner is as far from the plane
+    /// as the tolerance, up to the rounding of the tolerance.
     pub fn classify(
         &self,
         (faces, face): (&Faces, u32),

@@ -1,8 +1,8 @@
-//! Pages as a compositor of CSS 3D layers has them, from a seed: for tests, benches and examples.
+//! Pages like those of a compositor of CSS 3D layers, from a seed: for tests, benches and examples.
 //!
-//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle
-//! around its own origin; its matrix places it on a screen of [`SCREEN`] pixels and holds the
-//! page's perspective. No layer reaches behind the eye.
+//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its
+//! own origin; its matrix places it on a screen of [`SCREEN`] pixels and includes the page's perspective.
+//! No layer reaches behind the eye.
 
 use super::dice::Dice;
 use binspace::glam::{DMat4, DVec3, dvec3};
@@ -13,16 +13,16 @@ pub const SCREEN: [f64; 2] = [1920.0, 1080.0];
 /// The distance of the eye from the plane z = 0.
 const PERSPECTIVE: f64 = 1200.0;
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Page {
     /// A ring of cards, each of which crosses its two neighbours.
     Carousel,
     /// Parallel cards, three in each plane, in no order of depth.
     Stack,
-    /// Cubes of six faces each, turned every way, that do not meet.
+    /// Cubes of six faces each, rotated in every way, that do not meet.
     Cubes,
-    /// Cards that go through each other every way.
+    /// Cards that cross each other in every way.
     Crossing,
 }
 
@@ -40,7 +40,7 @@ impl Page {
         }
     }
 
-    /// So many layers, the same for the same seed.
+    /// `count` layers, the same for the same seed.
     pub fn layers(self, count: usize, seed: u64) -> Vec<PageLayer> {
         let mut dice = Dice(seed);
         let camera = camera();
@@ -55,7 +55,7 @@ impl Page {
     }
 }
 
-/// A layer of a page: the rectangle from −`half` to `half` and where it is placed.
+/// A layer of a page: the rectangle from −`half` to `half` and its matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageLayer {
     /// Half its width and height.
@@ -83,7 +83,7 @@ pub fn camera() -> DMat4 {
     DMat4::from_translation(middle) * perspective
 }
 
-/// Half the size of a layer, and where it is in space.
+/// Half the size of a layer, and its place in space.
 type Placed = ([f64; 2], DMat4);
 
 fn carousel(count: usize, dice: &mut Dice) -> Vec<Placed> {
@@ -106,7 +106,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
         * DMat4::from_rotation_y(dice.range(-0.7, 0.7));
     let planes = count.div_ceil(3);
     let place = |k: usize| {
-        // Planes in a scattered order: a step that has no divisor in common with their number.
+        // Planes in a scattered order: the step is coprime to their number.
         let plane = (k % planes) * scatter(planes) % planes;
         let z = 400.0 * (plane as f64 / planes as f64 - 0.7);
         let at = dvec3(dice.range(-250.0, 250.0), dice.range(-150.0, 150.0), z);
@@ -116,7 +116,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
     (0..count).map(place).collect()
 }
 
-/// A number without a common divisor with `count`, near its golden section.
+/// A number coprime to `count`, near its golden section.
 fn scatter(count: usize) -> usize {
     let shares_none = |&step: &usize| {
         let (mut a, mut b) = (step, count);
@@ -132,7 +132,7 @@ fn cubes(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let number = count.div_ceil(6);
     let columns = ((number as f64 * 16.0 / 9.0).sqrt().ceil() as usize).max(1);
     let cell = 1200.0 / columns as f64;
-    // A cube turned any way fits a ball of this radius times √3.
+    // A rotated cube fits a ball of this radius times √3.
     let half = 0.5 * cell / 3.0f64.sqrt();
     let rows = number.div_ceil(columns);
     let mut places = Vec::with_capacity(count);

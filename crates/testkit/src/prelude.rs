@@ -1,4 +1,4 @@
-//! What most tests use.
+//! The imports of most tests.
 
 pub use super::dice::Dice;
 pub use super::effort::{cases, seeds, times};

@@ -1,7 +1,7 @@
-//! Checks that an order paints far before near: rays against fragments, in big integers.
+//! Checks that an order paints far before near: compares rays with fragments, in big integers.
 //!
-//! Which fragments a ray hits, and where, is found from the lines of the source faces alone, for
-//! every fragment, without the tree.
+//! The fragments that a ray hits, and the hits' places, are computed from the lines of the source faces
+//! alone, for every fragment, without the tree.
 
 use super::dice::Dice;
 use super::judge::{Verdict, ensure};
@@ -18,8 +18,8 @@ use std::ops::Range;
 
 pub type Vector = vector::Vector<IBig>;
 
-/// Where a ray has more hits than this, only neighbours in the order are compared: if all of them
-/// come out right, so do the others, but for what the tolerance excuses.
+/// If a ray has more hits than this, only neighbours in the order are compared: if all of them are right,
+/// so are the others, except for those that the tolerance excuses.
 const MANY: usize = 48;
 
 type Plane = vector::Plane<IBig>;
@@ -43,7 +43,7 @@ fn length(plane: &Plane) -> f64 {
     DVec3::from_array(plane.normal.each_ref().map(float)).length()
 }
 
-/// A plane at a ray: its value at the origin, and how that changes along the ray.
+/// A plane at a ray: its value at the origin, and its change along the ray.
 pub struct AtRay {
     start: IBig,
     slope: IBig,
@@ -64,7 +64,7 @@ impl Ray {
         is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
     }
 
-    /// Where it meets a hit, rounded, and where it begins, if it has a beginning.
+    /// The rounded place of a hit, and the ray's beginning, if it has one.
     pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
         let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().value()));
         let at = |i: usize| {
@@ -80,7 +80,7 @@ impl Ray {
     }
 }
 
-/// Where a ray goes through a fragment: at −start/slope of its face's plane, slope above 0.
+/// The point where a ray passes through a fragment: at −start/slope of its face's plane, slope above 0.
 pub struct Hit {
     pub fragment: u32,
     face: AtRay,
@@ -105,9 +105,9 @@ pub struct Rays<'t> {
     tree: &'t BspTree,
     planes: Vec<Plane>,
     fragments: Vec<Outline>,
-    /// How many pairs of hits have been compared.
+    /// The number of compared pairs of hits.
     pub pairs: usize,
-    /// How many of them only the tolerance excuses.
+    /// The number of pairs that only the tolerance excuses.
     pub contested: usize,
 }
 
@@ -146,8 +146,7 @@ impl<'t> Rays<'t> {
         Self { tree, planes, fragments, pairs: 0, contested: 0 }
     }
 
-    /// Shoots rays from a viewpoint at points of fragments, and holds what they hit against the
-    /// order.
+    /// Shoots rays from a viewpoint at points of fragments, and compares their hits with the order.
     pub fn check(&mut self, view: &View, rays: usize, dice: &mut Dice) -> Verdict {
         let mut order = Vec::new();
         self.tree.back_to_front_into(view.viewpoint, &mut order);
@@ -180,7 +179,7 @@ impl<'t> Rays<'t> {
         sum / total
     }
 
-    /// What a ray goes through, inside of its outline.
+    /// The hits of a ray inside the outlines of fragments.
     pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
         let hit = |(id, (own, bounds)): (usize, &Outline)| {
@@ -196,7 +195,7 @@ impl<'t> Rays<'t> {
         self.fragments.iter().enumerate().filter_map(hit).collect()
     }
 
-    /// Holds two hits of a ray against the places of their fragments in an order.
+    /// Compares two hits of a ray with the places of their fragments in an order.
     pub fn compare(&mut self, ray: &Ray, a: &Hit, b: &Hit, place: &[usize]) -> Verdict {
         self.pairs += 1;
         let [p, q] = [a, b].map(|hit| place[hit.fragment as usize]);
@@ -220,9 +219,8 @@ impl<'t> Rays<'t> {
         product(&g.normal, &h.normal).iter().all(Zero::is_zero)
     }
 
-    /// Whether the plane that told two fragments apart has the nearer hit within the tolerance, and
-    /// the other hit or the eye as well; if both count as lying on it, they must come in input
-    /// order.
+    /// Whether the plane that separated two fragments has the nearer hit within the tolerance, and the
+    /// other hit or the eye as well; if both count as lying on it, they must come in input order.
     fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
         let ids = hits.map(|hit| hit.fragment);
         let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();

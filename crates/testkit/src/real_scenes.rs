@@ -1,4 +1,4 @@
-//! Where real scenes are. Tests that need them are ignored, and have `real_scenes` in their names, so
+//! The folder of real scenes. Tests that need them are ignored, and have `real_scenes` in their names, so
 //! that `cargo test real_scenes -- --ignored` runs them.
 
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Trees as bytes, and everything that can be done with a tree.
+//! Trees as bytes, and every use of a tree.
 
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
@@ -40,11 +40,11 @@ const EYES: [Viewpoint; 4] = [
     Viewpoint::Direction(DVec3::Z),
 ];
 
-/// Calls every method of a tree, which may be of a forged file: its faces and planes may be any, but the
-/// tree is right.
+/// Calls every method of a tree, which may come from a forged file: its faces and planes may be any, but
+/// the tree is right.
 pub fn use_all(tree: &BspTree) -> Verdict {
     tree.validate()?;
-    // What is only looked at here must not panic.
+    // These results are not compared, but must not panic.
     let _ = (tree.stats(), tree.memory_usage(), format!("{tree:?}"));
     ensure(tree.dropped().count() == tree.preparation().dropped, || "dropped".into())?;
     for viewpoint in EYES {
@@ -52,7 +52,7 @@ pub fn use_all(tree: &BspTree) -> Verdict {
         tree.same_order(viewpoint, EYES[0]);
     }
     use_fragments(tree)?;
-    // Not the rounded normals: a forged plane may have none.
+    // Without the rounded normals: a forged plane may have none.
     let places = |node: Node<'_>| (node.index(), node.depth(), node.on(), node.fragments());
     let nodes: Vec<_> = tree.nodes().map(places).collect();
     let mut backwards: Vec<_> = tree.nodes().rev().map(places).collect();
@@ -99,7 +99,7 @@ fn use_walks(tree: &BspTree) -> Verdict {
     Ok(())
 }
 
-/// Places of a tree, some of them: vertices, and points between them.
+/// Some places of a tree: vertices, and points between them.
 fn places(tree: &BspTree) -> Vec<DVec3> {
     let vertices = tree.fragments().flat_map(|fragment| fragment.vertices());
     let some: Vec<DVec3> = vertices.take(200).step_by(1 + tree.len() / 4).take(7).collect();
@@ -107,7 +107,7 @@ fn places(tree: &BspTree) -> Vec<DVec3> {
     between.chain(some.iter().copied()).collect()
 }
 
-/// How many hits of a ray are read.
+/// The number of hits of a ray that are read.
 const HITS: usize = 100;
 
 /// Runs every query of points, rays and regions.
@@ -150,7 +150,7 @@ fn use_extend(tree: &BspTree) {
     let mut more = tree.clone();
     let places = places(tree);
     let polygons = [places.iter().copied().take(3).collect::<Vec<_>>(), places];
-    // It may well be refused: a budget keeps it short.
+    // It may be refused: a budget keeps it short.
     let options = BuildOptions::DEFAULT.with_max_fragments(4 * tree.len() + 100);
     if options.extend(&mut more, &polygons).is_ok() {
         assert_eq!(more.preparation().polygons, tree.preparation().polygons + 2);
@@ -163,7 +163,7 @@ fn use_overlay(tree: &BspTree) {
     let mut overlay = Overlay::new(tree);
     let corners = tree.fragments().flat_map(|fragment| fragment.vertices()).take(9);
     let corners: Vec<DVec3> = corners.collect();
-    // Polygons from place to place of the tree; they may well be none.
+    // Polygons between places of the tree; they may be degenerate.
     let polygons: Vec<[DVec3; 3]> = corners.as_chunks::<3>().0.to_vec();
     let mut order = Vec::new();
     if overlay.replace(tree, &polygons).is_ok() {
@@ -228,7 +228,7 @@ fn use_pictures(tree: &BspTree) {
     let points = || tree.fragments().flat_map(|fragment| fragment.vertices());
     let Some(low) = points().reduce(DVec3::min) else { return };
     let high = points().fold(low, DVec3::max);
-    // Around a tree as large as numbers go there is no camera.
+    // There is no camera around a tree as large as the largest numbers.
     let cameras = view::views([low, high], DVec3::Z, 2, [24, 18], 3).unwrap_or_default();
     for camera in cameras {
         let _ = (verify(tree, &camera), verify_fronts(tree, &camera));
@@ -236,7 +236,7 @@ fn use_pictures(tree: &BspTree) {
     }
 }
 
-/// The map of what is visible, and the drawings of it; a forged tree may have none.
+/// The visibility map and its drawings; a forged tree may have none.
 fn use_drawing(tree: &BspTree, camera: &view::Camera) {
     let Ok(map) = tree.visibility(camera, &ViewOptions::DEFAULT) else { return };
     let corners: usize = map.cells().map(|cell| cell.corners().len()).sum();

@@ -31,8 +31,8 @@ pub fn trees<P: Polygon>(polygons: &[P], options: BuildOptions) -> Vec<(String, 
     Heuristic::ALL.iter().map(tree).chain([("frame".to_owned(), frame)]).collect()
 }
 
-/// Triangles around points whose coordinates are between two numbers, with corners up to `edge` off these along each
-/// axis.
+/// Triangles around points whose coordinates are between two numbers, with corners up to `edge` off these
+/// along each axis.
 pub fn triangles(dice: &mut Dice, count: usize, [low, high]: [f64; 2], edge: f64) -> Vec<Corners> {
     let triangle = |_| {
         let centre = dice.point(low, high);

@@ -1,11 +1,11 @@
-//! Polygons with one difficulty each, from plain parameters.
+//! Polygons with one difficulty each, from simple parameters.
 
 use binspace::Polygon;
 use binspace::glam::{DMat3, DQuat, DVec3};
 
 pub type Corners = Vec<DVec3>;
 
-/// A polygon that claims a precision.
+/// A polygon with a stated precision.
 #[derive(Clone, Debug)]
 pub struct Claim {
     pub corners: Corners,
@@ -58,13 +58,13 @@ pub fn near_coplanar_pair(turn: DMat3, angle: f64, shift: DVec3) -> Vec<Corners>
     vec![base.map(|p| turn * p).to_vec(), base.map(|p| turn * (tilt * p) + shift).to_vec()]
 }
 
-/// Squares one over the other, each shifted within its plane so that outlines cross.
+/// Squares one above the other, each shifted within its plane so that outlines cross.
 pub fn layers(turn: DMat3, gap: f64, count: usize) -> Vec<Corners> {
     let at = |k: usize| DVec3::new(0.3 * k as f64, -0.2 * k as f64, gap * k as f64);
     (0..count).map(|k| square(turn, turn * at(k))).collect()
 }
 
-/// A triangle that is long and next to no width.
+/// A triangle that is long and almost without width.
 pub fn sliver(turn: DMat3, width: f64, along: f64, centre: DVec3) -> Corners {
     [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(along, width, 0.0)]
         .map(|p| turn * p + centre)
@@ -92,9 +92,9 @@ pub fn cuboid(turn: DMat3, centre: DVec3, size: DVec3) -> Vec<Corners> {
     (0..3).flat_map(|axis| [side(axis, 1.0), side(axis, -1.0)]).collect()
 }
 
-/// A convex polygon with integer corners in the plane z = 0: the edges are those given, each
-/// pair once forwards and once backwards, sorted by direction. Parallel ones follow one another,
-/// so that some corners lie on a straight line.
+/// A convex polygon with integer corners in the plane z = 0. Its edges are the given ones, each pair once
+/// forwards and once backwards, sorted by direction. Parallel edges are consecutive, so some corners are
+/// collinear.
 pub fn convex_on_grid(edges: &[[i32; 2]]) -> Vec<[i32; 2]> {
     let both = |&[x, y]: &[i32; 2]| {
         let x = if [x, y] == [0, 0] { 1 } else { x };

@@ -5,7 +5,7 @@ use binspace::Ray;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 
-/// Makes rays for the faces of a tree; there must be some.
+/// Makes rays for the faces of a tree, which must have some.
 pub struct Shots<'t> {
     faces: &'t Faces,
     low: DVec3,
@@ -25,7 +25,7 @@ impl<'t> Shots<'t> {
         world(self.faces, dice.below(self.faces.corner_count()) as u32)
     }
 
-    /// A point of the plane of a face, inside of it or not: exactly on it where eighths of its edges are
+    /// A point of the plane of a face, inside the face or not: exactly on it if eighths of its edges are
     /// numbers.
     pub fn on_plane(&self, face: u32, dice: &mut Dice) -> DVec3 {
         let [a, b, c] = self.faces.reference_triangle(face).map(|k| world(self.faces, k));
@@ -49,11 +49,11 @@ impl<'t> Shots<'t> {
         [0, 1].map(|_| world(self.faces, (range.start + dice.below(range.len())) as u32))
     }
 
-    /// Any of all kinds of rays, of numbers.
+    /// A ray of any kind, with finite numbers.
     pub fn ray(&self, dice: &mut Dice) -> Ray {
         let ray = self.any_ray(dice);
         let (Ray::Segment { from: a, to: b } | Ray::Endless { from: a, direction: b }) = ray;
-        // In a scene as large as numbers go, some would begin beyond.
+        // In a scene as large as the largest numbers, some rays would begin beyond it.
         if a.is_finite() && b.is_finite() { ray } else { Ray::new(self.corner(dice), DVec3::X) }
     }
 
@@ -84,7 +84,7 @@ impl<'t> Shots<'t> {
                 (a + (a - b) * k, b + (b - a) * k)
             }
             4 => {
-                // A corner right in the middle.
+                // A corner exactly in the middle.
                 let (corner, arm) = (self.corner(dice), self.arm(dice));
                 (corner - arm, corner + arm)
             }
@@ -115,12 +115,12 @@ impl<'t> Shots<'t> {
                 (point, point)
             }
             9 => {
-                // From as far as a ray may begin.
+                // From as far away as a ray may begin.
                 let target = self.corner(dice);
                 (target + self.arm(dice) * 10f64.powi(dice.below(21) as i32), target)
             }
             10 => {
-                // Shorter than floats can tell.
+                // Shorter than floats can resolve.
                 let from = self.corner(dice);
                 let mut to = from;
                 for _ in 0..dice.below(4) {
@@ -146,7 +146,7 @@ impl<'t> Shots<'t> {
         }
     }
 
-    /// A way of about the scene's size, of few digits.
+    /// A vector of about the scene's size, with few digits.
     fn arm(&self, dice: &mut Dice) -> DVec3 {
         let size = (self.high - self.low).max_element();
         let unit = if size > 0.0 { 2f64.powi(size.log2().floor() as i32 - 3) } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Triangles of whole numbers whose corners are all but on one line.
+//! Triangles with integer corners that are almost collinear.
 
 use super::dice::Dice;
 
@@ -12,8 +12,8 @@ pub struct Sliver {
 }
 
 impl Sliver {
-    /// With coordinates up to `size`, and of any length up to about that. Twice its area is that of the
-    /// two steps, or up to a million times as much.
+    /// With coordinates up to `size`, and of any length up to about that. Twice its area is that of the two
+    /// steps, or up to a million times as much.
     pub fn new(dice: &mut Dice, size: i64) -> Self {
         let steps = loop {
             let steps = [0; 2].map(|_| [0; 3].map(|_| whole(dice, 3)));
@@ -57,7 +57,7 @@ fn cross([u, v]: [Point; 2]) -> Point {
     })
 }
 
-/// Numbers a and b with a s + b t the greatest common divisor of s and t, and that.
+/// Numbers a and b for which a s + b t is the greatest common divisor of s and t, and that divisor.
 fn bezout([s, t]: [i64; 2]) -> ([i64; 2], i64) {
     let ([mut r, mut next], [mut x, mut y]) = ([s, t], [[1, 0], [0, 1]]);
     while next != 0 {

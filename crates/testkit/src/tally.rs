@@ -1,11 +1,11 @@
-//! Properties that count what they compare, and floors under such counts.
+//! Properties that count their comparisons, and lower bounds on such counts.
 
 use super::effort::cases;
 use proptest::prelude::*;
 use proptest::test_runner::{TestCaseError, TestRunner};
 use std::cell::RefCell;
 
-/// Holds a property against this many cases, times the effort, and gives back what they counted.
+/// Checks a property for this many cases, times the effort, and returns its counts.
 pub fn tally<S: Strategy, T: Default>(
     source: &'static str,
     count: usize,
@@ -21,7 +21,7 @@ pub fn tally<S: Strategy, T: Default>(
     total.into_inner()
 }
 
-/// A case that fails, for whatever reason.
+/// A failing case, for any reason.
 pub fn fail(why: impl ToString) -> TestCaseError {
     TestCaseError::fail(why.to_string())
 }

@@ -1,5 +1,5 @@
-//! Vectors and planes of exact numbers: big integers, rationals, and integers of 128 bits where these
-//! are large enough.
+//! Vectors and planes of exact numbers: big integers, rationals, and integers of 128 bits if these are
+//! large enough.
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 /// A point or a vector.
 pub type Vector<T> = [T; 3];
 
-/// What exact vectors are made of.
+/// The components of exact vectors.
 pub trait Number: Sized {
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
@@ -69,7 +69,7 @@ pub fn product<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     })
 }
 
-/// How a number compares with zero.
+/// The sign of a number.
 pub fn sign<T: Number>(value: &T) -> Ordering {
     value.sign()
 }
@@ -98,7 +98,7 @@ impl<T: Number> Plane<T> {
         Self { normal, offset }
     }
 
-    /// In front of it, the three points run counter-clockwise.
+    /// The plane in front of which the three points run counter-clockwise.
     pub fn through([p, q, r]: [&Vector<T>; 3]) -> Self {
         Self::new(product(&difference(q, p), &difference(r, p)), p)
     }

@@ -10,7 +10,7 @@ use dashu_int::IBig;
 use num_traits::Signed;
 use std::cmp::Ordering;
 
-/// A viewpoint, with what the library rounds it to.
+/// A viewpoint, and its rounding by the library.
 #[derive(Clone, Debug)]
 pub struct View {
     pub viewpoint: Viewpoint,
@@ -21,7 +21,7 @@ pub struct View {
 }
 
 impl View {
-    /// An eye as near to a point of the lattice as can be.
+    /// The nearest eye to a point of the lattice.
     pub fn eye(faces: &Faces, point: DVec3) -> Self {
         let world = faces.lattice().to_world(point.round().to_array());
         let lattice = DVec3::from(faces.lattice().to_lattice(world)).round();
@@ -39,7 +39,7 @@ impl View {
         matches!(self.viewpoint, Viewpoint::Direction(_))
     }
 
-    /// On which side of a plane it is; on neither if it is on the plane, or looks along it.
+    /// The side of a plane on which it is; neither if it is on the plane, or looks along it.
     pub fn side(&self, plane: &Plane) -> Ordering {
         let towards = if self.is_parallel() { -self.lattice } else { self.lattice };
         rational::sign(&match &self.eye {
@@ -48,13 +48,13 @@ impl View {
         })
     }
 
-    /// The line of sight through a point: where it begins, and where it goes.
+    /// The line of sight through a point: its start and direction.
     pub fn ray_to(&self, target: DVec3) -> (Vector, Vector) {
         let lattice = || vector(self.lattice.to_array());
         match self.viewpoint {
             Viewpoint::Eye(_) => {
                 let direction = ((target - self.lattice) * 256.0).round();
-                // A whole number, but not always one that `f64` holds.
+                // An integer, but not always exact in `f64`.
                 let exact = |eye: &Point| eye.each_ref().map(|c| c.numerator().clone());
                 let origin = self.eye.as_ref().map_or_else(lattice, exact);
                 (origin, vector(direction.to_array()))
@@ -72,9 +72,8 @@ fn whole_direction(direction: DVec3) -> DVec3 {
     (direction / power * (1u64 << 52) as f64).round()
 }
 
-/// An eye as its documentation defines it, in lattice units: rounded to an integer, or, beyond
-/// 2⁶¹, to a multiple of the power of two that keeps 61 bits. `None` if it is too far to be a
-/// point.
+/// An eye as documented, in lattice units: rounded to an integer, or, beyond 2⁶¹, to a multiple of the
+/// power of two that keeps 61 bits. `None` if it is too far to be a point.
 pub fn rounded_eye(exact: Point) -> Option<Point> {
     let size = exact.iter().map(Signed::abs).max().expect("three");
     let fits = |&shift: &u32| size <= power_of_two(61 + shift);
@@ -93,8 +92,8 @@ pub fn power_of_two(exponent: u32) -> Rational {
     Rational::from(IBig::from(1) << exponent as usize)
 }
 
-/// A viewpoint around, inside, on a plane or a corner of the scene, or in line with two of its
-/// fragments; there must be some.
+/// A viewpoint around, inside, on a plane or a corner of the scene, or collinear with two of its fragments,
+/// of which there must be some.
 pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
     let corner =
         |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));

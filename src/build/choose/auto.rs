@@ -1,4 +1,4 @@
-//! The default heuristic: candidates of two kinds, free planes and own ones, and one cost.
+//! The default heuristic: two kinds of candidates, free planes and the pieces' own planes, and one cost.
 
 use super::axis_planes::FreePlanes;
 use super::cost::{CostModel, PricedPlane};
@@ -13,7 +13,7 @@ use crate::build::piece::{Division, Piece};
 use crate::exact::{PlaneId, Side};
 use crate::progress::PIECES_AT_ONCE;
 
-/// Chooses by the default heuristic; its lists are kept to be used again.
+/// Chooses by the default heuristic; its lists are reused.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
     pub(super) free: FreePlanes,
@@ -23,10 +23,10 @@ pub(super) struct Auto {
 }
 
 impl Auto {
-    /// The first that applies of: in frames, an own plane that is good enough; the plane on which all pieces
-    /// lie; of two pieces, the plane of one that does not cut the other; a free plane that cuts nothing;
-    /// pieces that are peeled off; the plane of least cost. Writes where the pieces lie against the plane, if
-    /// that is known.
+    /// Returns the first that applies: in frames, an own plane that is good enough; the plane on which all
+    /// pieces lie; of two pieces, the plane of one that does not cut the other; a free plane that cuts
+    /// nothing; pieces that are peeled off; the plane of least cost. Writes the sides of the pieces on the
+    /// plane, if known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -67,11 +67,11 @@ impl Auto {
         }
     }
 
-    /// The plane on which all pieces lie, if that of a large one is such a plane. Of one piece as well.
+    /// The plane on which all pieces lie, if it is that of a large piece; also for a single piece.
     pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
-        // The planes of small ones may miss the others by what rounding has left.
+        // The planes of small pieces may miss the others because of rounding.
         let size = |&piece: &usize| {
             let Piece { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
@@ -139,7 +139,7 @@ impl Auto {
             if let Some(peeled) = self.peeler.search(set, sketch, 0..set.len(), tuning, watch) {
                 return Ok(Choice::Peel(peeled));
             }
-            // The packed pieces have another order now, in which the first are no sample.
+            // The packed pieces are now in another order, whose first pieces are not a sample.
             self.begin_large(set, &terms, tuning);
             watch.work(set.len())?;
         }
@@ -155,8 +155,8 @@ impl Auto {
     }
 }
 
-/// The plane of one of two pieces, if it does not cut the other: no plane is better, and there is
-/// nothing to search for.
+/// The plane of one of two pieces, if it does not cut the other: no plane is better, so no search is
+/// needed.
 fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     [0, 1].into_iter().find_map(|own| {
         let plane = set.own_plane(own);
@@ -164,7 +164,7 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     })
 }
 
-/// The better of an own plane and a free one; any, if there are none.
+/// The better of an own plane and a free one.
 fn better(
     set: &Set<'_>,
     terms: &CostModel,
@@ -217,7 +217,7 @@ mod tests {
         }
     }
 
-    /// So near that single precision does not tell, wherever among the others it stands.
+    /// So near that single precision cannot decide, at any place among the others.
     #[test]
     fn one_piece_beside_the_plane_of_all_others_is_noticed() {
         let flat = grid(4, |_| 0.0);

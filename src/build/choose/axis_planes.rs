@@ -22,20 +22,20 @@ const FEWEST_BINS: usize = 64;
 /// first cache.
 const MOST_BINS: usize = 256;
 
-/// Searches for free planes; its lists are kept to be used again.
+/// Searches for free planes; its lists are reused.
 #[derive(Debug, Default)]
 pub(super) struct FreePlanes {
     bins: Vec<Bin>,
-    /// Where the pieces of a small set begin and end, and which they are.
+    /// The begin, the end and the number of each piece of a small set.
     spans: Vec<(f64, f64, u32)>,
 }
 
 impl FreePlanes {
     /// An axis plane of low cost that has fewer pieces on each side than the set, if one is found.
     ///
-    /// Counts in which bins pieces begin and end (binned sweep: Wald, “On fast construction of SAH-based
-    /// bounding volume hierarchies”, 2007). Compares the borders of bins, and the places inside bins at
-    /// which all of the bin's ends come before its first beginning: rows of vertices, and gaps. The
+    /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of
+    /// SAH-based bounding volume hierarchies”, 2007). Compares the borders of bins, and the places inside
+    /// bins at which all of the bin's ends come before its first beginning: rows of vertices, and gaps. The
     /// corner nearest the best of these names the plane. Takes O(n) time.
     pub(super) fn best(
         &mut self,
@@ -73,7 +73,7 @@ impl FreePlanes {
                 places.push(best);
             }
         }
-        // Where many ends are cuts, the nearest corner may be so far that its plane separates nothing.
+        // If many ends are cuts, the nearest corner may be so far away that its plane separates nothing.
         places.sort_by(|a, b| a.0.cmp(&b.0));
         let mut planes = places.into_iter().filter_map(|(_, axis, at)| through(set, axis, at));
         Ok(planes.next())
@@ -109,7 +109,7 @@ impl FreePlanes {
             self.spans.reserve(n);
             self.spans.extend(spans);
             self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
-            // Of the pieces so far, the one that reaches furthest, and how far.
+            // The piece so far that reaches furthest, and its end.
             let mut furthest = (f64::NEG_INFINITY, 0);
             for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
                 if behind > 0 && min + tolerance >= furthest.0 {
@@ -159,8 +159,8 @@ fn through(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
     cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
 }
 
-/// A plane between two pieces, the first of which ends before the other begins: at the end of one of
-/// them, or else through a corner of their faces that was cut off.
+/// A plane between two pieces, the first of which ends before the other begins: at the end of one of them,
+/// or otherwise through a corner of their faces that was cut off.
 fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
     let [low, high] = [first.max[axis], next.min[axis]];
     if next.min_is_corner(axis) {
@@ -173,7 +173,8 @@ fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Thr
     corner(next).or_else(|| corner(first)).map(Through::Corner)
 }
 
-/// The axes along which a set has an extent: those first along which it may part, and the longest of them.
+/// The axes along which a set has an extent: first those that may have a gap, and the longest of them
+/// first.
 fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
     let size = set.size();
     let mut axes = [0, 1, 2];
@@ -181,7 +182,7 @@ fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
     axes.into_iter().filter(move |&axis| size[axis] > 0.0)
 }
 
-/// The order of numbers, none of them NaN: less work than a total one.
+/// The order of numbers that are not NaN: less work than a total order.
 #[inline]
 fn compare(a: &f64, b: &f64) -> Ordering {
     if a < b {
@@ -193,16 +194,16 @@ fn compare(a: &f64, b: &f64) -> Ordering {
     }
 }
 
-/// Where a piece begins to reach behind a plane across an axis, and where it no longer reaches in front
-/// of it, by more than the tolerance: one place for a piece thinner than twice that.
+/// Where a piece begins to reach behind a plane across an axis, and where it no longer reaches in front of
+/// it, by more than the tolerance: one place for a piece thinner than twice that.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];
     if begin <= end { [begin, end] } else { [0.5 * (begin + end); 2] }
 }
 
-/// What a plane costs, by how many of `n` pieces have begun and ended there, and how many of these lie on it;
-/// more than any other if all are on one side.
+/// The cost of a plane, from the numbers of the `n` pieces that have begun and ended there, and of those
+/// that lie on it; more than any other if all are on one side.
 #[inline]
 fn cost(n: usize, begun: u32, ended: u32, on: u32) -> Cost {
     let n = n as u32;
@@ -218,7 +219,7 @@ fn cost(n: usize, begun: u32, ended: u32, on: u32) -> Cost {
 struct Bin {
     begun: [u32; 3],
     ended: [u32; 3],
-    /// How many begin and end in the same place.
+    /// The number of pieces that begin and end in the same place.
     flat: [u32; 3],
     /// Where the first piece begins.
     begin: [f64; 3],
@@ -244,8 +245,8 @@ struct Bins {
     last: f64,
 }
 
-/// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster
-/// than a conversion, which would saturate.
+/// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster than
+/// a conversion, which would saturate.
 const TO_INTEGER: f64 = (1_u64 << 52) as f64;
 
 impl Bins {
@@ -270,7 +271,7 @@ impl Bins {
     }
 }
 
-/// A free plane, before it has a name.
+/// A free plane that has no name yet.
 #[derive(Clone, Copy, Debug)]
 struct FreePlane {
     cost: Cost,
@@ -278,12 +279,12 @@ struct FreePlane {
     through: Through,
 }
 
-/// What a free plane goes through.
+/// The definition of a free plane.
 #[derive(Clone, Copy, Debug)]
 enum Through {
-    /// A corner that is not known yet.
+    /// Through a corner that is not known yet.
     Coordinate(f64),
-    /// A corner, numbered over all faces.
+    /// Through a corner, numbered over all faces.
     Corner(u32),
 }
 

@@ -1,4 +1,4 @@
-//! What a plane does to a set of pieces, and what that costs.
+//! The effect of a plane on a set of pieces, and its cost.
 
 use std::cmp::Ordering;
 use std::ops::AddAssign;
@@ -8,7 +8,7 @@ use super::tuning::Tuning;
 use crate::build::piece::Division;
 use crate::exact::{PlaneId, Side};
 
-/// How many pieces lie in front of a plane, behind it, and across.
+/// The numbers of pieces in front of a plane, behind it, and across.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) front: u32,
@@ -35,11 +35,11 @@ impl AddAssign for Counts {
     }
 }
 
-/// What it costs to divide a set by a plane. The lower cost is the better.
+/// The cost of dividing a set by a plane. The lower cost is the better.
 ///
-/// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later.
-/// (Any tree of a set, restricted to one side of a plane, is a tree of that side.) In large sets
-/// whether a plane cuts is left out (see `CostModel::large`).
+/// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later. (Any tree of
+/// a set, restricted to one side of a plane, is a tree of that side.) For large sets, cuts are ignored here
+/// (see `CostModel::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -47,7 +47,7 @@ pub(super) struct Cost {
 }
 
 impl Cost {
-    /// Of a plane by what it does to the pieces: the work left on both sides.
+    /// The cost of a plane from its counts: the work left on both sides.
     #[inline]
     pub(super) fn of(counts: &Counts) -> Self {
         let Counts { front, back, splits } = *counts;
@@ -55,11 +55,10 @@ impl Cost {
         Self { cuts: splits > 0, amount }
     }
 
-    /// More than that of any plane.
+    /// More than the cost of any plane.
     pub(super) const MOST: Self = Self { cuts: true, amount: f64::INFINITY };
 
-    /// Whether it is that of a plane that cuts nothing, and leaves at least one in so many pieces on
-    /// either side.
+    /// Whether the plane splits nothing and leaves at least 1/`uneven` of the pieces on each side.
     pub(super) fn divides_evenly(&self, pieces: usize, uneven: usize) -> bool {
         !self.cuts && self.amount <= work(pieces / uneven) + work(pieces - pieces / uneven)
     }
@@ -81,37 +80,37 @@ impl Cost {
     }
 }
 
-/// What decides between candidates.
+/// The weights for comparing candidates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CostModel {
-    /// What a polygon that fills the box is worth.
+    /// The reward of a polygon that fills the box.
     reward: f64,
     /// Whether a plane that cuts nothing is preferred to all that cut.
     prefers_uncut: bool,
 }
 
 impl CostModel {
-    /// Of a small set: what cuts nothing is preferred.
+    /// For a small set, which prefers planes that cut nothing.
     pub(super) fn small(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
     }
 
-    /// Of so many pieces, cut so many times together.
+    /// Cost terms for `pieces` pieces that have been split `cuts` times in total.
     pub(super) fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
         let pieces = pieces as f64;
         let mean = cuts as f64 / pieces;
         Self { reward: tuning.reward * (1.0 + mean) * pieces, prefers_uncut: true }
     }
 
-    /// Of a large set: whether a plane cuts is left out. The first rounds see a sample, in which many planes
-    /// cut nothing that cut much of the set; and the planes at the rim of a set, which cut nothing either,
-    /// would make a list of it.
+    /// For a large set, cuts are ignored. The first rounds use a sample, in which many planes cut nothing
+    /// that cut much of the set; and the planes at the boundary of a set, which also cut nothing, would
+    /// make a list of it.
     pub(super) fn large(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self { prefers_uncut: false, ..Self::small(set, tuning) }
     }
 
-    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the
-    /// work of a share of the pieces is a fixed share of the work, so costs of samples compare.)
+    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the work of a
+    /// share of the pieces is a fixed share of the work, so costs of samples compare.)
     pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
         Self { reward: self.reward * work(looked) / work(all), ..*self }
     }
@@ -122,25 +121,25 @@ impl CostModel {
         Cost { amount: cost.amount - self.reward * share, ..cost }
     }
 
-    /// A cost as it is compared with others by these terms.
+    /// A cost in the form in which these terms compare it.
     #[inline]
     pub(super) fn compared(&self, cost: Cost) -> Cost {
         Cost { cuts: cost.cuts && self.prefers_uncut, ..cost }
     }
 }
 
-/// A plane with what it costs to divide a set by it.
+/// A plane with its cost.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PricedPlane {
     pub(super) plane: PlaneId,
     pub(super) cost: Cost,
 }
 
-/// The work of putting `n` pieces in order: n^1.25.
+/// The work of sorting `n` pieces into an order: n^1.25.
 ///
-/// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. A
-/// larger exponent balances trees better, and cuts scans more for that; a smaller one prefers planes
-/// at the rim of sets in which every plane cuts much.
+/// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. A larger
+/// exponent balances trees better, and cuts scans more for that; a smaller one prefers planes at the
+/// boundary of sets in which every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
     WORK.get(n).copied().unwrap_or_else(|| {
@@ -149,8 +148,8 @@ pub(super) fn work(n: usize) -> f64 {
     })
 }
 
-/// The work of small sets, which is asked for most often: to take two roots each time instead, builds
-/// take 2 to 4 % longer.
+/// The work of small sets, the most frequent case: computing two square roots each time makes builds 2 to 4
+/// % longer.
 static WORK: [f64; 1024] = {
     let (mut table, mut n) = ([0.0; 1024], 1);
     while n < table.len() {

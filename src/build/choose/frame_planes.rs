@@ -1,5 +1,5 @@
-//! How frames choose planes for small sets: own planes first, as each tree is ordered once or twice; and
-//! whether two pieces cross.
+//! The choice of planes for small sets in frames: own planes first, because each tree is ordered once or
+//! twice. Also tests whether two pieces cross.
 
 use glam::DVec3;
 
@@ -13,8 +13,8 @@ use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 impl FrameTuning {
     /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
     ///
-    /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have planes of
-    /// their own, and far from such a polygon its plane is off by more than the tolerance: it would separate
+    /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have different
+    /// planes, and far from such a polygon its plane is off by more than the tolerance: it would separate
     /// others that belong together.
     fn least_share(&self, faces: &Faces) -> f64 {
         if self.is_coarse(faces) { self.trusted_share } else { 0.0 }
@@ -26,8 +26,8 @@ impl FrameTuning {
     }
 }
 
-/// The first plane of a few pieces that can be trusted, and cuts nothing and divides the set evenly, or cuts few pieces,
-/// all of which cross its own. Writes where the pieces lie against it.
+/// The first plane of a few pieces that can be trusted, and cuts nothing and divides the set evenly, or
+/// cuts few pieces, all of which cross its own. Writes the sides of the pieces on it.
 pub(super) fn find_own(
     set: &Set<'_>,
     tuning: &Tuning,
@@ -54,45 +54,45 @@ fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
         })
 }
 
-/// How far a plane may be off at a vertex, in the `size` of its rounded normal. The vertex is rounded by
-/// less than 1 lattice unit, and its difference from the plane's point, which is below 2⁵³, by ½. The
-/// normal's components are off by 2⁻⁵² of their shares of the size together, and their products and sums
-/// by as much again: 4 units.
+/// The largest distance of a plane from a vertex, in the `size` of its rounded normal. The vertex is
+/// rounded by less than 1 lattice unit, and its difference from the plane's point, which is below 2⁵³, by
+/// ½. The normal's components are off by 2⁻⁵² of their shares of the size together, and their products and
+/// sums by as much again: 4 units.
 const PLANE_OFF: f64 = 6.0;
-/// How far a coordinate of the difference of two vertices may be off, in lattice units: each vertex is
+/// The largest error of a coordinate of the difference of two vertices, in lattice units: each vertex is
 /// rounded by less than 1, and the difference by ½.
 const ARM_OFF: f64 = 2.5;
-/// How far the determinant of three vectors may be off by its own rounding, per product of the largest
-/// coordinate of each: six products of three factors, and their sums.
+/// The largest rounding error of the determinant of three vectors, per product of the largest coordinate of
+/// each: six products of three factors, and their sums.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Whether two pieces certainly cross: no tree leaves both whole, except by its tolerance.
 ///
-/// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and
-/// the segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
-/// orientation predicates”, 2003). Where rounding may decide that, as of pieces that only touch or lie
-/// nearly in one plane, they do not cross.
+/// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and the
+/// segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
+/// orientation predicates”, 2003). Returns false if rounding may decide, as for pieces that only touch or
+/// lie nearly in one plane.
 fn crosses(faces: &Faces, arena: &[Vertex], a: &Piece, b: &Piece) -> bool {
     if (0..3).any(|axis| a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) {
         return false;
     }
     let Some(one) = Ends::of(faces, arena, a, b.face) else { return false };
     let Some(other) = Ends::of(faces, arena, b, a.face) else { return false };
-    // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`, the
-    // last point of `a` is where it comes to the front of `b`, and the first of `b` where it comes to
-    // that of `a`.
+    // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`: the
+    // last point of `a` is where it enters the front of `b`, and the first of `b` is where it enters the
+    // front of `a`.
     let [p, q] = one.to_back;
     is_positive(one.to_front, other.to_front) && is_positive([q, p], other.to_back)
 }
 
-/// The edges in which a convex outline passes a plane.
+/// The edges in which a convex outline crosses a plane.
 struct Ends {
     to_front: [DVec3; 2],
     to_back: [DVec3; 2],
 }
 
 impl Ends {
-    /// Those of a piece and the plane of a face; `None` if the outline may not pass it.
+    /// The edges of a piece at the plane of a face; `None` if the outline may not cross it.
     fn of(faces: &Faces, arena: &[Vertex], piece: &Piece, plane: u32) -> Option<Self> {
         let triangle = faces.triangle(plane);
         let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
@@ -188,7 +188,7 @@ mod crossing_tests {
         })
     }
 
-    /// Triangles of every size, and such as miss each other by any power of two.
+    /// Triangles of every size, some of which miss each other by any power of two.
     #[test]
     fn what_certainly_crosses_does_so_in_integers() {
         let mut random = SplitMix64::new(5);

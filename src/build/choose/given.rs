@@ -1,4 +1,4 @@
-//! Planes that a function of the caller chooses.
+//! Planes chosen by the caller's function.
 
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -12,23 +12,23 @@ use crate::build::piece::Division;
 use crate::exact::{Faces, PlaneId, Side};
 use crate::progress::Watch;
 
-/// A set of two or more pieces of polygons that a build divides by a plane: what a function sees that chooses
-/// planes (see [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser)).
+/// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic
+/// (see [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser)).
 ///
-/// A piece is named by its number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon
-/// on one side of every plane above. A polygon that is not convex or not planar comes in triangles. Positions
-/// are in the polygons' unit, rounded as those of [`Fragment::vertices`](crate::Fragment::vertices) are.
+/// A piece has a number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon on one
+/// side of every plane above. Polygons that are not convex or not planar are divided into triangles.
+/// Positions are in the polygons' unit, rounded like [`Fragment::vertices`](crate::Fragment::vertices).
 ///
 /// # Panics
 ///
-/// All methods that take the number of a piece panic if there is no such piece.
+/// All methods that take a piece number panic if it is not below [`piece_count`](Self::piece_count).
 #[derive(Clone, Copy, Debug)]
 pub struct PieceSet<'a> {
     set: &'a Set<'a>,
     corners: &'a SortedCorners,
 }
 
-/// A plane to divide a [`PieceSet`] by.
+/// A plane that divides a [`PieceSet`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SplitPlane {
@@ -37,32 +37,32 @@ pub enum SplitPlane {
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
     /// Every plane of a tree goes through a corner of a polygon: this one through the corner nearest the
-    /// coordinate, among those of all polygons of the build, as the grid and the tolerance left them.
+    /// coordinate, among those of all polygons of the build, after rounding to the grid and the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
-        /// Where it crosses the axis, in the polygons' unit.
+        /// The position on the axis, in the polygons' unit.
         coordinate: f64,
     },
 }
 
 impl<'a> PieceSet<'a> {
-    /// How many pieces there are, two or more.
+    /// The number of pieces, two or more.
     pub fn piece_count(&self) -> usize {
         self.set.len()
     }
 
-    /// How many planes divided the pieces from others before: 0 at the root.
+    /// The number of planes that separated the pieces from others before: 0 at the root.
     pub fn depth(&self) -> usize {
         self.set.depth
     }
 
-    /// The index, in the input, of the polygon that a piece is a part of. O(1).
+    /// The index in the input of the polygon of which a piece is a part. O(1).
     pub fn polygon(&self, piece: usize) -> usize {
         self.set.faces.polygon(self.set.pieces[piece].face)
     }
 
-    /// How many planes have cut it out of its polygon; stays at 255. O(1).
+    /// The number of planes that cut it out of its polygon; stays at 255. O(1).
     pub fn cuts(&self, piece: usize) -> usize {
         self.set.pieces[piece].cuts.into()
     }
@@ -86,20 +86,20 @@ impl<'a> PieceSet<'a> {
             .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
     }
 
-    /// The unit normal of its plane, which points to the front: that of its fragments
+    /// The unit normal of its plane, which points to the front: equal to that of its fragments
     /// ([`Fragment::normal`](crate::Fragment::normal)). O(1).
     pub fn normal(&self, piece: usize) -> DVec3 {
         let plane = PlaneId::face(self.set.pieces[piece].face);
         self.set.faces.plane(plane).normal_f64().normalize()
     }
 
-    /// On which side of a plane each piece lies, in the order of their numbers; `None` if the plane has no
-    /// such piece, no such axis, or a coordinate that is NaN or infinite.
+    /// The side of a plane on which each piece lies, in the order of their numbers. `None` if the plane
+    /// names a piece or axis that does not exist, or a coordinate that is NaN or infinite.
     ///
-    /// These are the sides on which the build will put the pieces: exact, except for the tolerance. The build
-    /// takes another plane only where a larger polygon lies in the plane of a piece, within the tolerance (see
-    /// [`Heuristic`](crate::Heuristic)). O(n) for n vertices. For an axis plane, it first searches all corners in
-    /// O(log n); the first search along an axis sorts them.
+    /// These are the sides that the build will use: exact, except for the tolerance. The build uses another
+    /// plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
+    /// [`Heuristic`](crate::Heuristic)). O(n) for n vertices. For an axis plane, it first searches all
+    /// corners in O(log n); the first search along an axis sorts them.
     pub fn sides(
         &self,
         plane: SplitPlane,
@@ -109,7 +109,7 @@ impl<'a> PieceSet<'a> {
         Some((0..set.len()).map(move |piece| set.classify(&prepared, piece)))
     }
 
-    /// The name of a plane, if there is such a plane.
+    /// The name of a plane, if it exists.
     fn plane(&self, plane: SplitPlane) -> Option<PlaneId> {
         match plane {
             SplitPlane::OfPiece(piece) => {
@@ -145,8 +145,8 @@ impl fmt::Debug for GivenChooser {
 }
 
 impl GivenChooser {
-    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves all
-    /// pieces on one side. Writes where the pieces lie against the plane, if that is known.
+    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves
+    /// all pieces on one side. Writes the sides of the pieces on the plane, if known.
     pub(super) fn plane(
         &self,
         set: &Set<'_>,
@@ -155,7 +155,7 @@ impl GivenChooser {
         division: &mut Division,
     ) -> Result<Option<PlaneId>, Error> {
         let pieces = PieceSet { set, corners };
-        // A panic stops the other threads, which would call the function again and again.
+        // A panic stops the other threads, which would call the function repeatedly.
         let chosen = catch_unwind(AssertUnwindSafe(|| (self.0)(&pieces))).unwrap_or_else(|panic| {
             watch.stop();
             resume_unwind(panic)
@@ -167,7 +167,7 @@ impl GivenChooser {
     }
 }
 
-/// The corners of all faces of a build along each axis, sorted when they are first needed.
+/// The corners of all faces of a build along each axis, sorted at the first use.
 #[derive(Debug, Default)]
 pub(in crate::build) struct SortedCorners([OnceLock<Vec<u32>>; 3]);
 

@@ -1,10 +1,11 @@
-//! Choosing the plane that divides a set of pieces.
+//! Chooses the plane that divides a set of pieces.
 //!
-//! All of them go through `Chooser::choose`: `given` is a function of the caller, which is asked first.
-//! `auto` is the default heuristic; `own` has those that only try the pieces' own planes, and the contest of
-//! these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` in frames an own plane of a
-//! small set that is good enough, `peel` pieces that planes at the border of a set take off without a cut.
-//! `cost` compares planes, `tuning` has the numbers of all this; `set` has a set's pieces, exact and rounded.
+//! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto`
+//! is the default heuristic; `own` has the heuristics that only try the pieces' own planes, and the
+//! comparison of these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` a good
+//! enough own plane of a small set in frames, `peel` pieces that planes at the boundary of a set separate
+//! without a cut. `cost` compares planes, `tuning` has the constants; `set` has a set's pieces, exact and
+//! rounded.
 
 mod auto;
 mod axis_planes;
@@ -32,7 +33,7 @@ pub(super) use peel::Peeled;
 pub(super) use set::Set;
 pub use tuning::{FrameTuning, Tuning};
 
-/// Chooses splitters; its lists are kept to be used again.
+/// Chooses splitters; its lists are reused.
 #[derive(Debug, Default)]
 pub(super) struct Chooser {
     scored: Scored,
@@ -40,9 +41,9 @@ pub(super) struct Chooser {
 }
 
 impl Chooser {
-    /// Chooses what to do with a set of at least one piece. `is_peeled`: it is what peeling left; then
-    /// peeling is not tried again if the set is small. Not every plane chosen makes progress; the
-    /// builder checks. Writes where the pieces lie against the plane, or nothing if that is not known.
+    /// Chooses the division of a set of at least one piece. `is_peeled`: peeling left the set; then peeling
+    /// is not tried again if the set is small. Not every plane chosen makes progress; the builder checks.
+    /// Writes the sides of the pieces on the plane, or nothing if they are not known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -113,19 +114,19 @@ impl Chooser {
     }
 }
 
-/// What is to be done with a set.
+/// The division of a set.
 #[derive(Debug)]
 pub(in crate::build) enum Choice {
     /// It is divided by this plane.
     Split(PlaneId),
-    /// These pieces are taken off it.
+    /// These pieces are separated from it.
     Peel(Peeled),
 }
 
 /// The settings of the chooser.
 #[derive(Debug)]
 pub(in crate::build) struct ChooseContext<'a> {
-    /// What chooses first, if there is one.
+    /// The caller's function, if any, which chooses first.
     pub(in crate::build) given: Option<&'a GivenChooser>,
     pub(in crate::build) corners: SortedCorners,
     pub(in crate::build) heuristic: Heuristic,

@@ -13,19 +13,19 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
-    /// What its plane costs, as far as is known.
+    /// The cost of its plane, as far as known.
     cost: Cost,
-    /// How much of the set's bounding box the piece fills, 0 to 1.
+    /// The share of the set's bounding box that the piece fills, 0 to 1.
     share: f64,
     plane: PackedPlane,
-    /// Of the pieces that it was compared with.
+    /// The counts of the pieces that it was compared with.
     counts: Counts,
 }
 
-/// How much of its set's bounding box a piece fills along its two longer sides, 0 to 1.
+/// The share of its set's bounding box that a piece fills along its two longer sides, 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shares {
-    /// 1 by the size of the box; none where the box has no extent.
+    /// 1 divided by the size of the box; none where the box has no extent.
     per_unit: [Option<f64>; 3],
 }
 
@@ -50,18 +50,18 @@ impl Shares {
 #[derive(Debug, Default)]
 pub(super) struct Candidates {
     field: Vec<Candidate>,
-    /// How many groups of the packed pieces they were compared with.
+    /// The number of groups of the packed pieces that they were compared with.
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
-    /// Places of those that had all pieces of the first sample on one side: the same in the field,
+    /// Places of the candidates that had all pieces of the first sample on one side: the same in the field,
     /// as it began, and in the packed pieces.
     one_sided: Vec<usize>,
 }
 
 impl Candidates {
-    /// Replaces the field by the first `count` pieces of the sample, and compares them with the first
-    /// pieces of it.
+    /// Replaces the field by the first `count` pieces of the sample, and compares them with its first
+    /// pieces.
     pub(super) fn begin(
         &mut self,
         set: &Set<'_>,
@@ -96,7 +96,7 @@ impl Candidates {
         &self.one_sided
     }
 
-    /// The best plane of the field, by more and more of the set; the earliest of equals.
+    /// The best plane of the field, by larger and larger parts of the set; the earliest of equals.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -149,7 +149,7 @@ impl Candidates {
     }
 }
 
-/// Tries own planes; its lists are kept to be used again.
+/// Tries own planes; its lists are reused.
 #[derive(Debug, Default)]
 pub(super) struct Scored {
     sketch: PackedPieces,
@@ -193,8 +193,7 @@ impl Scored {
     }
 }
 
-/// Some packed pieces of a set, to which others are added in an order of which every beginning
-/// is a sample of the set.
+/// Some packed pieces of a set, extended in an order of which every prefix is a sample of the set.
 #[derive(Debug, Default)]
 pub(super) struct Sample {
     pub(super) sketch: PackedPieces,
@@ -202,7 +201,7 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// Replaces what is sketched by the first `count` pieces, or all of them if there are not more.
+    /// Replaces the sample by the first `count` pieces, or all of them if there are not more.
     pub(super) fn restart(&mut self, set: &Set<'_>, count: usize) {
         self.sketch.clear();
         self.rest = Spread::new(set.len());
@@ -218,11 +217,11 @@ impl Sample {
     }
 }
 
-/// The numbers below `n`, so that however many of the first are taken, they are spread evenly.
+/// The numbers below `n` in an order of which every prefix is spread evenly.
 #[derive(Debug, Default)]
 struct Spread {
     n: usize,
-    /// Without a common divisor with `n`.
+    /// Coprime to `n`.
     step: usize,
     next: usize,
     left: usize,
@@ -252,8 +251,7 @@ impl Iterator for Spread {
 
 impl ExactSizeIterator for Spread {}
 
-/// A number without a common divisor with `n`, near the golden section of it: its multiples are the
-/// most evenly spread.
+/// A number coprime to `n`, near its golden section: its multiples are the most evenly spread.
 fn coprime(n: usize) -> usize {
     let section = (n as f64 * 0.618_034) as usize;
     (section.max(1)..n.max(2)).find(|&step| gcd(step as u64, n as u64) == 1).unwrap_or(1)

@@ -1,4 +1,4 @@
-//! Pieces that can be taken off a set without a cut.
+//! Pieces that can be separated from a set without a cut.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
 
-/// Pieces that are taken off a set one after the other, and cut nothing of what is left.
+/// Pieces that are separated from a set one after the other, and whose planes cut nothing of the rest.
 #[derive(Debug, Default)]
 pub(crate) struct Peeled {
     layers: Vec<Layer>,
@@ -16,18 +16,18 @@ pub(crate) struct Peeled {
     pieces: Vec<u32>,
 }
 
-/// The pieces on one plane, taken off a set together.
+/// The pieces on one plane, separated from a set together.
 #[derive(Debug)]
 pub(crate) struct Layer {
     pub(crate) plane: PlaneId,
-    /// The side on which all pieces are that are left.
+    /// The side on which all remaining pieces are.
     pub(crate) rest: Side,
-    /// Where its pieces stand among those of all layers.
+    /// The places of its pieces among those of all layers.
     range: Range<usize>,
 }
 
 impl Peeled {
-    /// The layers in the order in which they are taken off.
+    /// The layers in the order in which they are separated.
     pub(crate) fn layers(&self) -> &[Layer] {
         &self.layers
     }
@@ -45,30 +45,30 @@ impl Peeled {
     }
 }
 
-/// Finds, in a set of pieces, those whose planes have all the rest on one side, once those found
-/// before are gone; its lists are kept to be used again.
+/// Finds, in a set of pieces, those whose planes have all the rest on one side, once those found before are
+/// removed; its lists are reused.
 ///
-/// To take such a piece first never costs a fragment: a tree of the whole set, with the piece and
-/// its plane left out, is one of the rest, with no more fragments. A set in convex position comes
-/// apart entirely if all places are tried.
+/// Separating such a piece first never adds a fragment: a tree of the whole set, with the piece and its
+/// plane left out, is one of the rest, with no more fragments. A set in convex position is divided entirely
+/// if all places are tried.
 ///
-/// Exact: only what the packed pieces call certain is believed, and exact arithmetic decides on what is near a
-/// plane. A tree of boxes around the pieces tells for all but the neighbours of a piece on which
-/// side of its plane they are, so that a set in convex position takes O(n log n) where boxes can
-/// tell at all; where many pieces have a vertex in common, as the sides of a cone, it takes O(n²).
+/// Exact: only certain results of the packed pieces are used, and exact arithmetic decides on pieces near a
+/// plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a piece. So a
+/// set in convex position takes O(n log n) if boxes can decide; if many pieces share a vertex, like the
+/// sides of a cone, it takes O(n²).
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
     boxes: Boxes,
-    /// For each group of the packed pieces, which of its pieces are left: a bit each.
+    /// For each group of the packed pieces, a bit for each of its pieces that is left.
     left: Vec<u8>,
-    /// Why the current piece cannot be taken: a piece in front of its plane and one behind, or twice
-    /// one across.
+    /// The reason why the current piece cannot be separated: a piece in front of its plane and one behind,
+    /// or twice one across.
     witnesses: [u32; 2],
     /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
     /// Boxes still to be compared.
     stack: Vec<Node>,
-    /// Pieces that are taken together.
+    /// Pieces that are separated together.
     own: Vec<u32>,
 }
 
@@ -80,9 +80,9 @@ const BACK: usize = 1;
 const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches a set of which the packed pieces hold all pieces for those at some places; gives what was
-    /// found, if anything. If there are more groups than `tuning.groups_per_box`, groups must be near
-    /// one another (see [`arrange`]), or the boxes tell nothing.
+    /// Searches a set, all of whose pieces are packed, for peelable pieces at some places; returns those
+    /// found, if any. If there are more groups than `tuning.groups_per_box`, groups must be near one
+    /// another (see [`arrange`]), or the boxes decide nothing.
     pub(super) fn search(
         &mut self,
         set: &Set<'_>,
@@ -111,12 +111,12 @@ struct Search<'a, 'w> {
     sketch: &'a PackedPieces,
     watch: &'a Watch<'w>,
     peeled: Peeled,
-    /// How many pieces are left.
+    /// The number of pieces left.
     left: usize,
 }
 
 impl Search<'_, '_> {
-    /// Takes off what it can, going once over the pieces at some places.
+    /// Separates pieces in one pass over some places.
     fn pass(&mut self, places: impl Iterator<Item = usize>) {
         for p in places {
             if self.left <= 1 {
@@ -137,7 +137,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Whether something keeps the current piece from being taken.
+    /// Whether a witness on each side prevents the current piece from being separated.
     fn is_held(&self) -> bool {
         !self.lists.witnesses.contains(&NO_PIECE)
     }
@@ -146,8 +146,8 @@ impl Search<'_, '_> {
         self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
     }
 
-    /// Compares the others with a piece's plane until there are some on both sides. Gives how many
-    /// comparisons that took, and whether there may be none on one side.
+    /// Compares the others with a piece's plane until there are some on both sides. Returns the number of
+    /// comparisons, and whether there may be none on one side.
     fn look(&mut self, p: usize, plane: &PackedPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
@@ -188,8 +188,8 @@ impl Search<'_, '_> {
         (work, true)
     }
 
-    /// Notes which pieces of a group, among those left, are witnesses against taking piece `p`, and
-    /// which are near its plane.
+    /// Records the pieces of a group, among those left, that are witnesses against piece `p`, and those
+    /// near its plane.
     #[inline]
     fn see(&mut self, p: usize, plane: &PackedPlane, group: usize) {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
@@ -205,8 +205,8 @@ impl Search<'_, '_> {
         self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
     }
 
-    /// Takes a piece off, with those on its plane, if all others that are left are on one side of
-    /// it; says how many.
+    /// Separates a piece, with those on its plane, if all others that are left are on one side of it;
+    /// returns their number.
     fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
@@ -242,8 +242,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// The pieces of a large set in an order in which groups, and ranges of groups, are near one
-/// another: by halving the longest side of their box again and again.
+/// The pieces of a large set in an order in which groups, and ranges of groups, are near one another: by
+/// repeatedly halving the longest side of their box.
 pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
     let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {
@@ -277,7 +277,7 @@ pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) ->
 #[derive(Debug, Default)]
 struct Boxes {
     around: Vec<PackedBox>,
-    /// The most groups in a leaf.
+    /// The largest number of groups in a leaf.
     groups_per_box: usize,
 }
 

@@ -1,4 +1,5 @@
-//! A set of pieces as it is chosen for: the pieces themselves, and packed in single precision, four at a time.
+//! A set of pieces for choosing a plane: the pieces themselves, and packed in single precision, four at a
+//! time.
 
 use std::ops::Range;
 
@@ -13,16 +14,16 @@ pub(super) const LANES: usize = 4;
 
 /// Pieces of a set, moved to its middle and rounded to `f32`.
 ///
-/// Used to rank planes, which may err. What it calls certain holds exactly, beyond the tolerance.
+/// Used to rank planes, which may err. Results called certain hold exactly, beyond the tolerance.
 #[derive(Debug, Default)]
 pub(super) struct PackedPieces {
     middle: DVec3,
-    /// What a distance may be off by, and the tolerance: in lattice units, as all coordinates.
+    /// The largest error of a distance, plus the tolerance, in lattice units like all coordinates.
     slack: f32,
-    /// The vertices of each group of pieces: the first of all four, the second of all four, and so
-    /// on. Of a piece that has fewer than others, the last is repeated.
+    /// The vertices of each group of pieces: the first of all four, the second of all four, and so on. A
+    /// piece with fewer vertices repeats its last one.
     rows: Vec<[Vec4; 3]>,
-    /// Where the rows of each group end.
+    /// The end of each group's rows.
     ends: Vec<u32>,
     /// The number of each piece in its set, group by group.
     numbers: Vec<u32>,
@@ -37,8 +38,8 @@ pub(super) struct PackedPlane {
     offset: f32,
 }
 
-/// Which pieces of a group certainly reach in front of a plane, which behind it, and which are
-/// within the slack of it, wholly or in part: a bit each.
+/// A bit for each piece of a group that certainly reaches in front of a plane, behind it, or is within the
+/// slack of it, wholly or in part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) front: u8,
@@ -54,7 +55,7 @@ pub(super) struct PackedBox {
 }
 
 impl PackedPieces {
-    /// Forgets all pieces.
+    /// Removes all pieces.
     pub(super) fn clear(&mut self) {
         self.rows.clear();
         self.ends.clear();
@@ -62,17 +63,17 @@ impl PackedPieces {
         self.lanes.clear();
     }
 
-    /// Forgets all pieces, and takes the extent of another set.
+    /// Removes all pieces, and sets the extent of another set.
     pub(super) fn reset(&mut self, set: &Set<'_>) {
         self.clear();
         let (min, max) = (DVec3::from_array(set.min), DVec3::from_array(set.max));
         self.middle = 0.5 * (min + max);
         let size = (max - self.middle).max(self.middle - min).max_element();
-        // With u = 2⁻²⁴, half an ε, and in units of u · size: the normal is off by 2√3 between a
-        // vertex and the plane's point, both in the box; the vertex by √3, its products by √3, their
-        // two sums by √2 + √3, the offset and its sum with the slack by √3 each. That is 13.5, less
-        // than 7 ε. Vertex and point are off by 1.5 lattice units in each coordinate: 3√3.
-        // The tolerance is rounded to `f32` and in two sums: 3 u of it, less than 2 ε.
+        // With u = 2⁻²⁴, half an ε, and in units of u · size: the normal is off by 2√3 between a vertex and
+        // the plane's point, both in the box; the vertex by √3, its products by √3, their two sums by √2 +
+        // √3, the offset and its sum with the slack by √3 each. That is 13.5, less than 7 ε. Vertex and
+        // point are off by 1.5 lattice units in each coordinate: 3√3. The tolerance is rounded to `f32` and
+        // in two sums: 3 u of it, less than 2 ε.
         let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
         self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
     }
@@ -117,7 +118,7 @@ impl PackedPieces {
         self.lanes.push(Vec4::from_array([0, 1, 2, 3].map(lane)));
     }
 
-    /// How many pieces there are.
+    /// The number of pieces.
     pub(super) fn len(&self) -> usize {
         self.numbers.len()
     }
@@ -157,7 +158,7 @@ impl PackedPieces {
         is_near
     }
 
-    /// Where the pieces of a group lie against a plane; lanes that hold none say nothing.
+    /// The sides of a group's pieces on a plane; bits of empty lanes mean nothing.
     #[inline]
     pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
         let plane = Splat::new(plane, self.slack);
@@ -169,7 +170,7 @@ impl PackedPieces {
         }
     }
 
-    /// Which lanes of a group hold a piece: a bit each.
+    /// A bit for each lane of a group that holds a piece.
     pub(super) fn lanes(&self, group: usize) -> u8 {
         self.lanes[group].cmpgt(Vec4::ZERO).bitmask() as u8
     }
@@ -187,7 +188,8 @@ impl PackedPieces {
         PackedBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
     }
 
-    /// On which side of a plane a box certainly lies: 0 in front, 1 behind; none if it may reach it.
+    /// The side of a plane on which a box certainly lies: 0 in front, 1 behind; none if it may reach the
+    /// plane.
     #[inline]
     pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &PackedBox) -> Option<usize> {
         let normal = Vec3::from_array(plane.normal);
@@ -218,11 +220,10 @@ impl PackedPieces {
     }
 }
 
-/// A plane, each number of it four times.
+/// A plane, with each of its numbers four times.
 struct Splat {
     normal: [Vec4; 3],
-    /// Along the normal, what is certainly in front of it is above that, and what is behind below
-    /// that.
+    /// Along the normal, pieces certainly in front are above `above`, and pieces behind below `below`.
     above: Vec4,
     below: Vec4,
 }
@@ -237,7 +238,7 @@ impl Splat {
         }
     }
 
-    /// How far a group's pieces reach along the normal, rounded: the least, and the greatest.
+    /// The extent of a group's pieces along the normal, rounded: the least, and the greatest.
     #[inline]
     fn extents(&self, rows: &[[Vec4; 3]]) -> (Vec4, Vec4) {
         let [a, b, c] = self.normal;
@@ -251,20 +252,20 @@ impl Splat {
     }
 }
 
-/// A set of pieces that is to be divided: at least one.
+/// A set of pieces to divide: at least one.
 #[derive(Debug)]
 pub(crate) struct Set<'a> {
     pub(in crate::build) faces: &'a Faces,
     pub(in crate::build) pieces: &'a [Piece],
     pub(super) arena: &'a [Vertex],
-    /// The planes of all faces, where they were prepared in advance.
+    /// The planes of all faces, if they were prepared in advance.
     pub(in crate::build) planes: &'a [PreparedPlane],
-    /// How many planes divided the pieces from others.
+    /// The number of planes that separated the pieces from others.
     pub(in crate::build) depth: usize,
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
-    /// Along each axis, where the first piece ends, and where the last one begins.
+    /// Along each axis, the end of the first piece to end, and the start of the last piece to begin.
     first_end: [f64; 3],
     last_begin: [f64; 3],
 }
@@ -273,7 +274,7 @@ impl<'a> Set<'a> {
     pub(crate) fn new(faces: &'a Faces, pieces: &'a [Piece], arena: &'a [Vertex]) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut first_end, mut last_begin) = (min, max);
-        // None is NaN: to compare takes fewer instructions than `f64::min`.
+        // None is NaN: a comparison takes fewer instructions than `f64::min`.
         let lower = |a: &mut f64, b: f64| *a = if b < *a { b } else { *a };
         let raise = |a: &mut f64, b: f64| *a = if b > *a { b } else { *a };
         for piece in pieces {
@@ -301,9 +302,9 @@ impl<'a> Set<'a> {
         self.first_end[axis] <= self.last_begin[axis] + self.faces.tolerance()
     }
 
-    /// The same as [`may_part`](Self::may_part), by a closer look: there is no such plane if every place for
-    /// it is inside of a piece. Places are counted by bins, one a bit, which a piece covers if it reaches
-    /// across. As long as the set is small, that takes less time than to sort it in vain.
+    /// A closer test than [`may_part`](Self::may_part): there is no such plane if every place for it is
+    /// inside a piece. Places are counted by bins, one bit each, which a piece covers if it reaches across.
+    /// For small sets this takes less time than an unsuccessful sort.
     pub(super) fn may_have_gap(&self, axis: usize) -> bool {
         let tolerance = self.faces.tolerance();
         let (start, end) = (self.first_end[axis], self.last_begin[axis] + tolerance);
@@ -344,12 +345,12 @@ impl<'a> Set<'a> {
         known.copied().unwrap_or_else(|| PreparedPlane::new(self.faces, plane))
     }
 
-    /// Where a piece lies against a plane, exactly.
+    /// The side of a plane on which a piece lies, exactly.
     pub(super) fn classify(&self, prepared: &PreparedPlane, piece: usize) -> Side {
         self.pieces[piece].side(self.faces, prepared, self.arena)
     }
 
-    /// Where all pieces lie against a plane. `false` if it cuts more than `most`.
+    /// Classifies all pieces against a plane. Returns false if it cuts more than `most`.
     pub(in crate::build) fn divide(
         &self,
         plane: PlaneId,
@@ -374,7 +375,7 @@ impl<'a> Set<'a> {
     pub(super) fn sample(&self, count: usize) -> impl Iterator<Item = usize> + use<> {
         let n = self.len();
         let count = count.min(n);
-        // Division takes long.
+        // Division is slow.
         (0..count).map(move |i| if count == n { i } else { i * n / count })
     }
 }

@@ -1,4 +1,4 @@
-//! What the tests of choosing share, and of what it gives as a whole.
+//! Shared code of the tests of choosing, and tests of whole choices.
 
 use glam::{DQuat, DVec3, EulerRot};
 
@@ -12,7 +12,7 @@ use crate::progress::Watch;
 use crate::random::SplitMix64;
 use crate::tree::BspTree;
 
-/// A set of pieces with all that it refers to.
+/// A set of pieces with all referenced data.
 pub(super) struct Fixture {
     pub(super) faces: Faces,
     pub(super) pieces: Vec<Piece>,
@@ -30,7 +30,7 @@ impl Fixture {
         Set::new(&self.faces, &self.pieces, &self.arena)
     }
 
-    /// Keeps what is on one side of a plane.
+    /// Keeps the pieces on one side of a plane.
     pub(super) fn keep(&mut self, plane: PlaneId, kept: Side) {
         let prepared = PreparedPlane::new(&self.faces, plane);
         let mut splitter = Splitter::default();
@@ -54,7 +54,7 @@ pub(super) fn triangles(random: &mut SplitMix64, count: usize, size: f64) -> Vec
     (0..count).map(|_| triangle()).collect()
 }
 
-/// Squares of a grid, turned; `height` says how far each of their corners is from the plane.
+/// Squares of a rotated grid; `height` gives the distance of each corner from the plane.
 pub(super) fn grid(side: u32, mut height: impl FnMut(DVec3) -> f64) -> Vec<[DVec3; 3]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let mut triangles = vec![];
@@ -91,7 +91,7 @@ fn what_lies_in_one_plane_is_one_node() {
     }
 }
 
-/// The sides of a turned prism: in convex position, and no free plane parts them.
+/// The sides of a rotated prism: in convex position, and no free plane separates them.
 fn prism(sides: usize) -> Vec<[DVec3; 4]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let corner = |i: usize, z: f64| {
@@ -103,7 +103,7 @@ fn prism(sides: usize) -> Vec<[DVec3; 4]> {
         .collect()
 }
 
-/// Those that were not tried are left.
+/// The pieces that were not tried are left.
 #[test]
 fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let tuning = Tuning { own_planes: 5, uneven: 2, reward: 0.0, ..Tuning::DEFAULT };
@@ -140,7 +140,7 @@ fn chosen<const N: usize>(heuristic: Heuristic, polygons: &[[DVec3; N]]) -> Plan
     }
 }
 
-/// What one plane cuts comes late in the set, behind more pieces than are looked at in one go.
+/// The polygons that one plane cuts come late in the set, after more pieces than are tested at once.
 #[test]
 fn own_planes_are_held_against_all_of_a_large_set() {
     const HALF: u32 = 5000;
@@ -175,7 +175,7 @@ fn of_equal_scores_the_earliest_wins() {
     }
 }
 
-/// Whatever planes would divide the set more evenly.
+/// Even if other planes divide the set more evenly.
 #[test]
 fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
     let mut random = SplitMix64::new(7);
@@ -215,7 +215,7 @@ fn ring(cards: usize) -> Vec<[DVec3; 4]> {
     (0..cards).map(card).collect()
 }
 
-/// In sets of every kind of size: each pair of neighbours is cut apart once.
+/// For sets of every range of sizes: each pair of neighbours is cut once.
 #[test]
 fn a_ring_of_cards_is_cut_no_more_than_it_crosses() {
     for cards in [8, 12, 31, 33, 60, 100, 200] {

@@ -1,4 +1,4 @@
-//! Leading bits against numbers in full.
+//! Leading bits compared with full numbers.
 
 use dashu_int::IBig;
 use num_traits::Signed;
@@ -26,7 +26,7 @@ fn point() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
-    // Near one another as well, where planes are all but parallel.
+    // Also near one another, where planes are almost parallel.
     let near = (point(), prop::array::uniform3(prop::array::uniform3(-2..3i64))).prop_map(
         |(point, offsets)| {
             let limit = LATTICE_LIMIT;
@@ -43,7 +43,7 @@ fn value(plane: &Plane, point: &[f64; 3]) -> IBig {
     (0..3).map(|i| IBig::from(plane.normal()[i]) * arm(i)).sum()
 }
 
-/// How far a position is from the exact mean, times 2⁵³ by the lattice's size: in roundings.
+/// The distance of a position from the exact mean, times 2⁵³ by the lattice's size: in roundings.
 fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[IBig]) -> f64 {
     let total: IBig = weights.iter().sum();
     let off = (0..3).map(|axis| {
@@ -108,7 +108,7 @@ proptest! {
     }
 }
 
-/// A triangle and two planes that are all but the same: their weights cancel, more or less.
+/// A triangle and two almost equal planes: their weights cancel, more or less.
 fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
     let mut corner = || (random.point(-1.0, 1.0) * (LATTICE_LIMIT - 1e13)).round();
     let (triangle, plane) = ([(); 3].map(|()| corner()), [(); 3].map(|()| corner()));
@@ -117,8 +117,8 @@ fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
     [triangle.map(|corner| corner.to_array()), near(), near()]
 }
 
-/// However much cancels, and on either side of the triangle's edges: what is told is right, and is
-/// the same where the triangle and the planes face the other way.
+/// For any cancellation, and on either side of the triangle's edges: results are right, and the same if the
+/// triangle and the planes face the other way.
 #[test]
 fn positions_inside_are_right_or_not_told() {
     let mut random = SplitMix64::new(7);
@@ -130,7 +130,7 @@ fn positions_inside_are_right_or_not_told() {
         let [g, h] = &values;
         let weights = [(1, 2), (2, 0), (0, 1)].map(|(j, k)| &g[j] * &h[k] - &g[k] * &h[j]);
         let total: IBig = weights.iter().sum();
-        // Positions are asked for in the lattice only.
+        // Positions are needed only within the lattice.
         let is_near = !total.is_zero()
             && (0..3).all(|axis| {
                 let terms = triangle.iter().zip(&weights);
@@ -153,7 +153,7 @@ fn positions_inside_are_right_or_not_told() {
     assert!(told > 10_000 && untold > 400, "{told} told, {untold} not");
 }
 
-/// What is not told by leading bits is rare, and what is told is what all bits tell.
+/// Leading bits rarely decide nothing, and otherwise give the same results as all bits.
 #[test]
 fn leading_bits_nearly_always_tell() {
     let mut random = SplitMix64::new(5);
@@ -179,8 +179,8 @@ fn leading_bits_nearly_always_tell() {
 
 type Corners = [[f64; 3]; 3];
 
-/// A triangle, two points within half a step of its plane along its main axis, and another plane that
-/// parts them.
+/// A triangle, two points within half a step of its plane along its main axis, and another plane between
+/// them.
 fn moved_edge(random: &mut SplitMix64) -> (Corners, [[f64; 3]; 2], Corners) {
     let size = 2f64.powf(random.range(3.0, 50.9));
     let mut point = || (random.point(-1.0, 1.0) * size).round();
@@ -202,8 +202,8 @@ fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
     ExactEdge { ends, moved: Some(moved) }
 }
 
-/// The position is that of the edge between the points where the ends are moved to, exactly, and the
-/// same where the triangle, the plane and the edge run the other way.
+/// The position is exactly that of the edge between the moved ends, and the same if the triangle, the plane
+/// and the edge run the other way.
 #[test]
 fn positions_on_moved_edges_are_right_or_not_told() {
     let mut random = SplitMix64::new(11);
@@ -217,7 +217,7 @@ fn positions_on_moved_edges_are_right_or_not_told() {
         let slope = IBig::from(own.normal()[axis]);
         let is_near = offs.iter().all(|off| off.abs() * IBig::from(2) <= slope.abs());
         let is_inside = ends.iter().flatten().all(|c| c.abs() <= LATTICE_LIMIT);
-        // Each end times the slope, as it is moved: on the triangle's plane.
+        // Each end times the slope, after its move: on the triangle's plane.
         let values = [0, 1].map(|i| {
             value(&plane, &ends[i]) * &slope - &offs[i] * IBig::from(plane.normal()[axis])
         });

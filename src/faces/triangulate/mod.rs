@@ -1,5 +1,5 @@
-//! Triangulates polygons that are not convex or not planar: projected along an axis, unchanged if they do
-//! not cross themselves, uncrossed otherwise.
+//! Triangulates polygons that are not convex or not planar, in a projection along an axis. Edges that cross
+//! are replaced first.
 
 mod region;
 mod sweep;
@@ -36,13 +36,13 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     Triangulation { triangles, crosses_itself: false }
 }
 
-/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's
-/// normal); exact, with O(n log n) comparisons. The triangles face the way the polygon does.
+/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
+/// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon.
 ///
-/// The triangles cover everything that the outline winds around, once. A polygon that crosses itself is
-/// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their
-/// areas cancel, `plane`, which must go through three of its corners, replaces the vector area. A
-/// polygon that has area, but none in the projection, becomes a fan from its first corner.
+/// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself
+/// is reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their
+/// areas cancel, `plane`, which must go through three of its corners, replaces the vector area. A polygon
+/// that has area, but none in the projection, becomes a fan from its first corner.
 pub(super) fn any(
     corners: &[[f64; 3]],
     plane: &Plane,
@@ -79,8 +79,8 @@ fn vector_area(corners: &[[f64; 3]]) -> [Int<3>; 3] {
     area
 }
 
-/// The axis to project along, and the sign that the area of a triangle has in this projection if it
-/// faces the way the polygon does.
+/// The axis of the projection, and the sign of a triangle's area in it if the triangle has the polygon's
+/// orientation.
 fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     let normal = plane.normal();
     let size = DVec3::from_array(area.map(|component| component.to_f64())).abs();
@@ -96,8 +96,8 @@ fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
 /// A vector area counts as cancelled if it is no more than this share of a triangle of the polygon:
 /// its direction then comes from rounding alone.
 ///
-/// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: a polygon that
-/// is planar except for rounding may be.
+/// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: so may a polygon
+/// that is planar except for rounding.
 const CANCELLED: f64 = 1e-6;
 
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
@@ -161,21 +161,21 @@ fn fan(corners: &[Point]) -> Vec<[u32; 3]> {
     (1..corners.len().saturating_sub(1)).filter_map(triangle).collect()
 }
 
-/// Search budget of small polygons, in edges swept. Too small: tangles of some hundred corners become
-/// fans; too large: each of them takes longer.
+/// Search budget of small polygons, in edges swept. Too small: tangles of some hundred corners become fans.
+/// Too large: each of them takes longer.
 const PATIENCE: usize = 1 << 17;
-/// Search budget of large polygons, in sweeps. Too small: outlines with some crossings in a row
-/// become fans; too large: tangles take longer.
+/// Search budget of large polygons, in sweeps. Too small: outlines with several crossings in sequence
+/// become fans. Too large: tangles take longer.
 const SWEEPS: usize = 16;
 
-/// Replaces edges that cross until none do, and triangulates the inside by [`Rule::Parity`]. There are no
+/// Replaces edges that cross until none do, and triangulates the inside by [`Rule::Parity`]. Returns no
 /// triangles if the budget runs out.
 ///
-/// Two edges that cross are replaced by two edges between the same four ends that do not cross. Of the two
-/// ways to do that, this takes the one that changes less of the inside by the even-odd rule. So the result
-/// covers somewhat more or less than the outline near a crossing, and exactly the inside everywhere else.
-/// The new edges are shorter than the old ones, so the process ends, but it may take long (van Leeuwen and
-/// Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
+/// Two edges that cross are replaced by two edges between the same four ends that do not cross (a 2-opt
+/// move). Of the two ways to do that, this uses the one that changes less of the inside by the even-odd
+/// rule. So the result covers somewhat more or less than the outline near a crossing, and exactly the
+/// inside everywhere else. The new edges are shorter than the old ones, so the process ends, but it may
+/// take long (van Leeuwen and Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
 fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
     let mut edges = outline.edges.clone();
     let mut budget = PATIENCE.max(SWEEPS * edges.len());

@@ -9,8 +9,8 @@ use smallvec::{SmallVec, smallvec};
 
 use super::sweep::{Point, turn};
 
-/// The region between two neighbouring edges on the sweep line: nothing if it is not inside the polygon;
-/// a monotone polygon; or two, the lower one first, that share their last point, where two regions became
+/// The region between two neighbouring edges on the sweep line: nothing if it is not inside the polygon; a
+/// monotone polygon; or two, the lower one first, that share their last point, where two regions became
 /// one.
 #[derive(Default)]
 pub(super) struct Region(SmallVec<[Chain; 1]>);
@@ -51,7 +51,7 @@ impl Region {
         triangles: &mut Triangles,
     ) -> [Self; 2] {
         if let [chain] = &self.0[..] {
-            // The last point sees this one, as the sweep met nothing of the region in between.
+            // The last point sees this one, because the sweep met no point of the region in between.
             let last = Chain::new(chain.stack[chain.stack.len() - 1]);
             self.0.insert(if chain.side == ChainSide::Lower { 0 } else { 1 }, last);
         }
@@ -60,7 +60,7 @@ impl Region {
         [low, high.add(lower, ChainSide::Lower, triangles)]
     }
 
-    /// Makes one region of two, when the edges between them have ended.
+    /// Makes one region of two when the edges between them have ended.
     pub(super) fn join(mut self, high: Self) -> Self {
         self.0.extend(high.0);
         self

@@ -1,9 +1,9 @@
-//! Triangulates all that is inside an outline, in one sweep over its points from left to right.
+//! Triangulates the inside of an outline, in one sweep over its points from left to right.
 //!
 //! The sweep divides edges on which a point lies, merges edges that overlap, and tests neighbours for a
-//! crossing (Shamos and Hoey, “Geometric intersection problems”, 1976; Bentley and Ottmann, 1979).
-//! Nothing is rounded, as every end of an edge is one of the polygon's corners. The regions between the
-//! edges become monotone polygons as it passes: see `region`.
+//! crossing (Shamos and Hoey, “Geometric intersection problems”, 1976; Bentley and Ottmann, 1979). Nothing
+//! is rounded, because every end of an edge is one of the polygon's corners. The regions between the edges
+//! become monotone polygons during the sweep: see `region`.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -17,8 +17,8 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 /// then by y.
 pub(super) type Point = [i64; 2];
 
-/// On which side of the line from `a` to `b` a point lies: `Greater` is to the left, above an edge
-/// whose ends come in the sweep's order. Exact.
+/// The side of a point on the line from `a` to `b`: `Greater` is to the left, above an edge whose ends come
+/// in the sweep's order. Exact.
 #[inline]
 pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
     area(a, b, c).cmp(&0)
@@ -37,12 +37,12 @@ pub(super) const NONE: u32 = u32::MAX;
 /// A straight part of the outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Edge {
-    /// The points at its ends, the first one first in the sweep.
+    /// The points at its ends, in the order of the sweep.
     pub(super) ends: [u32; 2],
-    /// The polygon's corners at its ends; [`NONE`] where the outline goes straight on.
+    /// The polygon's corners at its ends; [`NONE`] where the outline continues straight.
     pub(super) corners: [u32; 2],
-    /// How often the outline runs along it from the first end to the second, minus how often it
-    /// runs back.
+    /// The number of times that the outline runs along it from the first end to the second, minus those in
+    /// reverse.
     pub(super) weight: i32,
 }
 
@@ -73,10 +73,10 @@ fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
 /// The fill rule, which also decides how overlapping edges are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// By direction: opposite edges cancel, two of the same direction count 2. Everything that the
-    /// outline winds around is inside. Edges must not cross.
+    /// By direction: opposite edges cancel, two of the same direction count 2. A point is inside if its
+    /// winding number is not 0. Edges must not cross.
     Signed,
-    /// By parity: any two cancel.
+    /// By parity: any two overlapping edges cancel.
     Parity,
 }
 
@@ -84,7 +84,8 @@ pub(super) enum Rule {
 ///
 /// Its lists are not checked for memory. Edges that overlap are merged, so `n` edges and `n` points have
 /// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of
-/// 20 000 random corners takes some megabytes, one of the most corners that a polygon may have a gigabyte.
+/// 20 000 random corners takes some megabytes; an outline with the largest allowed number of corners takes
+/// a gigabyte.
 pub(super) struct Sweep<'a> {
     outline: &'a Outline,
     rule: Rule,
@@ -95,22 +96,21 @@ pub(super) struct Sweep<'a> {
     waiting: Vec<(Edge, u32)>,
     /// For each point, the last edge that waits for it: the head of a list in `waiting`.
     heads: Vec<u32>,
-    /// For each point, how many edges on the line end there.
+    /// For each point, the number of edges on the line that end there.
     arriving: Vec<u32>,
     /// The edges that begin at the current point.
     starting: Vec<Edge>,
-    /// The same before those that overlap are merged.
+    /// The same edges before overlapping ones are merged.
     unmerged: Vec<Edge>,
     /// The edges through the current point.
     ended: Vec<u32>,
-    /// Pairs of edges that cross. They have been taken off the line. `triangles` is
-    /// incomplete then.
+    /// Pairs of edges that cross. They are no longer on the line, and `triangles` is incomplete.
     pub(super) crossings: Vec<[Edge; 2]>,
     /// The triangles of the inside, counter-clockwise.
     pub(super) triangles: Triangles,
     /// The smallest and the largest winding number met, 0 included.
     windings: [i32; 2],
-    /// Work done since the last poll, in points and edges looked at.
+    /// Work done since the last poll, in points and edges visited.
     steps: usize,
 }
 
@@ -122,10 +122,9 @@ struct SweptEdge {
     region: Region,
 }
 
-/// Search budget: the sweep gives up when edges have been divided into more than this many parts
-/// per edge of the polygon. This happens to outlines that pass through the same points again and
-/// again. Too small: such outlines are treated as if they crossed themselves; too large: they take time
-/// and memory.
+/// Search budget: the sweep gives up when edges have been divided into more than this many parts per edge
+/// of the polygon. This happens to outlines that pass through the same points many times. Too small: such
+/// outlines are treated as if they crossed themselves. Too large: they take time and memory.
 const MOST_PARTS: usize = 8;
 
 impl<'a> Sweep<'a> {
@@ -152,8 +151,8 @@ impl<'a> Sweep<'a> {
         sweep
     }
 
-    /// Sweeps over all points. `None` if there are too many parts, or if edges cross and the rule does not
-    /// allow it; if it does, edges that cross are left out from there on.
+    /// Sweeps over all points. Returns `None` if there are too many parts, or if edges cross and the rule
+    /// does not allow it. If the rule allows it, edges that cross are left out from there on.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {
@@ -171,7 +170,7 @@ impl<'a> Sweep<'a> {
         Ok(Some(self))
     }
 
-    /// Whether the outline winds around all of the inside exactly once and in the same direction.
+    /// Whether the winding number is 1 everywhere inside, or −1 everywhere.
     pub(super) fn winds_once(&self) -> bool {
         self.windings[1] - self.windings[0] <= 1
     }
@@ -235,7 +234,7 @@ impl<'a> Sweep<'a> {
         place
     }
 
-    /// On which side of an edge a point lies: `Greater` is above it.
+    /// The side of a point on an edge: `Greater` is above it.
     fn side(&self, edge: u32, point: u32) -> Ordering {
         let [a, b] = self.edge(edge).ends;
         let points = &self.outline.points;
@@ -263,8 +262,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping
-    /// ones. Where the shortest of them ends, the rest begins again.
+    /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping ones.
+    /// Where the shortest of them ends, the rest begins again.
     fn merge(&mut self, point: u32) {
         let points = &self.outline.points;
         let at = points[point as usize];
@@ -282,9 +281,9 @@ impl<'a> Sweep<'a> {
         self.unmerged = all;
     }
 
-    /// Merges edges that begin at a point in the same direction, given in the order of their ends,
-    /// into one edge up to the nearest end, or none if they cancel. The parts further on wait for
-    /// the points where they begin.
+    /// Merges edges that begin at a point in the same direction, given in the order of their ends, into one
+    /// edge up to the nearest end, or none if they cancel. Their further parts wait for the points where
+    /// they begin.
     fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Option<Edge> {
         let (mut weight, mut from, mut kept) = (edges.iter().map(|e| e.weight).sum(), point, None);
         let mut corner = shared_corner(edges, 0, weight);
@@ -307,10 +306,10 @@ impl<'a> Sweep<'a> {
         kept
     }
 
-    /// Adds a point to the regions around it, and puts the edges that begin there between these.
+    /// Adds a point to the regions around it, and inserts the edges that begin there between these.
     fn begin_all(&mut self, point: u32, below: u32) {
         let mut winding = self.edges.get(below as usize).map_or(0, |swept| swept.winding);
-        // Where edges have left the line, regions are not known any more.
+        // Once edges have left the line, regions are no longer known.
         let is_known = self.crossings.is_empty();
         let [mut low, mut high] =
             if is_known { self.regions(point, below) } else { Default::default() };
@@ -341,7 +340,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Adds a point to the regions around it. Returns those that are left below and above the edges that
+    /// Adds a point to the regions around it. Returns the remaining regions below and above the edges that
     /// begin there.
     fn regions(&mut self, point: u32, below: u32) -> [Region; 2] {
         let ends = [self.starting.first(), self.starting.last()];
@@ -369,16 +368,16 @@ impl<'a> Sweep<'a> {
         [low, region.add(vertex, ChainSide::Lower, &mut self.triangles)]
     }
 
-    /// The region above an edge, which is left without it, and its winding number.
+    /// Removes the region above an edge, and returns it with its winding number.
     fn take(&mut self, edge: u32) -> (i32, Region) {
         let swept = self.edges.get_mut(edge as usize);
         swept.map_or_else(Default::default, |s| (s.winding, std::mem::take(&mut s.region)))
     }
 
-    /// A point of a region, with the corner of the first of two edges that has one there. Which of the
-    /// corners at one point belongs to a region depends on the direction of its outline: with a winding
-    /// number above 0, the upper boundary runs from right to left, and leaves the point along the edge on
-    /// the left.
+    /// A point of a region, with the corner of the first of two edges that has one there. The direction of
+    /// a region's outline decides which of the corners at one point belongs to it: with a winding number
+    /// above 0, the upper boundary runs from right to left, and leaves the point along the edge on the
+    /// left.
     fn vertex(&self, point: u32, mut corners: [u32; 2], winding: i32) -> Vertex {
         if winding < 0 {
             corners.reverse();
@@ -388,7 +387,7 @@ impl<'a> Sweep<'a> {
         Vertex { point: self.outline.points[point as usize], corner }
     }
 
-    /// Takes neighbours off the line that cross, next to a point and then next to each other.
+    /// Removes neighbours that cross from the line, first next to a point and then next to each other.
     fn remove_crossings(&mut self, point: u32) {
         for above_all in [false, true] {
             loop {
@@ -409,8 +408,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether two edges on the line, one above the other, cross before either ends: then the one
-    /// that ends first ends on the wrong side of the other.
+    /// Whether two edges on the line, one above the other, cross before either ends: then the one that ends
+    /// first ends on the wrong side of the other.
     fn cross(&self, low: u32, high: u32) -> bool {
         if low == NONE || high == NONE {
             return false;
@@ -427,18 +426,18 @@ impl<'a> Sweep<'a> {
 /// The edges on the sweep line, from the lowest to the highest, in blocks of bounded length, so that an
 /// insertion moves few of them. Blocks are split but never merged.
 struct SweepLine {
-    /// None of them is empty.
+    /// No block is empty.
     blocks: Vec<Vec<u32>>,
 }
 
-/// A block, and a place in it or at its end. It is 0 in the first block alone.
+/// A block, and a place in it or at its end. Place 0 occurs only in the first block.
 type Place = (usize, usize);
 
 impl SweepLine {
-    /// The largest size of a block. Too small: there are many blocks; too large: many edges are moved.
+    /// The largest size of a block. Too small: there are many blocks. Too large: many edges are moved.
     const MOST: usize = 512;
 
-    /// The place behind all edges that are below, which come first.
+    /// The place after all edges that are below, which come first.
     fn find(&self, mut is_below: impl FnMut(u32) -> bool) -> Place {
         let block = self.blocks.partition_point(|block| is_below(block[0])).saturating_sub(1);
         let edges = self.blocks.get(block).map_or(&[][..], |block| block);
@@ -487,7 +486,7 @@ mod tests {
     use super::{NONE, SweepLine};
     use crate::random::SplitMix64;
 
-    /// Searches and neighbours are those of a plain sorted list that grows and then shrinks.
+    /// Searches and neighbours are the same as in a plain sorted list that grows and then shrinks.
     #[test]
     fn the_line_is_a_sorted_list() {
         let mut random = SplitMix64::new(3);

@@ -1,4 +1,4 @@
-//! Triangulations against their outlines, piece by piece, and against counted steps.
+//! Triangulations compared with their outlines, piece by piece, and with counted steps.
 
 mod shapes;
 
@@ -15,7 +15,7 @@ fn run(corners: &[Point]) -> Triangulation {
     in_plane(corners, &Watch::default()).expect("memory")
 }
 
-/// How many steps a triangulation takes.
+/// The number of steps of a triangulation.
 fn steps(corners: &[Point]) -> (Triangulation, usize) {
     let callback = |_: &Watch<'_>| ControlFlow::Continue(());
     let watch = Watch::new(&callback);
@@ -34,8 +34,8 @@ fn triangles<'a>(
     found.triangles.iter().map(|triple| triple.map(|k| corners[k as usize]))
 }
 
-/// How often closed lines go along each straight line between two neighbours of all points on it:
-/// there less back. What is the same for two sets of lines is wound round by both alike.
+/// The number of times that closed lines run along each straight line between two neighbours of all points
+/// on it, minus those in reverse. Two sets of lines with equal counts have the same winding numbers.
 fn chain(points: &[Point], lines: impl Iterator<Item = [Point; 2]>) -> BTreeMap<[Point; 2], i32> {
     let mut chain = BTreeMap::new();
     for [a, b] in lines {
@@ -56,7 +56,7 @@ fn outline(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
     (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])
 }
 
-/// The triangles cover what the outline winds round, once, and nothing else.
+/// The triangles cover every point with a winding number other than 0, once, and nothing else.
 fn covers(corners: &[Point], found: &Triangulation) -> Result<(), String> {
     if triangles(corners, found).any(|[a, b, c]| turn(a, b, c).is_le()) {
         return Err("a triangle is clockwise, or has no area".into());
@@ -120,7 +120,7 @@ fn a_hole_at_the_end_of_a_bridge_stays_a_hole() {
     for (corners, twice) in [(&keyhole, 144), (&two, 142), (&row, 142)] {
         assert_eq!(twice_area(corners), twice);
         in_all_ways(corners, assert_covers);
-        // Far out, where products fill their bits.
+        // Far out, where products use all of their bits.
         let far = corners.iter().map(|p| p.map(|c| (c - 4) * (1 << 51) / 5)).collect::<Vec<_>>();
         in_all_ways(&far, assert_covers);
     }
@@ -178,7 +178,7 @@ fn sides_cross(corners: &[Point]) -> bool {
     sides.iter().any(|&s| sides.iter().any(|&t| apart(s, t) && apart(t, s)))
 }
 
-/// How often an outline winds round the middle of a triangle.
+/// The winding number of an outline around the middle of a triangle.
 fn winding(corners: &[Point], triangle: [Point; 3]) -> i32 {
     let middle: Point = [0, 1].map(|axis| triangle.iter().map(|p| p[axis]).sum());
     let sides = outline(corners).map(|side| side.map(|p| p.map(|c| 3 * c)));
@@ -190,7 +190,7 @@ fn winding(corners: &[Point], triangle: [Point; 3]) -> i32 {
     around.sum()
 }
 
-/// Corners on a small grid: every way to touch, to repeat and to lie on one another turns up.
+/// Corners on a small grid: they touch, repeat and overlap in every way.
 #[test]
 fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
     let mut random = SplitMix64::new(2);
@@ -211,7 +211,7 @@ fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
             continue;
         }
         counts[2] += 1;
-        // The triangles are apart, so what is wound round is some of them.
+        // The triangles are disjoint, so the covered area is a sum of some of them.
         let windings =
             triangles(&corners, &found).map(|t| winding(&corners, t)).collect::<Vec<_>>();
         assert!(windings.iter().all(|&times| times != 0), "{corners:?}");
@@ -220,7 +220,7 @@ fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
 }
 
-/// Outlines that cross nowhere but wind as they like, against the sum of windings.
+/// Outlines that do not cross themselves but have any winding numbers, compared with the sum of windings.
 #[test]
 fn what_is_wound_round_is_covered_once() {
     let mut random = SplitMix64::new(3);
@@ -271,8 +271,8 @@ fn polygons_that_cross_themselves_come_to_an_end() {
     }
 }
 
-/// Few crossings change what is near them, and nothing else. In a spiral two corners that change
-/// places lead across all its arms.
+/// A few crossings change only their neighbourhood. In a spiral, two exchanged corners reach across all its
+/// arms.
 #[test]
 fn a_loop_in_a_large_outline_is_a_small_fault() {
     let mut count = 0;
@@ -342,7 +342,7 @@ fn an_outline_through_one_point_again_and_again_ends_as_fast() {
         assert_eq!(found.triangles.len(), corners.len() / 3);
         assert!(steps < 4 * corners.len() * 17, "{steps}");
     });
-    // There and back along one line, ever further.
+    // Out and back along one line, further each time.
     let row: Vec<Point> = (1..30_000).flat_map(|k| [[0, 0], [k, 0]]).chain([[5, 5]]).collect();
     in_all_ways(&row, |corners| {
         let (found, steps) = steps(corners);

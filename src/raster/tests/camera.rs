@@ -26,7 +26,7 @@ fn the_ray_of_a_pixel_projects_to_its_centre() {
                 let [start, direction] = ray(&rays, x, y)
                     .map(|v| DVec3::from_array(v.map(|c| c.to_string().parse().unwrap())));
                 let reach = direction.abs().max_element();
-                // Where the ray is near the scene.
+                // The point where the ray is near the scene.
                 let along = -start.dot(direction) / direction.length_squared();
                 let step = if along > 0.0 { along } else { 2f64.powi(50) / reach };
                 let point = faces.lattice().to_world((start + direction * step).to_array());
@@ -38,8 +38,8 @@ fn the_ray_of_a_pixel_projects_to_its_centre() {
     }
 }
 
-/// How far the rays of a camera are from where it has them, in pixels, at the corners of the picture; those of a parallel
-/// camera, from where they are seen from the middle of the picture. `None` if there are no rays.
+/// The distance of a camera's rays from their true positions, in pixels, at the corners of the picture; for
+/// a parallel camera, as seen from the middle of the picture. `None` if there are no rays.
 fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     let rays = Rays::sampled(camera, faces, samples).ok()?;
     let is_parallel = camera.eye().is_none();

@@ -1,4 +1,4 @@
-//! Pictures small enough to be worked out by hand.
+//! Pictures small enough to compute by hand.
 
 use std::cmp::Ordering;
 
@@ -43,7 +43,7 @@ fn paint<'p>(rays: &Rays, faces: &Faces, pieces: impl IntoIterator<Item = Piece<
     painter.finish()
 }
 
-/// A at depth 5 all over; B from depth 4 at the left to depth 10 at the right, above the diagonal.
+/// A at depth 5 everywhere; B from depth 4 at the left to depth 10 at the right, above the diagonal.
 fn two_triangles() -> Faces {
     let a =
         vec![DVec3::new(0.0, 0.0, -5.0), DVec3::new(12.0, 0.0, -5.0), DVec3::new(0.0, 12.0, -5.0)];
@@ -56,8 +56,8 @@ fn two_triangles() -> Faces {
 fn the_nearer_wins_pixel_by_pixel() {
     let faces = two_triangles();
     let depth = zbuffer(&rays(&faces), &faces);
-    // B is nearer where x < 1: in column 0, whose centres are at x = ½; and it covers what is above
-    // the diagonal, whose pixels belong to what is on their right: to A, except for the corner.
+    // B is nearer where x < 1: in column 0, whose centres are at x = ½. It covers the pixels above the
+    // diagonal. Pixels on the diagonal belong to the face on their right: to A, except in the corner.
     assert_eq!(drawn(depth.image().faces()), "BAAAAA BAAAAA BAAAAA BAAAAA BAAAAA AAAAAA");
     let depths: Vec<f64> = depth.depths().collect();
     // Measured from the middle of the scene, at z = −7.
@@ -110,7 +110,7 @@ fn wrong_orders_holes_and_spills_are_told_apart() {
     let missing = judged(&[0], &scene);
     assert_eq!((missing.holes, missing.wrong()), (12, 12));
     assert_eq!(missing.verdicts[2], Verdict::Hole);
-    // A piece that reaches beyond its face, as rounding algorithms make them.
+    // A piece that reaches beyond its face, as from rounding algorithms.
     let rays = rays(&scene);
     let vertices = square([0.0, 0.0], [5.0, 6.0], 0.0).into_iter();
     let vertices: Vec<_> = vertices.map(|p| scene.lattice().to_lattice(p)).collect();
@@ -163,8 +163,8 @@ fn near_is_bright_in_a_depth_map_or_far() {
 
 #[test]
 fn nothing_behind_the_eye_is_shown_mirrored() {
-    // A floor that reaches behind the eye, with its right edge just right of the eye: of this edge
-    // alone, rays to the left are inside, upwards as well, where they leave the floor behind them.
+    // A floor that reaches behind the eye, with its right edge just right of the eye. By this edge alone,
+    // rays to the left are inside, also upwards, where they leave the floor behind them.
     let floor = [(-9.0, 9.0), (0.1, 9.0), (0.1, -9.0), (-9.0, -9.0)];
     let floor = floor.map(|(x, z)| DVec3::new(x, -1.0, z));
     let scene = faces(&[floor.to_vec()], None);
@@ -206,7 +206,7 @@ fn rays_through_lines_belong_to_the_piece_on_their_right() {
     assert_eq!(show(&below), "...... ...... ...... ...... ....A. ...AA.");
 }
 
-/// Looking down, a steep face that goes through a flat one.
+/// Looking down at a steep face that crosses a flat one.
 #[test]
 fn both_faces_have_to_be_near_the_plane_of_the_other() {
     let tolerance = 0.01;

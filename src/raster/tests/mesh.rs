@@ -10,7 +10,7 @@ use crate::view::Camera;
 
 const PIXELS: [u32; 2] = [32, 32];
 
-/// How many faces are met from in front less those from behind, and how many at all, by pixel.
+/// For each pixel, the number of faces met from the front minus those from behind, and of all faces met.
 fn layers(rays: &Rays, faces: &Faces) -> Vec<(i32, i32)> {
     let mut counts = vec![(0, 0); (PIXELS[0] * PIXELS[1]) as usize];
     for face in 0..faces.len() as u32 {
@@ -107,7 +107,7 @@ fn a_grid_of_triangles_is_met_once_everywhere() {
                     let pitch = 2.0 * z / 32.0;
                     let x = (i % 32) as f64 * pitch - 15.5 * pitch + offset.x;
                     let y = 15.5 * pitch - (i / 32) as f64 * pitch + offset.y;
-                    // Ties go to what is on their right and below.
+                    // Ties belong to the face on their right and below.
                     let inside = (-1.0..1.0).contains(&x) && -1.0 < y && y <= 1.0;
                     assert_eq!(
                         (signed, all),

@@ -1,4 +1,4 @@
-//! The raster against exact rationals, by hand, and by conservation.
+//! Compares the raster with exact rationals, with hand-made pictures, and by conservation.
 
 mod camera;
 mod hand;
@@ -16,7 +16,7 @@ use crate::exact::Faces;
 use crate::random::SplitMix64;
 use crate::view::Camera;
 
-/// What scenes, planes and cameras are drawn from.
+/// The source of random scenes, planes and cameras.
 pub(super) struct Random(SplitMix64);
 
 impl Random {
@@ -48,9 +48,9 @@ pub(super) fn faces(polygons: &[Vec<DVec3>], tolerance: Option<f64>) -> Faces {
     Faces::new(polygons, tolerance).unwrap().0
 }
 
-/// Views of a scene of extent about `size` around the origin: general ones, ones along the axes
-/// with rays through lattice points, close, grazing, far, and parallel ones of all these kinds; and the same
-/// off-axis, with pixels that are oblong and skewed.
+/// Views of a scene of extent about `size` around the origin: general ones, views along the axes with rays
+/// through lattice points, close, grazing, far, and parallel ones of all these kinds; and the same
+/// off-axis, with oblong and skewed pixels.
 pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<Camera> {
     let quarter = std::f64::consts::FRAC_PI_2;
     let mut cameras = Vec::new();
@@ -94,7 +94,7 @@ fn skew(random: &mut Random) -> DMat4 {
     DMat4::from_cols(x, y, z, DVec4::new(random.unit(), random.unit(), 0.0, 1.0))
 }
 
-/// The ray of a pixel: where it starts, or any point of it, and its direction.
+/// The ray of a pixel: its start, or any point of it, and its direction.
 pub(super) fn ray(rays: &Rays, x: u32, y: u32) -> [[IBig; 3]; 2] {
     let given: [IBig; 3] = std::array::from_fn(|i| {
         IBig::from(rays.base[i]) + IBig::from(rays.right[i]) * x + IBig::from(rays.down[i]) * y

@@ -45,8 +45,8 @@ struct Point(Vector, IBig);
 /// A ray's start and direction.
 struct Ray(Point, Vector);
 
-/// The ray of a pixel; or, moved by δ to the right and δ² downwards, where δ is less than any ratio
-/// of the numbers involved: as good as infinitely little.
+/// The ray of a pixel; or, moved by δ to the right and δ² downwards, where δ is less than any ratio of the
+/// numbers involved: practically infinitesimal.
 fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     const SHIFT: usize = 3000;
     let [start, direction] = ray(rays, x, y);
@@ -66,7 +66,7 @@ fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     }
 }
 
-/// Where a ray meets the plane of a face, and after which multiple of its direction, as a quotient;
+/// The point where a ray meets the plane of a face, and the multiple of its direction, as a quotient;
 /// `None` if it does not, or only behind the eye.
 fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig; 2])> {
     let (n, p) = plane(faces, face);
@@ -88,8 +88,8 @@ fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig
     Some((Point(times(&point, &sign), divisor.clone()), [-from * sign, divisor]))
 }
 
-/// Whether a point of a face's plane is inside all its edges, seen along the axis that the plane is
-/// least steep in; `None` if it is on one of them, and not outside of another.
+/// Whether a point of a face's plane is inside all its edges, seen along the axis in which the plane is
+/// least steep; `None` if it is on an edge, and not outside another.
 fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<bool> {
     let (n, _) = plane(faces, face);
     let steepest = (0..3).max_by_key(|&i| n[i].abs()).unwrap();
@@ -110,7 +110,7 @@ fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<boo
     if on_edge { None } else { Some(true) }
 }
 
-/// Whether the ray of a pixel meets a face, and after which multiple of its direction.
+/// The multiple of its direction at which the ray of a pixel meets a face, if it does.
 pub(crate) fn meets(rays: &Rays, faces: &Faces, face: u32, x: u32, y: u32) -> Option<RBig> {
     let (point, [numerator, denominator]) = hit(rays, faces, face, &ray_of(rays, x, y, false))?;
     let inside = within(faces, face, &point).unwrap_or_else(|| {
@@ -154,8 +154,8 @@ fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
     }
 }
 
-/// How high above a plane the ray of a pixel meets the plane of a face, or, without a face, starts;
-/// `None` if it does not.
+/// The height above a plane at which the ray of a pixel meets the plane of a face, or, without a face,
+/// starts; `None` if it does not.
 pub(crate) fn height(
     rays: &Rays,
     faces: &Faces,
@@ -180,7 +180,7 @@ pub(crate) struct Height {
 }
 
 impl Height {
-    /// Whether it is some length at most.
+    /// Whether it is at most `reach`.
     pub(crate) fn is_within(&self, reach: f64) -> bool {
         let reach = RBig::from_f64(reach).unwrap();
         self.squared <= &reach * &reach

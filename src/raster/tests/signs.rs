@@ -13,8 +13,8 @@ use crate::view::Camera;
 const PIXELS: [u32; 2] = [12, 6];
 const ROUNDS: u64 = 60;
 
-/// Triangles and quads: in general position, on a coarse grid, planar only within the tolerance,
-/// or slivers; and the tolerance to take them with.
+/// Triangles and quads: in general position, on a coarse grid, planar only within the tolerance, or
+/// slivers; prepared with a suitable tolerance.
 fn scene(random: &mut Random, kind: u64, size: f64) -> Faces {
     let mut polygons = Vec::new();
     for _ in 0..6 {
@@ -41,7 +41,7 @@ fn scene(random: &mut Random, kind: u64, size: f64) -> Faces {
     faces(&polygons, Some(if kind == 2 { 1e-6 * size } else { 0.0 }))
 }
 
-/// A camera whose eye is in the plane of the first face, but for rounding.
+/// A camera whose eye is in the plane of the first face, except for rounding.
 fn in_plane(random: &mut Random, faces: &Faces) -> Option<Camera> {
     if faces.is_empty() {
         return None;

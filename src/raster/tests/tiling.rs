@@ -62,7 +62,7 @@ fn check(faces: &Faces, planes: &[PlaneId], random: &mut Random, size: f64) -> u
         add(Outline::Whole, -1, &mut counts);
         assert!(counts.iter().all(|&count| count == 0), "{camera:?}: {counts:?}");
         met += covered.iter().filter(|&&count| count > 0).count();
-        // A sample against the rationals.
+        // A sample compared with the rationals.
         for _ in 0..40 {
             let (x, y) = (random.below(64) as u32, random.below(32) as u32);
             let Tile { lines, vertices } = &tiles[random.below(tiles.len() as u64) as usize];

@@ -1,60 +1,61 @@
-//! How precisely a file writes its coordinates.
+//! Finds the precision of a file's coordinates.
 
 use std::collections::BTreeMap;
 
-/// The least fixed number of significant digits that programs write. Fewer: short numbers of
-/// different size, as people write them, are taken for rounded ones.
+/// The least fixed number of significant digits that programs write. Too small: short numbers of different
+/// size, as people write them, are taken for rounded ones.
 const FEWEST_DIGITS: i32 = 6;
-/// The decimal digits that an `f64` holds, whatever its value; those behind are noise of a
-/// computation, as in `0.30000000000000004`.
+/// The decimal digits that an `f64` holds for any value; further ones are noise of a computation, as in
+/// `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
-/// Numbers are zero but for noise if they begin more than so many places behind the largest. Smaller:
-/// thin layers near zero are not seen; larger: one sine of a rounded π decides.
+/// A number that begins more than this many places after the largest is zero plus noise. Too small: thin
+/// layers near zero are not seen. Too large: one sine of a rounded π decides.
 const NOISE_PLACES: i32 = 11;
-/// Numbers of so many significant digits are long: as many as tell one `f32` from another. Fewer: the
-/// heights of thin layers, as people write them, are long; more: those of an `f32` are not.
+/// Numbers of this many significant digits are long: as many as distinguish one `f32` from another. Too
+/// small: the heights of thin layers, as people write them, are long. Too large: those of an `f32` are not.
 const LONG: i32 = 9;
-/// At most one number in so many is a stray. Smaller: parts of a scene that are more precise than
-/// the rest are overlooked; larger: a few long numbers decide for all.
+/// At most one number in this many is a stray. Too small: parts of a scene that are more precise than the
+/// rest are overlooked. Too large: a few long numbers decide for all.
 const STRAYS: usize = 100;
-/// So many long numbers, at least, tell whether all were `f32`. Fewer: some are near one by chance.
+/// The least number of long numbers that shows whether all were `f32`. Too small: some are near one by
+/// chance.
 const TELLING: usize = 12;
-/// The first digits that count of a long number, if such numbers are strays. Fewer: layers near zero
-/// that a program computed are merged; more: a stray decides for all.
+/// The number of leading digits of a long number that count if such numbers are strays. Too small: layers
+/// near zero that a program computed are merged. Too large: a stray decides for all.
 const DIGITS_OF_STRAYS: i32 = 3;
 
 /// The digits of the numbers seen so far.
 ///
-/// Programs write either a fixed number of decimals, or a fixed number of significant digits. In
-/// the latter case numbers of different size have as many digits, which otherwise only the largest
-/// numbers have. Zeros that a program adds at the end are not of the number; zeros that it leaves
-/// off there do no harm, as the longest numbers decide. Only numbers far longer than nearly all
-/// others do not: see [`Digits::without_noise`] and [`Decimals::counted`].
+/// Programs write either a fixed number of decimals, or a fixed number of significant digits. In the latter
+/// case numbers of different size have as many digits, which otherwise only the largest numbers have. Zeros
+/// that a program adds at the end do not count; zeros that it omits there do no harm, because the longest
+/// numbers decide. The exceptions are numbers far longer than nearly all others: see
+/// [`Digits::without_noise`] and [`Decimals::counted`].
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,
-    /// How many numbers have such digits; zeros have none.
+    /// The number of numbers with such digits; zeros have none.
     seen: BTreeMap<Digits, usize>,
-    /// How many long numbers there are, and how many of them are `f32` as far as they are written.
+    /// The number of long numbers, and of those that are `f32` up to their written digits.
     long: usize,
     long_of_f32: usize,
     /// The largest number, by its size.
     largest: f64,
 }
 
-/// Which digits a number has; places are powers of ten.
+/// The digits of a number; places are powers of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Digits {
     /// The place of the first digit that is not 0.
     first: i32,
-    /// The place of the last digit, but for zeros behind the point.
+    /// The place of the last digit, without zeros after the point.
     last: i32,
-    /// How many digits are written from the first on, zeros included.
+    /// The number of digits written from the first on, zeros included.
     written: i32,
 }
 
 impl Digits {
-    /// Those of a number; `None` if it is 0.
+    /// The digits of a number; `None` if it is 0.
     fn of(number: &str) -> Option<Self> {
         let (mantissa, exponent) = match number.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),
@@ -102,7 +103,7 @@ impl Decimals {
         if digits.count() >= LONG {
             let off = (value - f64::from(value as f32)).abs();
             self.long += 1;
-            // What was rounded away, and what reading has rounded.
+            // The rounding errors of writing and of reading.
             let rounding = 0.51 * 10f64.powi(digits.last) + f64::EPSILON * value.abs();
             self.long_of_f32 += usize::from(off <= rounding);
         }
@@ -111,7 +112,7 @@ impl Decimals {
         }
     }
 
-    /// One unit in the last decimal of the largest numbers; 0 if no number was seen. Of numbers that were
+    /// One unit in the last decimal of the largest numbers; 0 if no number was seen. For numbers that were
     /// `f32`, and are written with more digits than these have, a step of the largest.
     pub fn unit(&self) -> f64 {
         let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
@@ -119,8 +120,8 @@ impl Decimals {
         step.max(self.decimal())
     }
 
-    /// The digits that count: not those of zeros but for noise, and only the first of the few long
-    /// numbers that have more decimals than any short one.
+    /// The digits that count: not those of zeros with noise, and only the first of the few long numbers
+    /// that have more decimals than any short one.
     fn counted(&self) -> Vec<Digits> {
         let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
         let is_noise = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
@@ -150,7 +151,7 @@ impl Decimals {
         let is_significant = lowest < highest && needed >= FEWEST_DIGITS;
         let exponent =
             if is_significant { highest.saturating_add(1).saturating_sub(needed) } else { last };
-        // Read as a number, it is rounded as the coordinates are.
+        // Parsed as a number, so it is rounded like the coordinates.
         format!("1e{exponent}").parse().unwrap_or(0.0)
     }
 }
@@ -233,7 +234,7 @@ mod tests {
             // A sine of π.
             (&["1.2246467991473532e-16", "-6.123234e-17"], 1e-3),
             (&["0.0000000000015"], 1e-3),
-            // Eleven places behind the largest number, it counts.
+            // Eleven places after the largest number, it counts.
             (&["0.000000000015"], 1e-12),
             // Thin layers are not strays: neither written by people, nor near zero, nor a poster on a wall.
             (&["0.0005"], 1e-4),
@@ -249,13 +250,13 @@ mod tests {
         for (others, expected) in cases {
             assert_eq!(with(others), expected, "{others:?}");
         }
-        // Noise of sums does no harm, however many there are.
+        // Noise of sums does no harm, in any number.
         let sums: Vec<String> = (0..500).map(|k| (f64::from(k) * 0.1).to_string()).collect();
         assert!(sums.iter().any(|sum| sum.len() > 15));
         assert_eq!(unit(sums.iter().map(|sum| &**sum)), 0.1);
     }
 
-    /// However many digits are written of them.
+    /// With any number of written digits.
     #[test]
     fn numbers_that_were_f32_are_as_precise_as_those() {
         let mut state = 7_u64;
@@ -278,7 +279,7 @@ mod tests {
             let found = unit(numbers.iter().map(|number| &**number));
             assert!((step * 0.99..step * 1.01).contains(&found), "{way}: {found} {step}");
         }
-        // Of f64 with as many digits, few are near an f32.
+        // Of `f64` numbers with as many digits, few are near an `f32`.
         let numbers: Vec<String> = (0..200).map(|_| format!("{:.10}", random())).collect();
         assert_eq!(unit(numbers.iter().map(|number| &**number)), 1e-10);
     }

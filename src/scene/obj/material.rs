@@ -11,7 +11,7 @@ use crate::scene::Material;
 /// Materials by the bytes of their names, in the order of a library.
 type Materials = Vec<(Vec<u8>, Material)>;
 
-/// Why a library is not read. The worse fault is the greater one.
+/// The reason why a library is not read. The greater fault is the worse one.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fault {
     Missing,
@@ -38,7 +38,7 @@ pub(super) fn load(
             parse(library, &bytes, report).map_err(|_| Fault::Missing)
         };
         let mut found = find(library);
-        // It may have been written on Windows, or be several names.
+        // The name may be a Windows path, or several names.
         if matches!(found, Err(Fault::Missing)) && library.contains('\\') {
             found = find(&library.replace('\\', "/"));
         }
@@ -73,7 +73,7 @@ fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Material
             is_clamped |= kept != number;
             number.is_finite().then_some(kept)
         };
-        // Lines behind a `newmtl` without a name are of no material.
+        // Lines after a `newmtl` without a name belong to no material.
         let current = materials.last_mut().filter(|(name, _)| !name.is_empty());
         let understood = match (words.next(), current) {
             (Some("newmtl"), _) => {
@@ -96,7 +96,7 @@ fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Material
                 has_dissolve = true;
                 number(words.next()).map(|opacity| material.opacity = opacity).is_some()
             }
-            // Transparency; `d` is the standard one and goes before it.
+            // Transparency; the standard `d` has priority.
             (Some("Tr"), Some((_, material))) if !has_dissolve => {
                 number(words.next()).map(|tr| material.opacity = 1.0 - tr).is_some()
             }

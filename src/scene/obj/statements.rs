@@ -14,16 +14,16 @@ use crate::error::{Error, FileFault, Kind, Problem};
 use crate::input::MAX_CORNERS;
 use crate::scene::{Material, Scene};
 
-/// How many bytes are read at once.
+/// The number of bytes read at once.
 const CHUNK: usize = 1 << 18;
 
-/// A line that says something of polygons or their corners.
+/// A line about polygons or their corners.
 pub(super) enum Statement<'a> {
     /// A vertex, at a finite position.
     Vertex(DVec3),
     TextureCoordinates,
     Normal,
-    /// A face: the numbers of its vertices, counted from 0, that of its material, and its line.
+    /// A face: the numbers of its vertices, counted from 0, its material number, and its line.
     Face {
         corners: &'a [usize],
         material: u32,
@@ -31,7 +31,7 @@ pub(super) enum Statement<'a> {
     },
 }
 
-/// The line and the face of a problem, as far as they are known.
+/// The line and the face of a problem, as far as known.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place {
     pub(super) line: Option<usize>,
@@ -48,7 +48,7 @@ pub(super) struct Contents {
     vertices: usize,
     decimals: Decimals,
     libraries: Names,
-    /// The materials that faces use; the name is empty where none is given.
+    /// The materials that faces use; the name is empty if none is given.
     materials: Names,
     /// The name of the material in use, and its number once a face has used it.
     material: (Vec<u8>, Option<u32>),
@@ -56,7 +56,7 @@ pub(super) struct Contents {
     highest: (usize, Place),
 }
 
-/// Reads a file called `name`. Calls `visit` with each statement, and the words behind its keyword, until
+/// Reads a file called `name`. Calls `visit` with each statement, and the words after its keyword, until
 /// that breaks.
 pub(super) fn read<B>(
     name: &str,
@@ -122,7 +122,7 @@ impl Contents {
             Some("mtllib") => _ = number(&mut self.libraries, behind_keyword(line)),
             Some("p") => self.report.skipped_points += 1,
             Some("l") => self.report.skipped_lines += 1,
-            // They name or group faces, or say how to shade them.
+            // They name or group faces, or define their shading.
             None | Some("o" | "g" | "s" | "mg") => {}
             Some(_) => self.report.skipped_statements += 1,
         }
@@ -176,7 +176,7 @@ impl Contents {
         Ok(*known.get_or_insert_with(|| number(&mut self.materials, name)))
     }
 
-    /// The scene without its polygons. `library` gives the content of a material library.
+    /// The scene without its polygons. `library` returns the content of a material library.
     pub(super) fn scene(
         &mut self,
         name: &str,
@@ -200,7 +200,7 @@ impl Contents {
 
 /// The number of a name, which it gets at its first mention.
 fn number(names: &mut Names, name: &[u8]) -> u32 {
-    // No more names than lines, and no more materials than faces.
+    // There are no more names than lines, and no more materials than faces.
     let next = names.len() as u32;
     *names.entry(name.to_owned()).or_insert(next)
 }
@@ -216,7 +216,7 @@ fn in_order(names: &Names) -> Vec<&[u8]> {
 pub(super) fn index(word: &str, count: usize) -> Option<usize> {
     let number: i64 = word.parse().ok()?;
     let from_0 = if number < 0 { number.checked_add_unsigned(count as u64)? } else { number - 1 };
-    // The number after it is one, too.
+    // The number after it must be one, too.
     usize::try_from(from_0).ok().filter(|&index| index < usize::MAX)
 }
 
@@ -254,7 +254,7 @@ pub(super) fn decode(line: &[u8]) -> Result<Cow<'_, str>, Problem> {
     Ok(text(line))
 }
 
-/// Bytes as text. Where they are not UTF-8, each becomes the character of that number (Latin-1): old files
+/// Bytes as text. If they are not UTF-8, each becomes the character of that number (Latin-1): old files
 /// have names and comments in other encodings.
 pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(bytes) {
@@ -263,7 +263,7 @@ pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Byte-order marks of encodings that are not read; that of UTF-32 begins with one of UTF-16.
+/// Byte-order marks of unsupported encodings; that of UTF-32 begins with one of UTF-16.
 const MARKS: [(&[u8], &str); 4] = [
     (b"\xff\xfe\0\0", "UTF-32"),
     (b"\0\0\xfe\xff", "UTF-32"),
@@ -276,7 +276,7 @@ const MARKS: [(&[u8], &str); 4] = [
 pub(super) struct Lines<R> {
     input: Bytes<BufReader<R>>,
     pub(super) line: Vec<u8>,
-    /// How many line ends have been read.
+    /// The number of line ends read.
     ends: usize,
     /// Whether the last byte was CR: a LF that follows belongs to it.
     is_after_cr: bool,
@@ -288,7 +288,8 @@ impl<R: Read> Lines<R> {
         Self { input, line: Vec::new(), ends: 0, is_after_cr: false }
     }
 
-    /// Reads the next line; its number from 1, or, of joined lines, that of the first. `None` at the end.
+    /// Reads the next line; returns its number from 1, or, for joined lines, that of the first. `None` at
+    /// the end.
     pub(super) fn next(&mut self) -> Result<Option<usize>, Problem> {
         self.line.clear();
         let is_there = self.append()?;
@@ -301,7 +302,7 @@ impl<R: Read> Lines<R> {
                 self.line.drain(..3);
             }
         }
-        // A comment may well end in a Windows path.
+        // A comment can end in a Windows path.
         let is_comment = self.line.trim_ascii_start().starts_with(b"#");
         while !is_comment && self.line.ends_with(b"\\") {
             self.line.pop();
@@ -326,7 +327,7 @@ impl<R: Read> Lines<R> {
                 break;
             }
             self.line.push(byte);
-            // No text has a zero byte, and some devices give nothing else. The longest mark has 4 bytes.
+            // No text has a zero byte, and some devices return nothing else. The longest mark has 4 bytes.
             if byte == 0 && self.line.len() > 4 {
                 break;
             }

@@ -1,4 +1,4 @@
-//! The points and edges of all fragments: which vertices are one point, and which edges lie on one line.
+//! The points and edges of all fragments: vertices that are one point, and edges on one line.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};
@@ -11,8 +11,8 @@ use crate::tree::Fragment;
 use crate::tree::parts::Stored;
 use crate::union::Union;
 
-/// A vertex as one face names it: a corner, or where planes cut the face. The first nodes are the
-/// corners of all faces, the others [`Survey::cuts`].
+/// A vertex as one face names it: a corner, or the intersection of planes with the face. The first nodes
+/// are the corners of all faces, the others [`Survey::cuts`].
 pub(super) type Node = u32;
 
 /// An edge of a fragment. It ends where the fragment's next edge begins.
@@ -53,10 +53,10 @@ pub(super) struct Survey<'t> {
     pub(super) faces: &'t Faces,
     /// The numbers of all fragments, face by face.
     pub(super) fragments: Vec<u32>,
-    /// Where the edges of each of `fragments` begin, and the end of the last.
+    /// The first edge of each of `fragments`, and the end of the last.
     pub(super) starts: Vec<u32>,
     pub(super) edges: Vec<FragmentEdge>,
-    /// Nodes that are no corners: a face, and the vertex on it.
+    /// Nodes that are not corners: a face, and the vertex on it.
     pub(super) cuts: Vec<(u32, VertexId)>,
     pub(super) carriers: Vec<Carrier>,
 }
@@ -99,7 +99,7 @@ impl<'t> Survey<'t> {
         Ok(survey)
     }
 
-    /// Makes room for a fragment with so many vertices, whatever is new of it.
+    /// Reserves memory for a fragment with `vertices` vertices, all of which may be new.
     fn make_room(&mut self, names: &mut Names, vertices: usize) -> Result<(), Error> {
         reserve(&mut self.cuts, vertices)?;
         reserve(&mut self.carriers, vertices)?;
@@ -138,13 +138,13 @@ impl<'t> Survey<'t> {
         })
     }
 
-    /// Which face and vertex a node is, unless it is a corner.
+    /// The face and vertex of a node, unless it is a corner.
     pub(super) fn cut(&self, node: Node) -> Option<(u32, VertexId)> {
         let at = (node as usize).checked_sub(self.faces.corner_count())?;
         self.cuts.get(at).copied()
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub(super) fn nodes(&self) -> usize {
         self.faces.corner_count() + self.cuts.len()
     }
@@ -157,7 +157,7 @@ pub(super) fn ends(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
     [k, next].map(|k| faces.given_corner(range.start as u32 + k))
 }
 
-/// What has a number already, on the current face; lines on any face.
+/// The numbers assigned so far: on the current face; for lines, on any face.
 #[derive(Default)]
 struct Names {
     face: u32,
@@ -210,8 +210,8 @@ fn by_face(source: Source<'_>) -> Result<Vec<u32>, Error> {
     Ok(fragments)
 }
 
-/// A line that carries edges of fragments: that of an edge as given, shared by all faces, or where a
-/// plane cuts one face.
+/// A line that contains edges of fragments: that of an edge as given, shared by all faces, or the cut of a
+/// plane through one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier {
     /// An axis along which the line is not constant.
@@ -230,7 +230,7 @@ impl Lines {
         self.0.try_reserve(more)
     }
 
-    /// The number of the line through two lattice points; if it is new, it is added to `carriers`.
+    /// The number of the line through two lattice points; a new line is added to `carriers`.
     pub(super) fn number(&mut self, ends: [[f64; 3]; 2], carriers: &mut Vec<Carrier>) -> u32 {
         let [a, b] = ends.map(|end| end.map(|c| c as i64));
         let arm: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
@@ -274,19 +274,19 @@ pub(super) struct OutlineVertex {
     pub(super) straight: bool,
 }
 
-/// Calls `triangle` with two triangles fewer than the outline has vertices. They face as it does,
-/// fill it, and none has all its vertices on one side of the outline, so none is without area.
+/// Calls `triangle` with two triangles fewer than the outline has vertices. They have its orientation and
+/// fill it. None has all its vertices on one side of the outline, so each has area.
 ///
 /// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has none.
 pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u32; 3])) {
     let n = outline.len();
     let at = |k: usize| outline[k % n];
     let mut emit = |a: usize, b: usize, c: usize| triangle([a, b, c].map(|k| at(k).vertex));
-    // A fan from any true corner would have flat triangles on the sides next to it, if these have
-    // vertices inside. A fan from a vertex inside a side has them on that side alone.
+    // A fan from any true corner would have flat triangles on the sides next to it, if these have vertices
+    // inside. A fan from a vertex inside a side has flat triangles only on that side.
     let first = (0..n).find(|&k| at(k).straight && !at(k + n - 1).straight);
     let apex = first.unwrap_or(0);
-    // How many edges it is to the end of the apex's side.
+    // The number of edges to the end of the apex's side.
     let length = first.and_then(|apex| (1..n).find(|&k| !at(apex + k).straight)).unwrap_or(1);
     let mut next = apex + 1;
     if length > 1 && length + 1 < n {
@@ -297,14 +297,14 @@ pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u
     (next + 1..apex + n).for_each(|k| emit(apex, k - 1, k));
 }
 
-/// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`]
-/// for both, are in their true order: each is off by three roundings of its own size at most, and
-/// the difference by one. Smaller: wrong orders; larger: more work for the integers.
+/// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`] for both,
+/// are in their true order: each is off by three roundings of its own size at most, and the difference by
+/// one. Too small: wrong orders. Too large: more work for the integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The points of all lines.
 pub(super) struct Points {
-    /// Which nodes are the same point.
+    /// The nodes that are the same point.
     same: Union,
     /// A node of each point, line after line, in order along each.
     pub(super) on_lines: Vec<Node>,
@@ -330,8 +330,8 @@ impl Points {
         reserve(&mut points.ends, survey.edges.len())?;
         points.ends.resize(survey.edges.len(), [0; 2]);
         reserve(&mut points.on_lines, all.len() / 2)?;
-        // Lines that faces share come first: where corners were moved onto their planes, an edge as
-        // given decides, not one of its faces.
+        // Lines shared by faces come first: if corners were moved onto their planes, an edge as given
+        // decides, not one of its faces.
         for shared in [true, false] {
             for (line, range) in starts.windows(2).enumerate() {
                 if survey.carriers[line].face.is_none() == shared {
@@ -343,7 +343,7 @@ impl Points {
         Ok(points)
     }
 
-    /// The node that names a node's point: the least, a corner if there is one.
+    /// The node that represents a node's point: the least, a corner if there is one.
     pub(super) fn root(&self, node: Node) -> Node {
         self.same.root(node)
     }
@@ -360,12 +360,12 @@ impl Points {
         Ok(())
     }
 
-    /// Sorts the ends on one line, unites those in one place, and notes the places.
+    /// Sorts the ends on one line, unites those in one place, and stores the places.
     fn order(&mut self, survey: &Survey<'_>, line: usize, ends: &mut [End]) -> Result<(), Error> {
         ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
         reserve(&mut self.on_lines, ends.len())?;
         let mut last: Option<End> = None;
-        // What the edges as given have made one point may have two places on a line of a face whose corners
+        // A point that is one by the edges as given may have two places on a line of a face whose corners
         // were moved.
         let is_one = |same: &Union, a: &End, b: &End| {
             same.root(a.node) == same.root(b.node) || compare(survey, line, a, b).is_eq()
@@ -385,11 +385,11 @@ impl Points {
     }
 }
 
-/// How two ends on a line compare: as their [`coordinate`]s there do, whatever is known of their points. So
-/// it is a total order.
+/// Compares two ends on a line by their [`coordinate`]s there, regardless of their points. So it is a total
+/// order.
 fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
     let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
-    // A rounded coordinate that is not to be relied on is NaN, and then no difference is large.
+    // An unreliable rounded coordinate is NaN, and then no difference is large.
     if (a.rounded - b.rounded).abs() > slack {
         return a.rounded.total_cmp(&b.rounded);
     }
@@ -400,8 +400,8 @@ fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
     a.compare(&b)
 }
 
-/// Whether two ends on a line that faces share are corners given there in one place, or where the same
-/// plane cuts it.
+/// Whether two ends on a line shared by faces are corners given in one place there, or cuts by the same
+/// plane.
 fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
     let plane = |(face, vertex_id): (u32, VertexId)| match vertex_id.kind() {
         VertexKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
@@ -421,9 +421,9 @@ fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
 
 /// The coordinate of a node on a line, along the line's axis.
 ///
-/// On the line of an edge as given, it is that of a corner as given, or of the place where the plane
-/// cuts the edge as given, so that all faces agree; on a line inside a face, that of the vertex on
-/// the face's plane.
+/// On the line of an edge as given, it is that of a corner as given, or of the place where the plane cuts
+/// the edge as given, so that all faces agree. On a line inside a face, it is that of the vertex on the
+/// face's plane.
 pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fraction {
     let (faces, carrier) = (survey.faces, survey.carriers[line]);
     match (survey.cut(node), carrier.face) {
@@ -447,7 +447,7 @@ pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fracti
     }
 }
 
-/// The ends of all edges, line by line, and where each line's begin.
+/// The ends of all edges, line by line, and the start of each line.
 fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
     let mut starts = Vec::new();
     reserve(&mut starts, survey.carriers.len() + 1)?;
@@ -518,7 +518,7 @@ mod tests {
             names.vertex_ids.insert(VertexId::crossing(EdgeLine::edge(0), plane), k);
             names.planes.insert(plane, k);
         }
-        // The first face after it still pays for the entries.
+        // The first face after it is still slowed by the entries.
         (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
         let room = names.vertex_ids.capacity() + names.planes.capacity();
         assert!(room < 1000, "room for {room} names is emptied for each face");
@@ -605,7 +605,7 @@ mod outline_tests {
         let n = points.len() as u32;
         assert_eq!(count, n - 2);
         edges.retain(|&(a, b)| b != (a + 1) % n || n == 3 && a == b);
-        // What is left beside the outline is matched.
+        // The edges left beside the outline occur in pairs.
         assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a)) || (b + 1) % n == a));
         assert_eq!(edges.len() as u32, 2 * (n - 3));
         let next = shape.iter().cycle().skip(1);

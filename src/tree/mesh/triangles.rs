@@ -7,15 +7,15 @@ use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
-/// Triangles of a tree's fragments: three vertices of a [`Mesh`](crate::mesh::Mesh) each, one range of
-/// indices a fragment.
+/// Triangles of a tree's fragments: each has three vertices of a [`Mesh`](crate::mesh::Mesh), and each
+/// fragment one range of indices.
 ///
-/// [`Mesh::triangles`](crate::mesh::Mesh::triangles) has those of all fragments,
+/// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments,
 /// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) those of some polygons, such as the translucent
 /// ones.
 #[derive(Clone, Debug)]
 pub struct Triangles {
-    /// That of their tree.
+    /// The generation of the tree.
     generation: u64,
     /// The number of the first fragment in orders: 0, or that of an overlay's first piece.
     first: usize,
@@ -23,9 +23,9 @@ pub struct Triangles {
     pub(super) vertices: u32,
     /// Where each fragment's indices begin, and the end of the last.
     starts: Vec<u32>,
-    /// [`CHUNK`] more than there are.
+    /// [`CHUNK`] more than are used.
     indices: Vec<u32>,
-    /// How many triangles each fragment has, if all have as many.
+    /// The number of triangles of each fragment, if it is the same for all.
     each: Option<u32>,
 }
 
@@ -39,7 +39,7 @@ impl PartialEq for Triangles {
 impl Eq for Triangles {}
 
 impl Triangles {
-    /// Room for so many indices of each fragment.
+    /// Makes room for a number of indices per fragment.
     pub(super) fn with_lengths(
         generation: u64,
         first: usize,
@@ -81,16 +81,16 @@ impl Triangles {
         Ok(some)
     }
 
-    /// All indices in the order of the fragments' numbers, for what is drawn in any order.
+    /// All indices in the order of the fragments' numbers, for drawing without an order.
     pub fn indices(&self) -> &[u32] {
         &self.indices[..self.indices.len() - CHUNK]
     }
 
-    /// Which of [`indices`](Self::indices) a fragment has, given its number.
+    /// The range of a fragment's indices in [`indices`](Self::indices).
     ///
     /// # Panics
     ///
-    /// If there is no such fragment.
+    /// If the number is not that of a fragment.
     pub fn range(&self, fragment: u32) -> Range<usize> {
         self.range_at(fragment as usize - self.first)
     }
@@ -103,16 +103,16 @@ impl Triangles {
         size_of_val(&*self.starts) + size_of_val(&*self.indices)
     }
 
-    /// Writes the indices back to front, and returns how many: always the length of
+    /// Writes the indices back to front and returns their number: always the length of
     /// [`indices`](Self::indices).
     ///
-    /// `tree` must be the one that the mesh was made of, or a clone of it. Inside a fragment the triangles
+    /// `tree` must be the one that the mesh was made of, or a clone of it. The triangles of one fragment
     /// keep their order.
     ///
-    /// `indices` may be mapped memory of a device: each place is written once, from the first on,
-    /// and none is read. Places beyond are left as they are. `order` is working space, in which the
-    /// order of the fragments is left; as in
-    /// [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once it has grown.
+    /// `indices` may be mapped device memory: each place is written once, in increasing order, and none is
+    /// read. Places beyond the end are not changed. `order` is working space and finally holds the order of
+    /// the fragments; as in [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once
+    /// it is large enough.
     ///
     /// O(n).
     ///
@@ -139,8 +139,8 @@ impl Triangles {
     }
 
     /// Writes the indices of some fragments in a given order, such as that of
-    /// [`Order::write_into`](crate::Order::write_into), and returns how many:
-    /// otherwise as [`write_back_to_front`](Self::write_back_to_front).
+    /// [`Order::write_into`](crate::Order::write_into), and returns their number. Otherwise like
+    /// [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
@@ -148,7 +148,7 @@ impl Triangles {
     ///
     /// # Panics
     ///
-    /// If there is no fragment of a number in the list.
+    /// If a number in the list is not that of a fragment.
     pub fn write_order(&self, order: &[u32], indices: &mut [u32]) -> Result<usize, Error> {
         let count = match self.each {
             Some(each) => 3 * each as usize * order.len(),
@@ -223,7 +223,7 @@ impl Triangles {
         }
     }
 
-    /// If each fragment has N indices, the place of a fragment's is known without looking.
+    /// If each fragment has N indices, their place follows from the fragment's number.
     fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
         let (all, places) = (self.indices.as_chunks::<N>().0, places.as_chunks_mut::<N>().0);
         for (&fragment, place) in order.iter().zip(places) {
@@ -231,16 +231,16 @@ impl Triangles {
         }
     }
 
-    /// Each fragment's indices are copied into a small buffer, always [`CHUNK`] of them, and those
-    /// too many are written over by the next fragment's. That is faster than a branch on how many
-    /// there are, which no processor can predict; but the caller's memory must be written once.
+    /// Copies each fragment's indices into a small buffer, always [`CHUNK`] of them; the next fragment
+    /// overwrites the excess. That is faster than a branch on their number, which no processor can predict,
+    /// but would write the caller's memory more than once.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;
         for &fragment in order {
             let fragment = fragment as usize;
             let (start, end) = (self.starts[fragment] as usize, self.starts[fragment + 1] as usize);
-            // Behind the last fragment's indices there is room to read so many.
+            // `CHUNK` indices can be read even after the last fragment's.
             let from = self.indices[start..].first_chunk::<CHUNK>();
             let to = stage[filled..].first_chunk_mut::<CHUNK>();
             let (Some(from), Some(to)) = (from, to) else { continue };
@@ -262,10 +262,10 @@ impl Triangles {
     }
 }
 
-/// How many indices are copied at once: four triangles. Smaller: more fragments are copied piece by
-/// piece; larger: more is copied in vain.
+/// The number of indices copied at once: four triangles. Too small: more fragments are copied piece by
+/// piece. Too large: more excess indices are copied.
 const CHUNK: usize = 12;
-/// How many indices are gathered before they are written, 4 kB. Smaller: more calls; larger: the
+/// The number of indices gathered before they are written, 4 kB. Too small: more calls. Too large: the
 /// buffer leaves the processor's nearest cache.
 const STAGE: usize = 1024;
 

@@ -1,4 +1,4 @@
-//! Decides on which side of each partition plane the eye is, several planes at a time.
+//! Computes the eye's side of each partition plane, several planes at a time.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -17,19 +17,18 @@ use crate::{Error, parallel_map};
 /// are the eye's homogeneous coordinates, scaled so that the largest of the four is 1, and |p| is the
 /// sum of the magnitudes of the first three.
 ///
-/// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p, which for a wrong
-/// sign is ow but for rounding. Normal, eye and their products are off by 3uT, offset, w and their
-/// product by 3u|N|, the sums by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by next to
-/// nothing; less 2u of the product with the coordinate that is 1, which neither it nor the product
-/// adds to.
+/// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p, which for a wrong sign is
+/// ow up to rounding. Normal, eye and their products are off by 3uT, offset, w and their product by 3u|N|,
+/// the sums by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by almost nothing; less 2u of the product
+/// with the coordinate that is 1, because neither it nor the product is rounded.
 ///
 /// - If w is 1: 4T + 2|N| ≤ 6T ≤ 6 √|p| ≤ 3(|p| + 1).
 /// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w, it is
 ///   2|nₖ| + 4T' + 4|N| ≤ 2 + 3(|p| − 1) + 6.93 w.
 ///
-/// So the error is at most 3u(|p| + 2w), and less than 0.01u(|p| + 2w) more because normals are off by
-/// 2⁻³⁴ before they are rounded to `f32`, and offsets by as much. A smaller bound lets wrong signs
-/// pass; a larger one sends eyes to the integers that floats could decide.
+/// So the error is at most 3u(|p| + 2w), and less than 0.01u(|p| + 2w) more because normals are off by 2⁻³⁴
+/// before they are rounded to `f32`, and offsets by as much. Too small: wrong signs pass. Too large:
+/// integers decide eyes that floats could have decided.
 const ERROR: f32 = 1.505 * f32::EPSILON;
 
 /// A viewpoint, prepared to be compared with a tree's planes.
@@ -64,7 +63,7 @@ impl View {
         *x * p.x + *y * p.y + *z * p.z - *offset * p.w
     }
 
-    /// Whether the eye is in front of a node's plane: by floats where the bound allows, else exactly.
+    /// Whether the eye is in front of a node's plane: by floats if the bound allows, otherwise exactly.
     pub(in crate::tree) fn is_in_front(&self, tree: &BspTree, node: usize) -> bool {
         let [x, y, z, offset] = tree.planes.get(node).to_array();
         let p = self.point;
@@ -72,8 +71,7 @@ impl View {
         if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
     }
 
-    /// Whether the eye is in front of a plane that is given rounded as well, as by
-    /// [`rounded`](rounded).
+    /// Whether the eye is in front of a plane that is also given rounded, by [`rounded`](rounded).
     pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
         let [x, y, z, offset] = rounded.to_array();
         let p = self.point;
@@ -84,8 +82,8 @@ impl View {
         faces.eye_side(plane, &self.eye) == Ordering::Greater
     }
 
-    /// Of up to 16 planes from some number on: a bit for each that the eye is in front of, and for each that
-    /// it is behind, where floats tell.
+    /// For up to 16 planes from a given number on: a bit for each that certainly has the eye in front, and
+    /// a bit for each that certainly has it behind.
     #[inline]
     pub(in crate::tree) fn sure_sides(&self, planes: &Planes, run: Range<u32>) -> [u32; 2] {
         let groups = run.start as usize / GROUP..(run.end as usize).div_ceil(GROUP);
@@ -98,7 +96,7 @@ impl View {
         [front, behind].map(|bits| bits >> (run.start as usize % GROUP))
     }
 
-    /// As [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
+    /// Like [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
     pub(in crate::tree) fn write_signs(&self, tree: &BspTree, words: &mut [u32]) {
         let groups = tree.planes.0.chunks(WORD / GROUP);
         for (w, (word, groups)) in words.iter_mut().zip(groups).enumerate() {
@@ -120,8 +118,8 @@ impl View {
         for (g, group) in groups.iter().enumerate() {
             let distances = self.distances(group);
             let bound = Vec4::splat(self.bound);
-            // No early exit for doubtful planes: they are rare, and a word at a time can be decided
-            // without a branch.
+            // No early exit for doubtful planes: they are rare, and a word at a time can be decided without
+            // a branch.
             front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
             sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
         }
@@ -149,11 +147,10 @@ impl View {
 }
 
 impl BspTree {
-    /// Whether no partition plane lies between two viewpoints: then their orders are the same, and
-    /// what was sorted or uploaded for one need not be for the other. (Orders may be the same even
-    /// if a plane lies between.)
+    /// Whether no partition plane lies between two viewpoints. Then their orders are the same, and need not
+    /// be sorted or uploaded again. (Orders may be the same even if a plane lies between.)
     ///
-    /// It stops at the first plane between the two; O(nodes) if there is none. Nothing is allocated.
+    /// Stops at the first plane between the two; O(nodes) if there is none. Allocates nothing.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
@@ -170,20 +167,20 @@ impl BspTree {
     }
 }
 
-/// How many planes stand together, and how many signs are in a word.
+/// The number of planes in a group, and of signs in a word.
 pub(super) const GROUP: usize = 4;
 pub(super) const WORD: usize = 32;
 
-/// How many groups one thread makes at a time.
+/// The number of groups that one thread makes at a time.
 const GROUPS_A_THREAD: usize = 1024;
 
-/// The rounded planes of a tree's nodes, or of its fragments, in their order and by fours: the three
-/// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice
-/// units. The last group is filled up with zeros.
+/// The rounded planes of a tree's nodes, or of its fragments, in order and in groups of four: the three
+/// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice units.
+/// The last group is filled up with zeros.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Planes(pub(super) Vec<[Vec4; 4]>);
 
-/// Up to [`GROUP`] planes, by the component.
+/// Up to [`GROUP`] planes, component by component.
 fn group(planes: impl Iterator<Item = Vec4>) -> [Vec4; 4] {
     let mut group = [Vec4::ZERO; 4];
     for (i, plane) in planes.enumerate() {
@@ -195,7 +192,7 @@ fn group(planes: impl Iterator<Item = Vec4>) -> [Vec4; 4] {
 }
 
 impl Planes {
-    /// The rounded plane of a node, as [`rounded`] has it.
+    /// The rounded plane of a node, as returned by [`rounded`].
     pub(crate) fn get(&self, node: usize) -> Vec4 {
         let group = &self.0[node / GROUP];
         Vec4::from_array(group.map(|part| part[node % GROUP]))
@@ -226,18 +223,18 @@ impl Planes {
         Ok(())
     }
 
-    /// Planes that are given rounded, in their order.
+    /// The given rounded planes, in order.
     pub(in crate::tree) fn of(mut planes: impl ExactSizeIterator<Item = Vec4>) -> Self {
         let groups = 0..planes.len().div_ceil(GROUP);
         Self(groups.map(|_| group(planes.by_ref().take(GROUP))).collect())
     }
 
-    /// How many words the signs of all planes take, and one more to read past the end.
+    /// The number of words for the signs of all planes, and one more to read past the end.
     pub(in crate::tree) fn words(&self) -> usize {
         self.0.len().div_ceil(WORD / GROUP) + 1
     }
 
-    /// The resident size in bytes, apart from its own.
+    /// The size of its heap memory in bytes.
     pub(in crate::tree) fn bytes(&self) -> usize {
         size_of_val(&*self.0)
     }

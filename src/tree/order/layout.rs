@@ -1,5 +1,5 @@
-//! Where the fragments of a tree stand in memory, for orders to be written from: inner nodes, blocks that a table
-//! puts in order, and spans.
+//! The layout of a tree's fragments in memory, for writing orders: inner nodes, blocks ordered by a table,
+//! and spans.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use crate::Error;
 use crate::memory::push;
 use crate::tree::node::NodeRecord;
 
-/// Shorter chains are stored as ordinary inner nodes: to branch on a chain costs more than a short one
+/// Shorter chains are stored as ordinary inner nodes: a branch on a chain costs more than a short one
 /// saves.
 const SHORTEST_CHAIN: usize = 8;
 
@@ -43,8 +43,8 @@ impl OrderLayout {
     }
 }
 
-/// The bits that tell the kind of a part while parts are numbered within their kind. They are free
-/// because a tree has fewer than 2²⁹ fragments.
+/// The bits for the kind of a part while parts are numbered within their kind. They are free because a tree
+/// has fewer than 2²⁹ fragments.
 const KIND: u32 = BLOCK | SPAN;
 const BLOCK: u32 = 1 << 31;
 const SPAN: u32 = 1 << 30;
@@ -68,7 +68,7 @@ struct Unplaced {
     node: usize,
     nodes: usize,
     fragments: u32,
-    /// The inner node above it, and on which side of that it is.
+    /// The inner node above it, and its side of that node.
     parent: Option<(usize, InnerSide)>,
 }
 
@@ -89,9 +89,9 @@ impl LayoutBuilder<'_> {
                 self.inner(&subtree, &mut stack)?
             };
             if let Some((inner, side)) = subtree.parent {
-                // Parents are laid out before their children, so the parent learns the number here.
-                // A child right behind its parent gets `NEXT`, which the writing loop can recognise
-                // without reading memory.
+                // Parents are laid out before their children, so the parent gets the number here. A child
+                // directly after its parent gets `NEXT`, which the writing loop can recognise without
+                // reading memory.
                 let part = if part == ROOT + inner as u32 + 1 { NEXT } else { part };
                 let inner = &mut self.layout.inner[inner];
                 match side {
@@ -108,8 +108,8 @@ impl LayoutBuilder<'_> {
         let mut links = self.links(subtree);
         let first = self.next;
         if links >= SHORTEST_CHAIN {
-            // A chain looks like its last node to everything below. The other nodes each have one
-            // fragment, and these follow each other, so it is enough to count them.
+            // To everything below, a chain looks like its last node. The other nodes each have one
+            // fragment, with consecutive numbers, so it is enough to count them.
             self.next += links as u32 - 1;
         } else {
             links = 1;
@@ -122,8 +122,8 @@ impl LayoutBuilder<'_> {
         let front_nodes = node.front_nodes as usize;
         let front_part = if front_nodes == 0 { self.leaf(front)? } else { NOBODY };
         let back_part = if node.back_is_node() { NOBODY } else { self.leaf(back)? };
-        // The back goes on the stack first, so that the front comes off first: inner nodes, blocks and
-        // fragments must be numbered depth first, as they stand in memory.
+        // The back is pushed first, so that the front is popped first: inner nodes, blocks and fragments
+        // must be numbered depth first, as in memory.
         if node.back_is_node() {
             let parent = Some((index, InnerSide::Back));
             let nodes = subtree.nodes - links - front_nodes;
@@ -143,7 +143,7 @@ impl LayoutBuilder<'_> {
         Ok(ROOT + index as u32)
     }
 
-    /// How many nodes at the top of a subtree form a chain.
+    /// The number of nodes at the top of a subtree that form a chain.
     fn links(&self, subtree: &Unplaced) -> usize {
         let mut fragments = subtree.fragments;
         let side = |node: &NodeRecord, fragments: u32| {
@@ -201,41 +201,40 @@ impl LayoutBuilder<'_> {
     }
 }
 
-/// Part number for "none".
+/// The part number that stands for no part.
 pub(in crate::tree) const NOBODY: u32 = 0;
-/// Part number for "the inner node that follows in memory".
+/// The part number of the inner node that follows in memory.
 pub(in crate::tree) const NEXT: u32 = 1;
-/// Part number of the whole tree.
+/// The part number of the whole tree.
 pub(in crate::tree) const ROOT: u32 = 2;
 
 /// A tree's fragments, divided into *parts*. The fragments of a part are contiguous in every order.
 ///
-/// - An *inner node* is a node with everything on its sides.
+/// - An *inner node* is a node with all parts on its plane and sides.
 /// - A *block* is a subtree or leaf of at most [`FRAGMENTS`](FRAGMENTS) fragments and
 ///   [`NODES`](NODES) nodes.
-/// - A *span* is a longer sequence of fragments that always come in the order of their numbers, such
-///   as many on one plane.
+/// - A *span* is a longer sequence of fragments that always come in the order of their numbers, such as
+///   many on one plane.
 ///
 /// Parts are numbered from [`ROOT`]: inner nodes first, then blocks, then spans, each depth first.
 ///
-/// There are fewer than two parts per fragment. Proof: call *ends* the blocks, the spans, and the
-/// fragments that are alone on the plane of an inner node. Each end has a fragment of its own, so there
-/// are at most as many ends as fragments. A node has fragments on its plane or on both sides, so a
-/// inner node contains at least two ends or inner nodes, and there are fewer inner nodes than ends. The
-/// exception is an inner node with nothing beside its plane; it contains one span, which has more than
-/// [`FRAGMENTS`](FRAGMENTS) fragments.
+/// There are fewer than two parts per fragment. Proof: call *ends* the blocks, the spans, and the fragments
+/// that are alone on the plane of an inner node. Each end has a different fragment, so there are at most as
+/// many ends as fragments. A node has fragments on its plane or on both sides, so an inner node contains at
+/// least two ends or inner nodes, and there are fewer inner nodes than ends. The exception is an inner node
+/// with both sides empty; it contains one span, which has more than [`FRAGMENTS`](FRAGMENTS) fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::tree) struct OrderLayout {
     pub(in crate::tree) inner: Vec<Inner>,
     pub(in crate::tree) blocks: Vec<Block>,
     pub(in crate::tree) spans: Vec<Span>,
-    /// For each shape of block: how the signs of its nodes permute its fragments.
+    /// For each shape of block, the permutation of its fragments for all signs of its nodes.
     pub(in crate::tree) permutations: Vec<Permutations>,
 }
 
 /// A node whose subtree is too large for a block, or several such nodes in a row; see [`Chain`].
 ///
-/// The value of `own` decides what `own` and `own_first` mean:
+/// The value of `own` decides the meaning of `own` and `own_first`:
 ///
 /// | `own` | meaning | `own_first` |
 /// |---|---|---|
@@ -248,7 +247,7 @@ pub(in crate::tree) struct Inner {
     /// The node, or the first of a chain.
     pub(in crate::tree) node: u32,
     pub(in crate::tree) own: u32,
-    /// How many fragments are in front and behind, at all levels below; for a chain, those of its last
+    /// The numbers of fragments in front and behind, at all levels below; for a chain, those of its last
     /// node.
     pub(in crate::tree) front: u32,
     pub(in crate::tree) back: u32,
@@ -261,14 +260,14 @@ pub(in crate::tree) struct Inner {
 /// Marks an [`Inner`] that is a chain.
 pub(super) const CHAIN: u32 = 1 << 31;
 
-/// Nodes in a row, each with one fragment on its plane and all others below a single child, always
-/// on the same side. The order is written from both ends inwards; the rest comes in between.
+/// Consecutive nodes, each with one fragment on its plane and all others below a single child, always on
+/// the same side. The order is written from both ends inwards; the rest comes in between.
 pub(in crate::tree) struct Chain {
     pub(in crate::tree) first_node: u32,
     pub(in crate::tree) nodes: u32,
     /// The fragment of the first node; the others follow.
     pub(in crate::tree) first: u32,
-    /// How many fragments are below the last node.
+    /// The number of fragments below the last node.
     pub(in crate::tree) rest: u32,
     pub(in crate::tree) rest_is_front: bool,
 }
@@ -290,7 +289,7 @@ impl Inner {
 /// A subtree or a leaf of few fragments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::tree) struct Block {
-    /// Its first node; any, if it is a leaf.
+    /// Its first node; arbitrary for a leaf.
     pub(in crate::tree) node: u32,
     /// Its first fragment.
     pub(in crate::tree) first: u32,
@@ -306,12 +305,12 @@ pub(in crate::tree) struct Span {
 }
 
 impl OrderLayout {
-    /// How many parts there are, [`NOBODY`] and [`NEXT`] included.
+    /// The number of parts, [`NOBODY`] and [`NEXT`] included.
     pub(in crate::tree) fn parts(&self) -> usize {
         ROOT as usize + self.inner.len() + self.blocks.len() + self.spans.len()
     }
 
-    /// The resident size in bytes, apart from its own.
+    /// The size of its heap memory in bytes.
     pub(in crate::tree) fn bytes(&self) -> usize {
         size_of_val(&*self.inner)
             + size_of_val(&*self.blocks)
@@ -320,39 +319,39 @@ impl OrderLayout {
     }
 }
 
-/// The most fragments of a block: four places of two bits each fit a byte.
+/// The largest number of fragments of a block: four places of two bits each fit a byte.
 pub(in crate::tree) const FRAGMENTS: usize = 4;
-/// The most nodes of a block: the builder divides only sets of two pieces or more.
+/// The largest number of nodes of a block: the builder divides only sets of two pieces or more.
 pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 
 /// The places of a block's fragments for every combination of signs of its nodes.
 ///
-/// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the
-/// place of fragment k. Fragments that the block does not have share the place of the first.
+/// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the place
+/// of fragment k. Missing fragments share the place of the first.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
-/// Everything but the signs that decides the places of a block's fragments: for each node, how many
-/// fragments are on its plane and in front, how many nodes are in front, and whether the back is one;
-/// how many nodes there are, none for a leaf; and how many fragments. Blocks of the same shape share a
+/// Everything except the signs that decides the places of a block's fragments. For each node: the numbers
+/// of fragments on its plane and in front, the number of nodes in front, and whether the back is a node.
+/// For the block: the numbers of nodes (none for a leaf) and of fragments. Blocks of the same shape share a
 /// row of the table.
 ///
-/// Packed, as there is one to look up for each block.
+/// Packed, because each block needs a look-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in crate::tree) struct BlockShape(u32);
 
 /// The bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three, up to [`NODES`] two.
 const NODE_BITS: u32 = 3 + 3 + 2 + 1;
-/// The bits of the number of fragments, behind those of the nodes.
+/// The start of the number of fragments, after the bits of the nodes.
 const FRAGMENTS_AT: u32 = NODE_BITS * NODES as u32;
-/// The bits of the number of nodes, behind those.
+/// The start of the number of nodes, after that.
 const LEN_AT: u32 = FRAGMENTS_AT + 3;
 
 /// A node of a shape.
 struct ShapeNode {
     own: u8,
-    /// How many fragments are in front, in a leaf or below nodes.
+    /// The number of fragments in front, in a leaf or below nodes.
     front: u8,
-    /// How many nodes are in front; if none, the front is a leaf.
+    /// The number of nodes in front; if 0, the front is a leaf.
     front_nodes: u8,
     back_is_node: bool,
 }
@@ -400,7 +399,7 @@ impl BlockShape {
         if self.len() == 0 {
             order.put(0, self.fragments());
         }
-        // Where the fragments of the subtree at each node begin, and how many it has.
+        // The first fragment and the number of fragments of the subtree at each node.
         let (mut begins, mut totals) = ([0; NODES], [self.fragments(); NODES]);
         for k in 0..self.len() {
             let (node, begin) = (self.node(k), begins[k]);

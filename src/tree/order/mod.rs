@@ -16,7 +16,7 @@ use layout::{Chain, FRAGMENTS, Inner, NEXT, NODES, OrderLayout, ROOT, Span};
 
 /// The order of a tree's fragments for one viewpoint: [`BspTree::order`].
 ///
-/// It is back to front unless you call [`front_to_back`](Self::front_to_back). Write it into a list of
+/// Back to front by default; see [`front_to_back`](Self::front_to_back). Write the order into a list of
 /// numbers, iterate over its fragments, or walk its subtrees:
 ///
 /// ```
@@ -42,19 +42,19 @@ pub struct Order<'t> {
 }
 
 impl BspTree {
-    /// The order of the fragments for a viewpoint, to be written into a list, iterated over or walked.
+    /// The order of the fragments for a viewpoint, for writing into a list, iteration or a walk.
     pub fn order(&self, viewpoint: Viewpoint) -> Order<'_> {
         Order { tree: self, viewpoint, is_front_to_back: false, culling: None }
     }
 
-    /// The fragments, back to front: none hides one that comes later. Short for an iterator over
+    /// The fragments, back to front: none hides one that comes later. A shorthand for iterating over
     /// [`order`](Self::order).
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
         self.order(viewpoint).into_iter()
     }
 
-    /// Writes the numbers of all fragments, back to front, into a buffer, and replaces its contents.
-    /// Short for [`Order::write_into`].
+    /// Replaces a buffer's contents by the numbers of all fragments, back to front. A shorthand for
+    /// [`Order::write_into`].
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, numbers: &mut Vec<u32>) {
         self.order(viewpoint).write_into(numbers);
     }
@@ -67,24 +67,23 @@ impl<'t> Order<'t> {
         Self { is_front_to_back: true, ..self }
     }
 
-    /// The same order without the fragments outside of a frustum, or without those that show the wrong
-    /// side.
+    /// The same order without the fragments outside a frustum or those that show the wrong side.
     pub fn culled(self, culling: &'t Culling) -> Self {
         Self { culling: Some(culling), ..self }
     }
 
-    /// Writes the numbers of the fragments into a buffer, and replaces its contents.
+    /// Replaces a buffer's contents by the numbers of the fragments.
     ///
-    /// O(n). Every node stores how many fragments lie on each of its sides, so the place of a subtree in
-    /// the order is known before the subtree is read, and each number is written to its final place.
-    /// The buffer is working space as well. Its capacity grows to one or two numbers per fragment, at
+    /// O(n). Every node stores the number of fragments on each of its sides, so a subtree's place in the
+    /// order is known before the subtree is read, and each number is written directly to its final place.
+    /// The buffer also serves as working space. Its capacity grows to one or two numbers per fragment, at
     /// most four per fragment plus sixteen; after that, nothing is allocated.
     ///
-    /// A culled order skips subtrees outside of the frustum, and those of which only the wrong side is
-    /// seen. Its time is proportional to the number of fragments that are left and of those close to the
-    /// frustum's boundary. It takes O(depth) memory, and a bit for each fragment and each block of 16.
+    /// A culled order skips subtrees outside the frustum and subtrees seen only from the wrong side. Its
+    /// time is proportional to the number of remaining fragments plus those close to the frustum's
+    /// boundary. It takes O(depth) memory, and a bit for each fragment and each block of 16.
     ///
-    /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) turns the list into indices of
+    /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) converts the list into indices of
     /// triangles.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         match self.culling {
@@ -99,13 +98,13 @@ impl<'t> Order<'t> {
         }
     }
 
-    /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns
-    /// [`Flow::Skip`]. Returns what `visit` broke with.
+    /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns [`Flow::Skip`].
+    /// Returns the value of [`Flow::Break`], if any.
     ///
-    /// A subtree is visited after everything before it in the order, and before anything in it. So front
-    /// to back it is visited after everything that may hide it. Takes O(parts visited) time and O(depth)
-    /// memory, and does not recurse. A culled order also takes a bit for each fragment, and first compares the
-    /// boxes with the frustum.
+    /// A subtree is visited after everything before it in the order, and before anything in it. Front to
+    /// back, it is therefore visited after everything that may hide it. Takes O(parts visited) time and
+    /// O(depth) memory, and does not recurse. A culled order also takes a bit for each fragment, and first
+    /// tests the boxes against the frustum.
     ///
     /// ```
     /// use binspace::{BspTree, Flow, Part, Viewpoint};
@@ -143,7 +142,7 @@ impl<'t> Order<'t> {
                     match visit(Part::Subtree(node)) {
                         Flow::Descend => {
                             let mut parts = node.parts(view.is_in_front(tree, node.index()));
-                            // The last one is taken first.
+                            // A stack: the last one is taken first.
                             if !is_front_to_back {
                                 parts.reverse();
                             }
@@ -191,7 +190,7 @@ impl<'t> IntoIterator for Order<'t> {
     }
 }
 
-/// What a walk comes to: [`Order::walk`].
+/// A subtree or fragment visited by a walk: [`Order::walk`].
 #[derive(Clone, Copy, Debug)]
 pub enum Part<'t> {
     /// A subtree, before anything in it.
@@ -200,22 +199,21 @@ pub enum Part<'t> {
     Fragment(Fragment<'t>),
 }
 
-/// How a walk goes on.
+/// How a walk continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow<B = ()> {
-    /// Into the subtree. After a fragment: to the next part.
+    /// Enter the subtree. After a fragment: continue with the next part.
     Descend,
-    /// Past the subtree: nothing in it is visited. After a fragment: to the next part.
+    /// Skip the subtree and all in it. After a fragment: continue with the next part.
     Skip,
-    /// Not at all: the walk ends and returns the value.
+    /// End the walk and return the value.
     Break(B),
 }
 
 /// The fragments of a tree in an [`Order`].
 ///
-/// It can be read from both ends. To read all n fragments takes O(n) time, from either end or from
-/// both, and O(depth) memory. A [culled](Order::culled) order is a list of its own, written before the first
-/// fragment is read.
+/// Reads from either end or both: O(n) time for all n fragments, and O(depth) memory. A
+/// [culled](Order::culled) order is written into a list before the first fragment is read.
 #[derive(Clone, Debug)]
 pub struct Ordered<'t> {
     tree: &'t BspTree,
@@ -224,7 +222,8 @@ pub struct Ordered<'t> {
     is_front_to_back: bool,
     /// The furthest fragments, behind all of `parts`.
     far: Range<u32>,
-    /// What neither end has come to, back to front. Each end opens subtrees only as far as it must.
+    /// The parts that neither end has reached, back to front. Each end opens subtrees only as far as it
+    /// must.
     parts: VecDeque<Child<'t>>,
     /// The nearest fragments, in front of all of `parts`.
     near: Range<u32>,
@@ -245,7 +244,7 @@ impl<'t> Ordered<'t> {
                     let parts = self.open(node);
                     parts.into_iter().rev().for_each(|part| self.parts.push_front(part));
                 }
-                // Only the run that the other end is reading is left: this end reads on in it.
+                // Only the run that the other end is reading is left: continue with that run.
                 None => {
                     let index = self.near.next()?;
                     return Some(self.take(index));
@@ -301,7 +300,8 @@ impl DoubleEndedIterator for Ordered<'_> {
 impl ExactSizeIterator for Ordered<'_> {}
 impl FusedIterator for Ordered<'_> {}
 
-/// Spare places behind an order: a block always writes as many numbers as the largest has.
+/// Spare places behind an order: a block always writes the largest number of fragments that a block may
+/// have.
 const ROOM: usize = FRAGMENTS;
 
 impl BspTree {
@@ -319,7 +319,7 @@ impl BspTree {
     }
 }
 
-/// Adds the order of a subtree, or of all, from the nodes themselves.
+/// Adds the order of a subtree, or of the whole tree, from the nodes themselves.
 pub(in crate::tree) fn write_from_nodes(
     tree: &BspTree,
     view: &View,
@@ -329,7 +329,7 @@ pub(in crate::tree) fn write_from_nodes(
 ) {
     let (begin, len) = (order.len(), fragments.len());
     order.resize(begin + len + 2 * nodes.len(), 0);
-    // Where the subtree at each node begins in the order, and how many fragments it has.
+    // The first place of each node's subtree in the order, and its number of fragments.
     let (numbers, subtrees) = order[begin..].split_at_mut(len);
     match subtrees.first_chunk_mut() {
         Some(root) => *root = [0, len as u32],
@@ -337,7 +337,7 @@ pub(in crate::tree) fn write_from_nodes(
             numbers.iter_mut().zip(fragments.clone()).for_each(|(place, number)| *place = number)
         }
     }
-    // Fragments are numbered in the order in which nodes are met here.
+    // Fragments are numbered in the order in which this loop visits nodes.
     let mut next = fragments.start;
     let mut write = |begin: u32, len: u32| {
         let places = &mut numbers[begin as usize..][..len as usize];
@@ -365,8 +365,8 @@ pub(in crate::tree) fn write_from_nodes(
     order.truncate(begin + len);
 }
 
-/// Writes an order in three passes over the tree's memory: on which side of each node the eye is,
-/// then where each subtree begins in the order, then the fragments of subtrees too small for that.
+/// Writes an order in three passes over the tree's memory: the eye's side of each node, then the place of
+/// each subtree in the order, then the fragments of small subtrees.
 ///
 /// `write_signs` fills `words` words with a bit for each node, 1 if the eye is in front.
 #[inline]
@@ -377,10 +377,10 @@ fn write_order(
     order: &mut Vec<u32>,
     write_signs: impl FnOnce(&mut [u32]),
 ) {
-    // One buffer for all: the caller's, so that a frame allocates nothing.
+    // One buffer for everything, supplied by the caller, so that a frame allocates nothing.
     order.resize(fragments + ROOM + layout.parts() + words, 0);
     let (numbers, rest) = order.split_at_mut(fragments + ROOM);
-    // Where each part begins in the order.
+    // The first place of each part in the order.
     let (begins, signs) = rest.split_at_mut(layout.parts());
     if let Some(root) = begins.get_mut(ROOT as usize) {
         *root = 0;
@@ -394,10 +394,11 @@ fn write_order(
     order.truncate(fragments);
 }
 
-/// Writes the fragments on the planes of inner nodes, and notes where the parts on their sides begin.
+/// Writes the fragments on the planes of inner nodes, and stores the first places of the parts on their
+/// sides.
 ///
-/// The loop has no branch on the eye's side, which no processor can predict; missing parts and
-/// fragments write to dummy slots.
+/// The loop does not branch on the eye's side, which no processor can predict. Missing parts and fragments
+/// write to dummy places.
 fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut [u32]) {
     let nowhere = numbers.len() - 1;
     let mut begin = 0;
@@ -415,22 +416,22 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
             numbers[place] = inner.own_first;
         } else if let Some(chain) = inner.chain() {
             let to_rest = write_chain(&chain, signs, begin, numbers);
-            // One of the two sides is `NOBODY`; the other is what the chain leaves.
+            // One of the two sides is `NOBODY`; the other is the rest of the chain.
             (to_front, to_back) = (to_rest, to_rest);
         } else {
             begins[inner.own_first as usize] = begin + to_own;
         }
         begins[inner.front_part as usize] = begin + to_front;
         begins[inner.back_part as usize] = begin + to_back;
-        // The next inner node mostly is a child of this one, and then its place has just been computed.
-        // Passing it on in a register saves the loop from waiting for a store to be read back.
+        // The next inner node mostly is a child of this one, and its place has just been computed. Passing
+        // it on in a register saves the loop from waiting for a store to be read back.
         let stored = begins[next];
         let from_back = select_unpredictable(inner.back_part == NEXT, begin + to_back, stored);
         begin = select_unpredictable(inner.front_part == NEXT, begin + to_front, from_back);
     }
 }
 
-/// Writes subtrees of up to four fragments, each by one look into a table.
+/// Writes subtrees of up to four fragments, each by one table look-up.
 fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
     for (block, &begin) in layout.blocks.iter().zip(begins) {
         let word = block.node as usize / 32;
@@ -440,8 +441,7 @@ fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &m
         let places = layout.permutations[block.row as usize][signs] as usize;
         let room = numbers[begin as usize..].first_chunk_mut::<FRAGMENTS>();
         let Some(numbers) = room else { continue };
-        // Always four writes. A fragment that the block does not have shares the place of the first
-        // one, which is written last.
+        // Always four writes. A missing fragment shares the place of the first one, which is written last.
         numbers[places >> 6] = block.first + 3;
         numbers[places >> 4 & 3] = block.first + 2;
         numbers[places >> 2 & 3] = block.first + 1;
@@ -456,13 +456,13 @@ fn write_spans(spans: &[Span], begins: &[u32], numbers: &mut [u32]) {
     }
 }
 
-/// Writes the fragments of a chain from both ends inwards. Returns how many of them come before the
-/// rest, which lies behind or in front of the last node.
+/// Writes the fragments of a chain from both ends inwards. Returns the number of fragments before the rest,
+/// which lies behind or in front of the last node.
 fn write_chain(chain: &Chain, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
     let places = &mut numbers[begin as usize..][..(chain.nodes + chain.rest) as usize];
     let (mut far, mut near) = (0, places.len() - 1);
     for (node, number) in (chain.first_node..).zip(chain.first..).take(chain.nodes as usize) {
-        // The node's fragment is further than the rest if the rest and the eye are on one side.
+        // The node's fragment is further than the rest if the rest and the eye are on the same side.
         let is_far = is_in_front(signs, node) == chain.rest_is_front;
         places[select_unpredictable(is_far, far, near)] = number;
         far += usize::from(is_far);

@@ -1,4 +1,4 @@
-//! Orders of trees of every shape, against a walk that knows nothing of parts.
+//! Orders of trees of every shape, compared with a walk that does not use parts.
 
 use crate::exact::PlaneId;
 use crate::random::SplitMix64;
@@ -6,7 +6,7 @@ use crate::tree::node::{NodeRecord, finish};
 use crate::tree::order::{OrderLayout, ROOT, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
-/// A node: how many fragments are on its plane, and what is in front and behind.
+/// A node: the number of fragments on its plane, and its front and back sides.
 #[derive(Clone, Debug)]
 struct Tree {
     own: u32,
@@ -58,8 +58,8 @@ impl Tree {
         finished
     }
 
-    /// The order, from the first node and fragment that are not yet counted on: what is on the far
-    /// side, on the plane, on the near side. Leaves are numbered before subtrees.
+    /// The order, from the first node and fragment not counted yet: the far side, the plane, the near side.
+    /// Leaves are numbered before subtrees.
     fn order(&self, signs: &[u32], node: &mut usize, next: &mut u32) -> Vec<u32> {
         let is_in_front = signs[*node / 32] >> (*node % 32) & 1 == 1;
         *node += 1;
@@ -90,7 +90,7 @@ impl Side {
     }
 }
 
-/// Holds the order by some signs against the walk, in buffers that hold nothing or too much.
+/// Compares the order for some signs with the walk, in empty and in too large buffers.
 struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// All trees of `fragments` fragments, at least one: on every plane some, or some on both sides.
+/// All trees of `fragments` fragments, at least one: each plane has some, or both sides do.
 fn trees(fragments: u32) -> Vec<Tree> {
     let mut all = Vec::new();
     for own in 0..=fragments {
@@ -179,7 +179,7 @@ fn trees_of_up_to_five_fragments_come_by_every_sign() {
     assert_eq!(counts, [1, 9, 69, 589, 5529]);
 }
 
-/// What a list may leave: spans on a plane, beside it, and on both sides, and blocks of every size.
+/// The possible rests of a list: spans on a plane, beside it, and on both sides, and blocks of every size.
 fn rests() -> Vec<Tree> {
     let run = Tree::new(7, Leaf(0), Leaf(0));
     let mut rests = vec![
@@ -210,7 +210,7 @@ fn chains_of_any_length_are_followed_by_blocks_and_spans() {
     }
 }
 
-/// Nodes that are links but for a fragment more or less, and lists above and below them.
+/// Nodes that are links except for a fragment more or less, and lists above and below them.
 #[test]
 fn nodes_that_are_hardly_links_are_ordered_as_well() {
     let mut random = SplitMix64::new(5);
@@ -251,7 +251,7 @@ fn lists_follow_lists_and_stand_on_both_sides_of_a_branch() {
     }
 }
 
-/// A tree of `fragments` fragments, divided by chance.
+/// A tree of `fragments` fragments, divided at random.
 fn some_tree(fragments: u32, random: &mut SplitMix64) -> Tree {
     let mut below = |limit: u32| (random.next() % u64::from(limit + 1)) as u32;
     let own = match below(5) {

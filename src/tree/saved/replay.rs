@@ -1,8 +1,8 @@
-//! Splits the faces of a file by the planes that its nodes name, as the builder did.
+//! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
-//! A file holds no vertices, so a forged one cannot give wrong pieces: whatever planes it names, each
-//! piece is on its side of every plane above it, and the pieces of a face cover it. What a file says of
-//! the fragments only limits how many there may be.
+//! A file holds no vertices, so a forged one cannot give wrong pieces: for any planes, each piece is on its
+//! side of every plane above it, and the pieces of a face cover it. The file's numbers of fragments only
+//! limit how many there may be.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -17,19 +17,19 @@ use crate::tree::parts::{Parts, Record};
 /// Trees with more fragments are split by several threads. Too small: waking a thread takes longer than
 /// it saves. Too large: one thread works while others are idle.
 const WORTH_A_THREAD: usize = 4096;
-/// Subtrees of less than one in so many fragments are handed over. Too small: threads wait for the last.
+/// Subtrees of less than one in this many fragments are handed over. Too small: threads wait for the last.
 /// Too large: more of the tree is split before threads share the work.
 const JOBS: usize = 32;
-/// Subtrees of less than one in so many fragments are not worth handing over.
+/// Subtrees of less than one in this many fragments are not worth handing over.
 const MOST_JOBS: usize = 512;
 
-/// How many pieces of a list have a bounding box in common. Too small: more boxes are tested. Too large:
+/// The number of pieces of a list that share a bounding box. Too small: more boxes are tested. Too large:
 /// more pieces near the plane.
 const BLOCK: usize = 16;
 /// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
 /// save. Too large: all pieces are tested against each plane.
 const LARGE: usize = 8 * BLOCK;
-/// In place of the face of a piece that is no longer in a list.
+/// Replaces the face of a piece that is no longer in a list.
 const GONE: u32 = u32::MAX;
 
 type Bounds = [[f64; 3]; 2];
@@ -96,10 +96,10 @@ struct Job {
     pieces: Vec<Piece>,
 }
 
-/// The fragments of a tree: what its planes make of the faces. With `keeps_positions`, the positions of
-/// their vertices too.
+/// The fragments of a tree: the faces, split by its planes. With `keeps_positions`, also the positions of
+/// their vertices.
 ///
-/// An error unless each node has as many fragments on its plane and in its leaves as it says, and these
+/// An error unless each node has as many fragments on its plane and in its leaves as it states, and these
 /// are of the `listed` faces.
 pub(super) fn replay(
     faces: &Faces,
@@ -160,7 +160,7 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    /// All faces, or what of them is in their cell.
+    /// All faces, or their parts in their cell.
     fn root(&self, fragments: u32) -> Result<Job, Error> {
         let mut clipper = Clipper::new(self.faces);
         let mut pieces = Vec::new();
@@ -175,14 +175,14 @@ impl Replay<'_> {
     }
 
     /// Splits the pieces of a subtree. Subtrees with numbers of fragments in `jobs` are handed over, each
-    /// with the fragments before it; what comes after the last of them is returned beside.
+    /// with the fragments before it; the fragments after the last of them are returned separately.
     fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), Error> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
         let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
-        // In a list each node has one node below, such as those of layers that were peeled off: most
-        // pieces stay in their places, in blocks with boxes. Those that do not leave gaps.
+        // In a list each node has one node below, as for peeled layers: most pieces stay in their places,
+        // in blocks with boxes. The others leave gaps.
         let (mut boxes, mut gaps): (Vec<Bounds>, _) = (Vec::new(), 0);
-        // The sets of pieces that are still to be split, the next one on top, and where each begins.
+        // The sets of pieces still to be split, the next one on top, and the start of each.
         let mut pieces = job.pieces;
         let mut pending = vec![(job.node, job.fragments, 0)];
         while let Some((index, fragments, start)) = pending.pop() {
@@ -216,7 +216,7 @@ impl Replay<'_> {
                 if of_block == Some(stays) {
                     continue;
                 }
-                // From the end: the piece that takes the place of another has been classified.
+                // From the end: the piece that replaces another has been classified.
                 for i in (begin..pieces.len().min(begin + BLOCK)).rev() {
                     if pieces[i].face == GONE {
                         continue;

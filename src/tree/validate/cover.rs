@@ -1,18 +1,17 @@
-//! Whether the fragments of each face cover it once: the cuts undone, from the leaves up.
+//! Checks that the fragments of each face cover it once, by undoing the cuts from the leaves up.
 //!
-//! Each set of the builder has at most one piece of a face: the face at the root, and of every
-//! piece that a plane cuts one part on each side. So the parts of a face on the two sides of a node
-//! must be those of one piece: their outlines share the cut, run along it in opposite directions
-//! between the same two vertices, and are closed by lines that name the plane and the side. What
-//! they are parts of is read off: the two outlines without the cut, and without the vertices that
-//! the plane made on a line that goes on behind it. At the root, each face must be there as it was
-//! given.
+//! Each set of the builder has at most one piece of a face: at the root the face, and on each side of a
+//! plane one part of every piece that it cuts. So the parts of a face on the two sides of a node must be
+//! those of one piece: their outlines share the cut, run along it in opposite directions between the same
+//! two vertices, and are closed by lines that name the plane and the side. The piece is then known: the two
+//! outlines without the cut, and without the vertices that the plane made on a line that continues behind
+//! it. At the root, each face must be there as given.
 //!
-//! That is complete. If a convex piece is what it should be, and two outlines with vertices on
-//! their sides of a plane glue to it, they are its two parts: every vertex is one of the piece's or
-//! where its line crosses the plane, and vertices kept by both parts lie on the plane, being on
-//! neither side of it. From the root down, all fragments are then the pieces that the planes make
-//! of the faces: convex, in the face's orientation, each once and none missing.
+//! This is complete. If a convex piece is right, and two outlines with vertices on their sides of a plane
+//! glue to it, they are its two parts: every vertex is one of the piece's or the point where its line
+//! crosses the plane, and vertices of both parts lie on the plane, because they are on neither side of it.
+//! From the root down, all fragments are then the pieces that the planes make of the faces: convex, in the
+//! face's orientation, each once and none missing.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -27,8 +26,8 @@ use crate::tree::node::Visit;
 type Set = BTreeMap<u32, Vec<Vertex>>;
 
 impl BspTree {
-    /// Glues the fragments together, and compares the result with the faces, and the number of
-    /// cuts that were undone with what the builder counted.
+    /// Glues the fragments together, and compares the result with the faces, and the number of undone cuts
+    /// with the builder's count.
     pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), String> {
         // The sets of subtrees whose parent is still to come, the front's above the back's.
         let mut sets: Vec<Set> = Vec::new();
@@ -63,8 +62,8 @@ impl BspTree {
         Err(fault(0, what))
     }
 
-    /// The pieces of a set from those on the two sides of a plane. The smaller set goes into the
-    /// larger, so that no piece is moved more than log n times.
+    /// The pieces of a set from those on the two sides of a plane. The smaller set is added to the larger,
+    /// so that no piece is moved more than log n times.
     fn glue_sets(
         &self,
         plane: PlaneId,
@@ -92,7 +91,7 @@ impl BspTree {
         Ok(large)
     }
 
-    /// Compares the set of the root with the faces, or what of them is in their cell.
+    /// Compares the set of the root with the faces, or with their parts in their cell.
     fn check_faces(&self, set: &Set) -> Result<(), String> {
         let incomplete =
             |face| Err(format!("the pieces of {} do not add up to it", self.culprit(face)));
@@ -128,7 +127,7 @@ impl BspTree {
     }
 }
 
-/// Whether two outlines are one, wherever they begin.
+/// Whether two outlines are the same, up to their start.
 fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
     let name = |vertex: &Vertex| (vertex.vertex_id(), vertex.line());
     let Some(first) = other.first().map(name) else { return outline.is_empty() };
@@ -139,8 +138,8 @@ fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
     })
 }
 
-/// What two pieces in front of a plane and behind it were before it cut them apart; `None` if they
-/// were not one convex piece that it crossed, as of two of which one is the whole face.
+/// The piece that a plane cut into a piece in front and one behind; `None` if they were not one convex
+/// piece that it crossed, for instance if one is the whole face.
 fn glue(
     plane: PlaneId,
     [front, back]: [&[Vertex]; 2],
@@ -153,13 +152,13 @@ fn glue(
     for (here, there, expected) in
         [(&front, &back, Ordering::Greater), (&back, &front, Ordering::Less)]
     {
-        // Where this side begins, and the other one ends.
+        // The start of this side, and the end of the other one.
         let (begin, last) = (here[1], there[there.len() - 1]);
         let end = there[0];
         if begin.vertex_id() != end.vertex_id() || begin.position() != end.position() {
             return None;
         }
-        // A line that goes on across the plane has no vertex there but for the cut.
+        // A line that continues across the plane has a vertex there only because of the cut.
         let is_made = begin.line() == last.line();
         if is_made {
             let is_crossing = begin.vertex_id() == VertexId::crossing(begin.line(), plane);
@@ -173,10 +172,10 @@ fn glue(
     Some(outline)
 }
 
-/// An outline turned so that it begins with its edge on a line. It has one such edge: a second one would
-/// be left over in the end, and be found at the root.
+/// An outline rotated so that it begins with its edge on a line. It has one such edge: a second one would
+/// remain to the end, and be found at the root.
 fn from_cut(outline: &[Vertex], cut: EdgeLine) -> Option<Vec<Vertex>> {
-    // Fragments have three vertices, but what is glued wrongly may have fewer.
+    // Fragments have three vertices, but wrong glueing may give fewer.
     if outline.len() < 3 {
         return None;
     }
@@ -229,7 +228,7 @@ mod tests {
         assert_eq!(whole.iter().map(Vertex::vertex_id).collect::<Vec<_>>(), corners);
     }
 
-    /// A vertex more on the plane, on a line that goes on across it, would stand there twice.
+    /// Another vertex on the plane, on a line that continues across it, would occur twice.
     #[test]
     fn the_vertices_beside_a_cut_are_off_the_plane() {
         for part in 0..2 {

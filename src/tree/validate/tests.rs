@@ -18,11 +18,11 @@ use crate::tree::parts::{self, RawChild, RawNode, Record};
 
 type Stored = StoredVertex;
 
-/// A tree taken apart: what its builder put out.
+/// A tree taken apart into its builder's output.
 #[derive(Clone)]
 struct Dismantled {
     nodes: Vec<RawNode>,
-    /// The face of each fragment, and its vertices; none if it is all of its face.
+    /// The face of each fragment, and its vertices; none if it is a whole face.
     pieces: Vec<(u32, Vec<Stored>)>,
     cuts: usize,
 }
@@ -46,7 +46,7 @@ impl Dismantled {
         Self { nodes, pieces, cuts: tree.cuts }
     }
 
-    /// A tree whose sizes, layout and rounded planes agree with these parts, whatever they are.
+    /// A tree whose sizes, layout and rounded planes agree with these parts, right or wrong.
     fn tree(&self, like: &BspTree) -> BspTree {
         let (nodes, cuts) = (self.nodes.clone(), self.cuts);
         let mut parts = parts::Parts { nodes, cuts, ..Default::default() };
@@ -58,12 +58,12 @@ impl Dismantled {
     }
 }
 
-/// What validation says of a tree, in words; empty if all is well.
+/// The fault that validation finds; empty if there is none.
 fn verdict(tree: &BspTree) -> String {
     tree.validate().err().unwrap_or_default()
 }
 
-/// Fails unless validation says so, of the tree that an edit makes of another's parts.
+/// Fails unless validation finds this fault in the tree after an edit of another's parts.
 #[track_caller]
 fn assert_fault(tree: &BspTree, edit: impl FnOnce(&mut Dismantled), fault: &str) {
     assert_eq!(verdict(tree), "");
@@ -102,7 +102,7 @@ fn decals() -> Scene {
     scene
 }
 
-/// A scene turned away from all axes.
+/// A scene rotated away from all axes.
 fn tilted(scene: &Scene) -> Scene {
     let turn = DQuat::from_axis_angle(DVec3::new(0.3, 0.7, 0.2).normalize(), 1.1);
     let mut tilted = Scene::new(scene.name(), scene.up());
@@ -112,7 +112,7 @@ fn tilted(scene: &Scene) -> Scene {
     tilted
 }
 
-/// Trees of all sorts: no node, one node, cuts, pieces in one plane, lists, large ones.
+/// Trees of all kinds: no node, one node, cuts, pieces in one plane, lists, large ones.
 fn trees() -> Vec<(String, BspTree)> {
     let mut trees = Vec::new();
     for scene in [

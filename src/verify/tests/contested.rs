@@ -1,4 +1,4 @@
-//! What the planes of a tree excuse, against exact rays and the ranges of its nodes.
+//! The pixels that a tree's planes excuse, compared with exact rays and the ranges of its nodes.
 
 use std::cmp::Ordering;
 
@@ -13,10 +13,10 @@ use crate::view::Camera;
 use crate::{BuildOptions, Heuristic};
 use glam::DVec3;
 
-/// What may be added to the tolerance for corners that are kept rounded, in lattice units.
+/// The allowed addition to the tolerance for rounded corners, in lattice units.
 const ROUNDED_CORNERS: f64 = 4.0;
 
-/// The plane that parts two fragments, by the ranges of all nodes, and the sides that they are on.
+/// The plane between two fragments, by the ranges of all nodes, and the side of each.
 fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
     let mut parting = tree.nodes().filter_map(|node| {
         let side = |f: u32| {
@@ -35,9 +35,9 @@ fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
     first
 }
 
-/// The rule of the tolerance, exactly: of two fragments that a ray meets, the nearer is met within
-/// the tolerance of the plane that parts them, and the other, or the eye, is as well; and one of the two
-/// is met beyond that plane.
+/// The rule of the tolerance, exactly. A ray meets the nearer of two fragments within the tolerance of the
+/// plane between them, and also meets the other, or starts, within it; and it meets one of the two beyond
+/// that plane.
 fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
     let faces = tree.faces();
     let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());
@@ -68,8 +68,7 @@ fn fragment_of(tree: &BspTree, rays: &Rays, face: u32, pixel: [u32; 2]) -> u32 {
     first
 }
 
-/// Holds the verdict on every pixel of an order against the rule, and counts what is excused and
-/// what is not.
+/// Compares the verdict on every pixel of an order with the rule, and counts excused and other pixels.
 fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]) {
     let faces = tree.faces();
     let rays = Rays::new(camera, faces).unwrap();
@@ -97,7 +96,7 @@ fn check(tree: &BspTree, camera: &Camera, order: &[u32], counts: &mut [usize; 2]
     assert_eq!(by_planes.wrong_order, strict.wrong_order - excused);
 }
 
-/// A floor aside, and around it walls and slopes that reach across its plane by less than the
+/// A floor at the side, and around it walls and slopes that reach across its plane by less than the
 /// tolerance, from above or from below.
 fn walls(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
     let floor = [(3.0, 5.0), (4.0, 5.0), (4.0, 6.0), (3.0, 6.0)];
@@ -133,9 +132,9 @@ fn exact_rays_confirm_what_planes_excuse() {
             let (mut order, mut right) = (Vec::new(), [0, 0]);
             tree.back_to_front_into(camera.viewpoint(), &mut order);
             check(&tree, &camera, &order, &mut right);
-            assert_eq!(right[1], 0, "what is not excused is wrong");
+            assert_eq!(right[1], 0, "pixels that are not excused are wrong");
             counts[0] += right[0];
-            // An order that is wrong all over: excused are the same places.
+            // A completely wrong order: the same places are excused.
             order.reverse();
             check(&tree, &camera, &order, &mut counts);
         }

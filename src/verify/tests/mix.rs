@@ -1,6 +1,6 @@
-//! What engines do: opaque polygons in any order by a depth buffer, then translucent ones in the
-//! tree's order, with the depth test on and writing depths off. Judged in each pixel by all polygons
-//! that an exact ray meets, sorted by their exact distances.
+//! The method of engines: opaque polygons in any order by a depth buffer, then translucent ones in the
+//! tree's order, with the depth test on and depth writes off. Each pixel is judged by all polygons that an
+//! exact ray meets, sorted by their exact distances.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ fn is_opaque(polygon: usize) -> bool {
     polygon.is_multiple_of(4)
 }
 
-/// A colour and an opacity that tell each polygon from all others.
+/// A colour and an opacity that distinguish each polygon from all others.
 fn paint(over: &mut Colour, polygon: usize) {
     let opacity =
         if is_opaque(polygon) { 1.0 } else { 0.3 + 0.4 * (polygon as f64 * 0.61).fract() };
@@ -33,7 +33,7 @@ fn paint(over: &mut Colour, polygon: usize) {
     }
 }
 
-/// For each pixel, every face that its ray meets, and how far away.
+/// For each pixel, every face that its ray meets, and its distance.
 type Hits = Vec<HashMap<u32, RBig>>;
 
 fn hits(rays: &Rays, faces: &Faces) -> Hits {
@@ -46,8 +46,8 @@ fn hits(rays: &Rays, faces: &Faces) -> Hits {
     pixels.map(of_pixel).collect()
 }
 
-/// The picture by sorting: what is in front of the nearest opaque polygon, and that. At the same
-/// distance translucent polygons are over opaque ones, and later ones over earlier.
+/// The picture by sorting: the nearest opaque polygon, and everything in front of it. At the same distance
+/// translucent polygons are over opaque ones, and later ones over earlier.
 fn sorted_picture(faces: &Faces, hits: &Hits) -> Vec<Colour> {
     let of_pixel = |hits: &HashMap<u32, RBig>| {
         let mut all: Vec<(&RBig, bool, usize)> = hits

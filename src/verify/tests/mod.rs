@@ -41,8 +41,8 @@ fn a_tree_paints_what_the_depth_buffer_sees() {
     }
 }
 
-/// Square 1 counts as on the plane of square 0, which is aside; the eye is between them, and
-/// square 2, far behind square 1, counts as nearer.
+/// Square 1 counts as on the plane of square 0, which is at the side; the eye is between them, and square
+/// 2, far behind square 1, counts as nearer.
 #[test]
 fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
     let square =
@@ -65,8 +65,8 @@ fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
     }
 }
 
-/// Two walls that each reach across the plane of a floor aside by less than the tolerance, the
-/// one up and the other down, seen along it.
+/// Two walls, one of which reaches up and the other down across the plane of a floor at the side by less
+/// than the tolerance, seen along it.
 #[test]
 fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
     let unit = 1e-2;

@@ -22,7 +22,7 @@ fn orders(tree: &BspTree, camera: &Camera) -> Orders {
     Orders::of(tree, camera.viewpoint())
 }
 
-/// The judgement of orders of which one form is not the tree's.
+/// The judgement of orders, one form of which is not the tree's.
 fn judged(
     tree: &BspTree,
     camera: &Camera,
@@ -53,7 +53,7 @@ fn a_form_that_contradicts_the_others_is_named() {
             assert!(fault(&judgement).starts_with(&expected), "{}", fault(&judgement));
         }
     }
-    // The list is what the others are held against, so they are named.
+    // Errors name the other forms, which are compared with the list.
     let judgement = judged(&tree, camera, 0, |list| list.swap(0, 1));
     assert!(fault(&judgement).starts_with("order contradicts"));
 }
@@ -76,7 +76,7 @@ fn fragments_listed_twice_or_never_or_from_nowhere_are_named() {
     }
 }
 
-/// The same opaque picture, but what is transparent would show it.
+/// The same opaque picture, but a transparent one would differ.
 #[test]
 fn a_fragment_painted_twice_in_its_place_is_counted() {
     let (scene, tree) = case();
@@ -107,8 +107,8 @@ fn a_fragment_that_is_left_out_is_counted_though_others_hide_it() {
     assert!(hidden > 5, "only {hidden} hidden fragments");
 }
 
-/// The other subtree first at one node, of all there are: some of these show, and only in the
-/// picture that is painted in that direction.
+/// The other subtree first at one node, for each node: some of these are visible, and only in the picture
+/// that is painted in that direction.
 #[test]
 fn a_flipped_side_shows_in_the_picture_of_its_direction() {
     let (scene, tree) = case();
@@ -139,7 +139,7 @@ fn a_flipped_side_shows_in_the_picture_of_its_direction() {
     assert!(shown[0] > 10 && shown[0] == shown[1], "{shown:?}");
 }
 
-/// Lists that agree with each other, and are wrong all the same.
+/// Lists that agree with each other, but are wrong.
 #[test]
 fn orders_that_agree_on_what_is_wrong_show_as_wrong_pixels() {
     let (scene, tree) = case();

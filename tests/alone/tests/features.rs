@@ -65,7 +65,7 @@ fn polygons_of_a_user_s_own_type_are_built() {
     assert_eq!(tree.fragment(0).polygon(), 0);
 }
 
-/// The callback is called by the thread that builds; with `parallel`, by others of its pool too.
+/// The thread that builds calls the callback; with `parallel`, other threads of its pool do too.
 #[test]
 fn parallel_builds_by_the_threads_of_a_pool() {
     let squares = squares(24);
@@ -192,7 +192,7 @@ fn mint_has_points_for_polygons_and_viewpoints() {
     let single = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [0.5, 1.0, 0.0]];
     let tree = BspTree::build([single.map(point), single.map(|[x, y, z]| point([x, y, z + 1.0]))]);
     let tree = tree.unwrap();
-    // As precise as the arrays that they stand for.
+    // As precise as the arrays that they replace.
     let arrays = BspTree::build([single, single.map(|[x, y, z]| [x, y, z + 1.0])]).unwrap();
     assert_eq!(tree.stats(), arrays.stats());
     assert_eq!(tree.preparation(), arrays.preparation());

@@ -1,5 +1,5 @@
-//! The cells of a tree: which side of each plane a fragment is said to be on, and whether a point
-//! is there, exactly.
+//! The cells of a tree: the side of each plane on which a fragment is said to be, and whether a point is
+//! there, exactly.
 
 use super::exact::{Plane, Spot};
 use super::ray::Targets;
@@ -49,9 +49,8 @@ impl Cells {
         }) && above == other
     }
 
-    /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its
-    /// border, or (`None`) not; an error if the fragment is said to lie on a plane that is not
-    /// where the point is.
+    /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its border, or
+    /// (`None`) not. An error if the fragment is said to lie on a plane that does not contain the point.
     pub fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
         let mut border = Border::Inside;
         let mut next = self.above[fragment as usize];
@@ -78,7 +77,7 @@ impl Cells {
     }
 }
 
-/// Where in a cell a point is.
+/// The place of a point in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
     Inside,

@@ -1,4 +1,4 @@
-//! A tree's fragments as they are drawn: by their rounded vertices, and by nothing else.
+//! A tree's fragments as a painter draws them: only by their rounded vertices.
 
 use super::exact::Plane;
 use super::ray::Targets;
@@ -7,11 +7,11 @@ use crate::judge::{Verdict, ensure};
 use crate::prelude::*;
 use binspace::Fragment;
 
-/// How far a vertex may be off its exact place, as a share of the scene's size: the roundings of a
-/// vertex are 2⁻⁵² of that each.
+/// The largest allowed error of a vertex, as a share of the scene's size: each rounding of a vertex is 2⁻⁵²
+/// of it.
 const OFF: f64 = 1.0 / (1u64 << 46) as f64;
 
-/// Whether a point is in a fragment, as far as rounded vertices can tell.
+/// Whether a point is in a fragment, as far as rounded vertices can decide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Within {
     Surely,
@@ -29,7 +29,7 @@ struct Outline {
 pub struct Drawing<'t> {
     targets: &'t Targets<'t>,
     outlines: Vec<Vec<Outline>>,
-    /// How far a coordinate of a vertex may be off.
+    /// The largest error of a vertex's coordinate.
     off: f64,
 }
 
@@ -46,7 +46,7 @@ impl<'t> Drawing<'t> {
         Self { targets, outlines, off }
     }
 
-    /// The fragments of a polygon that a point may be in; of those it surely is in, that alone.
+    /// The fragments of a polygon that a point may be in; if it certainly is in one, only that.
     pub fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
         let at = flat(&self.targets.planes[polygon], DVec3::from(point));
         let within = |outline: &Outline| (outline.fragment, self.within(outline, at));
@@ -80,8 +80,8 @@ impl<'t> Drawing<'t> {
         within
     }
 
-    /// The fragments of every polygon have its area, lie on its plane and within it, on the sides
-    /// of the planes that are said to bound them, and on the edges.
+    /// Checks that the fragments of every polygon have its area, lie on its plane and within it, on the
+    /// sides of the planes that are said to bound them, and on the edges.
     pub fn check(&self, tree: &BspTree) -> Verdict {
         for (polygon, outlines) in self.outlines.iter().enumerate() {
             let plane = &self.targets.planes[polygon];
@@ -145,7 +145,7 @@ impl<'t> Drawing<'t> {
     }
 }
 
-/// A point as seen along the main axis of a plane, so that the front runs counter-clockwise.
+/// A point in a projection along the main axis of a plane, so that the front runs counter-clockwise.
 fn flat(plane: &Plane, point: DVec3) -> [f64; 2] {
     let axis = plane.main_axis();
     let (u, v) = (point[(axis + 1) % 3], point[(axis + 2) % 3]);

@@ -25,8 +25,8 @@ pub fn float(value: &IBig) -> f64 {
     value.to_f64().value()
 }
 
-/// Rounding in `f64` is believed beyond this share of the sum of magnitudes: a hundred times what
-/// a dozen operations can lose.
+/// A result in `f64` is certain beyond this share of the sum of magnitudes: a hundred times the error of a
+/// dozen operations.
 const BELIEVED: f64 = 1e-13;
 
 /// The sign of the determinant of three rows.
@@ -51,7 +51,7 @@ pub fn turn(rows: [&Vector; 3]) -> Ordering {
 pub struct Plane {
     pub normal: Big,
     pub offset: IBig,
-    /// The same, rounded.
+    /// The plane, rounded.
     pub rounded: [f64; 4],
 }
 
@@ -106,7 +106,7 @@ impl Plane {
         parallel && &self.offset * &other.normal[axis] == &other.offset * &self.normal[axis]
     }
 
-    /// On which side a point is.
+    /// The side on which a point is.
     pub fn side(&self, spot: &Spot) -> Ordering {
         let ([a, b, c, d], [x, y, z]) = (self.rounded, spot.rounded);
         let (value, size) =
@@ -117,7 +117,7 @@ impl Plane {
         sign(&(scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator))
     }
 
-    /// How far from it a point is, rounded; of the sign of its side.
+    /// The distance of a point, rounded, with the sign of its side.
     pub fn distance(&self, spot: &Spot) -> f64 {
         let value = scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator;
         float(&value) / float(&spot.denominator) / self.length()

@@ -1,10 +1,10 @@
-//! Trees of large scenes, judged by a stranger: it knows the polygons as they were given and what the library
-//! promises, and decides in big integers of its own.
+//! Trees of large scenes, judged independently of the library: by the polygons as given and the library's
+//! guarantees, in separate big integers.
 //!
-//! Rays are shot at the *source polygons*: these hits and their depths are exact. The
-//! fragment at a hit is found by its rounded vertices, and where these cannot tell, by the
-//! cells that [`nodes`](binspace::BspTree::nodes) describes. Then every pair must come far
-//! before near, pairs in one plane in input order, and every hit must find its polygon covered once.
+//! Rays are shot at the *source polygons*: these hits and their depths are exact. The fragment at a hit is
+//! found by its rounded vertices, and if these cannot decide, by the cells that
+//! [`nodes`](binspace::BspTree::nodes) describes. Then every pair must come far before near, pairs in one
+//! plane in input order, and every hit must find its polygon covered once.
 
 pub mod cells;
 pub mod drawing;

@@ -1,4 +1,4 @@
-//! Rays against the polygons as they were given: what is hit, exactly sorted.
+//! The hits of rays on the polygons as given, exactly sorted.
 
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
 use super::scene::{Point, Scene, minus, world};
@@ -6,7 +6,7 @@ use crate::prelude::*;
 use binspace::internals::PlaneKind;
 use dashu_int::IBig;
 
-/// The points (origin / below) + s · direction, s above 0, or, if it is endless, any.
+/// The points (origin / below) + s · direction, with s above 0, or any s if it is endless.
 #[derive(Clone, Debug)]
 pub struct Ray {
     pub origin: Vector,
@@ -15,12 +15,12 @@ pub struct Ray {
     pub endless: bool,
 }
 
-/// Where a ray meets a polygon.
+/// The point where a ray meets a polygon.
 #[derive(Clone, Debug)]
 pub struct Hit {
     pub polygon: usize,
     pub spot: Spot,
-    /// How far along the ray: a fraction, the denominator above 0.
+    /// The parameter of the ray: a fraction, the denominator above 0.
     depth: [IBig; 2],
     rounded: f64,
 }
@@ -35,16 +35,16 @@ impl Hit {
     }
 }
 
-/// A scene made ready for rays.
+/// A scene prepared for rays.
 pub struct Targets<'s> {
     pub scene: &'s Scene,
     pub planes: Vec<Plane>,
-    /// Centres and radii of balls around the polygons, generous.
+    /// Centres and radii of balls around the polygons, with a margin.
     balls: Vec<(DVec3, f64)>,
 }
 
 impl<'s> Targets<'s> {
-    /// Panics unless all polygons are planar and have area: the judge's own claim.
+    /// Panics unless all polygons are planar and have area, which the judge requires.
     pub fn new(scene: &'s Scene) -> Self {
         let planes: Vec<Plane> = scene.polygons.iter().map(|p| Plane::of(p)).collect();
         for (polygon, plane) in scene.polygons.iter().zip(&planes) {
@@ -66,7 +66,7 @@ impl<'s> Targets<'s> {
         Self { scene, planes, balls }
     }
 
-    /// A plane by its name, from the corners as they were given.
+    /// A plane by its name, from the corners as given.
     pub fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
         let faces = tree.faces();
         match id.kind() {
@@ -78,13 +78,13 @@ impl<'s> Targets<'s> {
         }
     }
 
-    /// What a ray meets, the furthest first; what is met at the same place stands together.
+    /// The hits of a ray, the furthest first; hits at the same point are in one list.
     pub fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
         let origin = DVec3::from_array(ray.origin.map(|c| c as f64 / ray.below as f64));
         let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
         let mut hits = Vec::new();
         for (polygon, &(centre, radius)) in self.balls.iter().enumerate() {
-            // The rounding of the origin's and the centre's coordinates, a thousand times over.
+            // The rounding error of the origin's and the centre's coordinates, a thousand times over.
             let slack = 1e-12 * (origin.abs().max_element() + centre.abs().max_element());
             if along.cross(centre - origin).length() <= radius * 1.001 + slack {
                 hits.extend(self.hit(ray, polygon));
@@ -123,7 +123,7 @@ impl<'s> Targets<'s> {
         let mut slope = scalar(&plane.normal, &direction);
         let mut start = &plane.offset * ray.below - scalar(&plane.normal, &origin);
         match sign(&slope) {
-            // A polygon that is seen from its edge hides nothing.
+            // A polygon seen edge-on hides nothing.
             Ordering::Equal => return None,
             Ordering::Less => (slope, start) = (-slope, -start),
             Ordering::Greater => {}
@@ -152,13 +152,13 @@ fn is_convex(polygon: &[Point], plane: &Plane) -> bool {
 }
 
 impl Ray {
-    /// Whether all of it lies in a plane.
+    /// Whether the whole ray lies in a plane.
     pub fn is_in(&self, plane: &Plane) -> bool {
         let start = scalar(&plane.normal, &big(self.origin)) - &plane.offset * self.below;
         sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
     }
 
-    /// How far from a plane it begins; nowhere if it is endless.
+    /// The distance from a plane at which it begins; `None` if it is endless.
     pub fn start_from(&self, plane: &Plane) -> Option<f64> {
         let eye = Spot::new(big(self.origin), self.below.into());
         (!self.endless).then(|| plane.distance(&eye))

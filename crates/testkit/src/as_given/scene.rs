@@ -1,4 +1,4 @@
-//! Scenes of whole numbers: what the judge knows, and what the library is given.
+//! Scenes with integer coordinates, for the judge and the library.
 
 use crate::prelude::*;
 use binspace::Error;
@@ -49,8 +49,8 @@ impl Scene {
         self.polygons.iter().map(|polygon| polygon.iter().map(|&p| world(p)).collect())
     }
 
-    /// Turns polygons that face other ways into any order: some start at another corner, some run
-    /// the other way round, and their numbers are drawn by chance.
+    /// Shuffles polygons into any order and orientation: some start at another corner, some run the other
+    /// way, and their numbers are random.
     pub fn shuffled(mut self, dice: &mut Dice) -> Self {
         for polygon in &mut self.polygons {
             let by = dice.below(polygon.len());
@@ -64,7 +64,7 @@ impl Scene {
     }
 }
 
-/// A point as the library takes it; exact.
+/// A point as input of the library; exact.
 pub fn world(p: Point) -> DVec3 {
     DVec3::from_array(p.map(|c| c as f64))
 }
@@ -81,12 +81,12 @@ pub fn times(k: i64, p: Point) -> Point {
     p.map(|c| k * c)
 }
 
-/// Seven times a turn away from all axes, in whole numbers.
+/// Seven times a rotation away from all axes, in integers.
 pub fn tilt([x, y, z]: Point) -> Point {
     add(add(times(x, [2, 3, 6]), times(y, [3, -6, 2])), times(z, [6, 2, -3]))
 }
 
-/// One of the 48 turns and reflections that take the axes to the axes.
+/// One of the 48 rotations and reflections that map the axes to the axes.
 pub fn turned(p: Point, which: usize) -> Point {
     const ORDERS: [[usize; 3]; 6] =
         [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];

@@ -1,5 +1,5 @@
-//! Trees held against rays: far before near, input order where polygons are in one plane, and
-//! every polygon covered once.
+//! Trees compared with rays: far before near, input order if polygons are in one plane, and every polygon
+//! covered once.
 
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
@@ -11,7 +11,7 @@ use crate::judge::{Verdict, ensure};
 use crate::orders;
 use crate::prelude::*;
 
-/// What has been compared.
+/// The counts of comparisons.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
     pub trees: usize,
@@ -22,14 +22,14 @@ pub struct Score {
     pub rays: usize,
     /// Pairs of polygons that a ray meets one behind the other, or in one plane.
     pub pairs: usize,
-    /// Of these, in one plane.
+    /// The pairs of these in one plane.
     pub coplanar: usize,
-    /// Points on the border of a fragment, whose cells were asked in big integers; with a
-    /// tolerance, these hits are left out.
+    /// Points on the border of a fragment, whose cells were computed in big integers; with a tolerance,
+    /// these hits are left out.
     pub borders: usize,
     /// Pairs met on both borders by a ray that lies in the plane between: either may come first.
     pub grazing: usize,
-    /// Pairs that come out the wrong way within the tolerance.
+    /// Pairs in the wrong order within the tolerance.
     pub excused: usize,
 }
 
@@ -53,7 +53,7 @@ impl Score {
     }
 }
 
-/// A viewpoint, and what the rays from there meet: found once, for all trees of a scene.
+/// A viewpoint, and the hits of the rays from there: computed once for all trees of a scene.
 pub struct Shot {
     view: View,
     rays: Vec<(Ray, Vec<Vec<Hit>>)>,
@@ -62,7 +62,7 @@ pub struct Shot {
 /// Rays from `views` viewpoints, of all kinds in turn.
 pub fn shots(targets: &Targets<'_>, [views, rays]: [usize; 2], dice: &mut Dice) -> Vec<Shot> {
     let scene = targets.scene;
-    // With a tolerance, rays that run along edges say nothing.
+    // With a tolerance, rays along edges decide nothing.
     let generic = scene.tolerance > 0.0;
     let mut views_dice = Dice(dice.roll());
     let mut shot = |view: View, rays: usize| {
@@ -80,7 +80,7 @@ pub fn shots(targets: &Targets<'_>, [views, rays]: [usize; 2], dice: &mut Dice) 
     shots
 }
 
-/// A tree on trial.
+/// A tree to be judged.
 pub struct Court<'t> {
     targets: &'t Targets<'t>,
     tree: &'t BspTree,
@@ -110,7 +110,7 @@ impl<'t> Court<'t> {
         Self { targets, tree, drawing, cells, score }
     }
 
-    /// Everything there is to check.
+    /// All checks.
     pub fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
         self.input_has_not_moved()?;
         self.drawing.check(self.tree)?;
@@ -121,7 +121,7 @@ impl<'t> Court<'t> {
         Ok(self.score)
     }
 
-    /// What the judge takes for granted: faces are the polygons, with the very corners.
+    /// The judge's assumptions: faces are the polygons, with exactly the same corners.
     fn input_has_not_moved(&self) -> Verdict {
         let (scene, faces) = (self.targets.scene, self.tree.faces());
         ensure(faces.len() == scene.polygons.len(), || format!("{} faces", faces.len()))?;
@@ -138,7 +138,7 @@ impl<'t> Court<'t> {
         Ok(())
     }
 
-    /// Eyes are on the lattice to the last bit.
+    /// Checks that eyes are on the lattice to the last bit.
     fn eye_has_not_moved(&self, shot: &Shot) -> Verdict {
         let (Place::Eye(eye, below), Viewpoint::Eye(point)) =
             (&shot.view.place, shot.view.viewpoint())
@@ -240,7 +240,7 @@ impl<'t> Court<'t> {
         Ok(all)
     }
 
-    /// Holds two fragments against their places, the first further away.
+    /// Compares two fragments with their places, the first further away.
     fn compare(&mut self, ray: &Ray, a: &Found<'_>, b: &Found<'_>) -> Verdict {
         if a.place < b.place {
             return Ok(());
@@ -258,8 +258,8 @@ impl<'t> Court<'t> {
         self.excuse(ray, [a, b], &between)
     }
 
-    /// Within the tolerance of the plane between, parts may be exchanged: both must be as near to
-    /// it, or the nearer one and the eye; if both count as lying on it, they come in input order.
+    /// Within the tolerance of the plane between, parts may be exchanged: both must be as near to it, or
+    /// the nearer one and the eye; if both count as lying on it, they come in input order.
     fn excuse(&mut self, ray: &Ray, [a, b]: [&Found<'_>; 2], between: &Plane) -> Verdict {
         self.score.excused += 1;
         let tolerance = self.targets.scene.tolerance * (1.0 + 1e-9);
@@ -284,7 +284,7 @@ impl<'t> Court<'t> {
         }
         self.score.pairs += 1;
         self.score.coplanar += 1;
-        // Where borders meet, each shows on its own side.
+        // Where borders meet, each is visible on its own side.
         let apart = a.border == Border::On && b.border == Border::On;
         if apart || p.cmp(&q) == a.place.cmp(&b.place) {
             return Ok(());

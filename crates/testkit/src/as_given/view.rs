@@ -1,19 +1,19 @@
-//! Viewpoints that are known exactly, most of them where it is hard to tell sides.
+//! Exactly known viewpoints, most of them where sides are hard to decide.
 
 use super::exact::{Vector, wide};
 use super::ray::Ray;
 use super::scene::{Point, Scene, add, between, minus, times};
 use crate::prelude::*;
 
-/// Where the viewer is: whole numbers over a power of two, or a direction whose largest component
-/// is a power of two, so that the library rounds neither.
+/// The viewpoint: integers over a power of two, or a direction whose largest component is a power of two,
+/// so that the library rounds neither.
 #[derive(Clone, Debug)]
 pub enum Place {
     Eye(Vector, i128),
     Direction(Vector),
 }
 
-/// A viewpoint, and what to look at from there.
+/// A viewpoint, and the target of rays from there.
 #[derive(Clone, Debug)]
 pub struct View {
     pub place: Place,
@@ -23,8 +23,8 @@ pub struct View {
     target: Option<(Vector, i128)>,
 }
 
-/// How many bits more than the scene's coordinates a viewpoint may have: all together, the lattice
-/// and a rounded number have room for these.
+/// The number of bits that a viewpoint may have beyond the scene's coordinates: together, the lattice and a
+/// rounded number have room for these.
 fn spare_bits(scene: &Scene) -> u32 {
     50 - (scene.size() as u64).next_power_of_two().ilog2()
 }
@@ -58,8 +58,7 @@ impl View {
         }
     }
 
-    /// A ray to a corner, a point of an edge or a point inside of a polygon; `None` if the eye is
-    /// there.
+    /// A ray to a corner, a point of an edge or a point inside a polygon; `None` if the eye is there.
     pub fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
         let all = self.about.is_empty() || dice.below(4) == 0;
         let polygon = if all {
@@ -83,7 +82,7 @@ impl View {
         self.ray_to(target, total)
     }
 
-    /// The ray to the point that the view was chosen for, if it was chosen for one.
+    /// The ray to the view's target, if it has one.
     pub fn first_ray(&self) -> Option<Ray> {
         self.target.and_then(|(target, total)| self.ray_to(target, total))
     }
@@ -116,9 +115,8 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     add(corners[0], add(times(s, arm(1)), times(t, arm(corners.len() - 1))))
 }
 
-/// A viewpoint around, within, on a corner or a plane of the scene, a hair off a plane, far out at
-/// the height of a corner, in line with two corners; or a direction, along an edge or a plane or
-/// next to that.
+/// A viewpoint around the scene, within it, on a corner or a plane, a hair off a plane, far out at the
+/// height of a corner, collinear with two corners; or a direction, along an edge or a plane or next to one.
 pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
@@ -129,7 +127,7 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
         2 => View::eye(some_corner(scene, dice).1),
         3 => View::eye(on_plane(scene, polygon, dice)).about(vec![polygon]),
         4 => {
-            // Fewer bits are spare, as eyes reach a few sizes beyond the scene.
+            // Fewer bits are spare, because eyes reach a few sizes beyond the scene.
             let below = hair(scene) >> 4;
             let mut eye = wide(on_plane(scene, polygon, dice)).map(|c| c * below);
             eye[dice.below(3)] += [-1, 1][dice.below(2)];
@@ -155,11 +153,11 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     }
 }
 
-/// How many kinds of views there are.
+/// The number of kinds of views.
 pub const KINDS: usize = 10;
 
-/// An eye in line with two polygons that follow one another, and may be near each other; to look
-/// at them both.
+/// An eye collinear with points of two consecutive polygons, which may be near each other; rays aim at
+/// both.
 pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     let first = dice.below(scene.polygons.len());
     let second = (first + 1 + dice.below(3)) % scene.polygons.len();
@@ -175,14 +173,14 @@ pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     View { target: Some((wide(a), 4)), ..view }
 }
 
-/// A direction near to another: along the axis in which that is longest, a power of two.
+/// A direction near another: along the axis in which that is longest, a power of two.
 fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     let axis = (0..3).max_by_key(|&i| near[i].abs()).unwrap_or(0);
     let mut rounded = wide(near);
     let longest = rounded[axis];
     let power = (longest.unsigned_abs().max(1)).next_power_of_two() as i128;
     if power != longest.abs() && dice.below(2) == 0 {
-        // Next to it, but for rounding.
+        // Next to it, except for rounding.
         let unit = (size as u64).next_power_of_two() as i128;
         rounded = rounded.map(|c| c * unit / longest.abs().max(1));
         rounded[axis] = unit * if longest < 0 { -1 } else { 1 };
@@ -192,7 +190,7 @@ fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     View::new(Place::Direction(rounded))
 }
 
-/// A direction along a polygon's plane, if one is found that is exact; or a hair off it.
+/// A direction along a polygon's plane, if an exact one is found; or a hair off it.
 fn along_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> View {
     let corners = &scene.polygons[polygon];
     let arm = |k: usize| minus(corners[k], corners[0]);

@@ -9,14 +9,14 @@ use binspace::glam::DVec3;
 use binspace::partition::Partition;
 use binspace::{BuildOptions, Viewpoint};
 
-/// The most cells.
+/// The largest number of cells.
 const CELLS: usize = 9;
 
-/// Three of four times a scene, which is judged; else the file of a partition, with some changes or as it
-/// comes, with a right checksum, which can be used if it is read.
+/// Three of four times a judged scene; otherwise the file of a partition, changed or arbitrary, with a
+/// right checksum, which can be used if it is read.
 pub fn run(data: &[u8]) {
     let Some((kind, rest)) = data.split_first() else { return };
-    // Bytes that run out make no scene, and change nothing.
+    // Too few bytes make no scene, and change nothing.
     let _ = match kind % 8 {
         0 => {
             let mut file = rest.to_vec();
@@ -55,7 +55,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
         panic!("{what}: {options:?} {cells} cells {polygons:?}");
     }
     assert_eq!(Partition::read(&written(&scene.partition)[..]).unwrap(), scene.partition);
-    // The counts of the whole, whatever cells there are.
+    // The counts of the whole, for any cells.
     let (whole, sum) = (options.build(&polygons), scene.partition.preparation(&polygons));
     let counts = |found: &binspace::Preparation| {
         [found.dropped, found.triangulated, found.crossing, found.flattened]
@@ -80,7 +80,7 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     };
     let mut file = written(&partition);
     while !bytes.is_empty() {
-        // Behind the head: changes of that are always noticed.
+        // After the head, whose changes are always noticed.
         let at = bytes.int_in_range(16..=file.len() - 5)?;
         match bytes.int_in_range(0..=3u8)? {
             0 => file[at] = bytes.arbitrary()?,
@@ -98,7 +98,7 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Whatever is read can be used: all cells are in the order, bounded, and have each point once.
+/// A partition that is read can be used: all cells are in the order, bounded, and have each point once.
 pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     let Ok(partition) = Partition::read(file) else { return false };
     assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);

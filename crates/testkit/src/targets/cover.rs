@@ -4,7 +4,7 @@ use super::super::judge::{Verdict, ensure};
 use binspace::BspTree;
 use binspace::glam::DVec3;
 
-/// The fragments of each face have its vector area, but for the rounding of their vertices.
+/// Checks that the fragments of each face have its vector area, up to the rounding of their vertices.
 pub fn covers(tree: &BspTree) -> Verdict {
     let area = |corners: &mut dyn Iterator<Item = [f64; 3]>| {
         let corners: Vec<DVec3> = corners.map(DVec3::from).collect();

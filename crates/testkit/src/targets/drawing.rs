@@ -1,4 +1,4 @@
-//! Views of small scenes as drawings, at several zooms, against what the tree paints.
+//! Views of small scenes as drawings, at several zooms, compared with the tree's painted pictures.
 
 use super::super::decode;
 use super::super::fill::{Score, check};
@@ -10,7 +10,7 @@ use binspace::view::Camera;
 
 /// Builds a tree, and draws it from as many views as there are bytes for.
 pub fn run(data: &[u8]) {
-    // Bytes that run out change nothing.
+    // Too few bytes change nothing.
     let _ = draw(&mut Unstructured::new(data));
 }
 
@@ -21,7 +21,7 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
     let polygons = decode::polygons(bytes, 10)?;
     let Ok(tree) = options.build(&polygons) else { return Ok(()) };
     for camera in views.into_iter().flatten() {
-        // Some cameras are too near to a scene, or too far from it, for its pixels to be told apart.
+        // Some cameras are too near to a scene, or too far from it, to distinguish its pixels.
         if Rays::new(&camera, tree.faces()).is_err() {
             continue;
         }

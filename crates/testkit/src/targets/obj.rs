@@ -1,25 +1,25 @@
-//! OBJ files: some written from what they are to mean, some any bytes.
+//! OBJ files: some written from a known meaning, some any bytes.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use std::fmt::Write;
 
-/// What a file that was written here must be read as.
+/// The expected result of reading a file that was written here.
 struct Known {
     text: String,
     corners: Vec<DVec3>,
     faces: Vec<Vec<usize>>,
-    /// The first line that is to be refused.
+    /// The first line that must be refused.
     refused: Option<usize>,
     lines: usize,
 }
 
-/// Half the time a file whose meaning is known, half the time what there is.
+/// Half the time a file with a known meaning, half the time the bytes themselves.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {
-            // Bytes that run out make no file.
+            // Too few bytes make no file.
             let _ = read_known(&mut Unstructured::new(rest));
         }
         Some((_, rest)) => read_any(rest),
@@ -27,7 +27,7 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// Any bytes: what is read is finite, and reads the same when it is written out.
+/// Any bytes: a scene that is read is finite, and reads the same when it is written.
 fn read_any(bytes: &[u8]) {
     // A library that is the file itself: its lines are read as material lines too.
     let Ok((scene, report)) = Scene::from_obj("any", bytes, |_| Some(bytes.to_vec())) else {
@@ -50,7 +50,7 @@ fn read_any(bytes: &[u8]) {
     }
     let again = Scene::from_obj("again", text.as_bytes(), |_| None);
     let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
-    // Corners alone: the precision also follows from vertices that no face names.
+    // Only corners: the precision also follows from vertices that no face names.
     let corners = |scene: &Scene| scene.polygons().map(|p| p.points().to_vec()).collect::<Vec<_>>();
     assert_eq!(corners(&scene), corners(&again), "{text}");
 }
@@ -78,7 +78,7 @@ fn read_known(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A small number, or any that is finite.
+/// A small number, or any finite one.
 fn coordinate(bytes: &mut Unstructured<'_>) -> Result<f64> {
     if bytes.ratio(1, 4u8)? {
         return Ok(f64::from(bytes.arbitrary::<i8>()?) / 4.0);
@@ -87,7 +87,7 @@ fn coordinate(bytes: &mut Unstructured<'_>) -> Result<f64> {
 }
 
 impl Known {
-    /// A `v` line; whether it is a good one.
+    /// A `v` line; returns whether it is valid.
     fn vertex(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
         let corner = DVec3::new(coordinate(bytes)?, coordinate(bytes)?, coordinate(bytes)?);
         let bad = bytes.ratio(1, 40u8)?;
@@ -97,7 +97,7 @@ impl Known {
                 let word = ["nan", "inf", "-Infinity", "1e999", "x", "1,5", ""];
                 let _ = write!(self.text, " {}", bytes.choose(&word)?);
             } else {
-                // The shortest text that reads back as the same number, in one way or another.
+                // The shortest text that reads back as the same number, in different notations.
                 let _ = match bytes.arbitrary()? {
                     true => write!(self.text, " {coordinate:e}"),
                     false => write!(self.text, " {coordinate}"),
@@ -111,7 +111,7 @@ impl Known {
         Ok(!bad)
     }
 
-    /// An `f` line; whether it is a good one.
+    /// An `f` line; returns whether it is valid.
     fn face(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
         let mut good = true;
         let mut face = Vec::new();
@@ -119,7 +119,7 @@ impl Known {
         for _ in 0..bytes.int_in_range(0..=6u8)? {
             let count = self.corners.len();
             let number = bytes.int_in_range(0..=count + 1)?;
-            // 0 is no number; one too many is, if another corner follows.
+            // 0 is not a valid number; one too many is, if another corner follows.
             let index = if number > 0 && number <= count && bytes.arbitrary()? {
                 number as i64 - count as i64 - 1
             } else {
@@ -137,9 +137,9 @@ impl Known {
         Ok(good)
     }
 
-    /// A line that is no polygon.
+    /// A line that is not a polygon.
     fn aside(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
-        // No empty line: behind a lone CR it would be half of a line end.
+        // No empty line: after a lone CR it would be half of a line end.
         let asides =
             [" ", "# f 1 2 3", "l 1 2 3", "p 1", "g f 1", "o v", "s 1", "vn 0 0 1", "usemtl x"];
         self.text.push_str(bytes.choose(&asides)?);

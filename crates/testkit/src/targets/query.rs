@@ -1,4 +1,4 @@
-//! Rays, points and regions in small scenes, against rationals.
+//! Rays, points and regions in small scenes, compared with rationals.
 
 use super::super::decode;
 use super::super::dice::Dice;
@@ -7,9 +7,9 @@ use super::super::saved::use_queries;
 use super::super::shots::Shots;
 use arbitrary::{Result, Unstructured};
 
-/// Builds a tree, and asks it as long as there are bytes.
+/// Builds a tree, and runs queries until the bytes end.
 pub fn run(data: &[u8]) {
-    // Bytes that run out change nothing.
+    // Too few bytes change nothing.
     let _ = ask(&mut Unstructured::new(data));
 }
 

@@ -1,18 +1,19 @@
-//! Files of trees: forged ones, and any bytes. Whatever is read can be used.
+//! Files of trees: forged ones, and any bytes. A tree that is read can be used.
 
 use super::super::decode;
 use super::super::saved::{bytes, seal, use_all};
 use arbitrary::{Result, Unstructured};
 use binspace::{BspTree, BuildOptions, ErrorKind, FrameBuilder};
 
-/// The most bytes that a file has in which places are changed.
+/// The largest file, in bytes, in which places are changed.
 const MOST: usize = 20_000;
 
-/// Half the time a tree's file with some changes, half the time what there is; the checksum is right.
+/// Half the time a tree's file with some changes, half the time the bytes themselves; the checksum is
+/// right.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {
-            // Bytes that run out change nothing.
+            // Too few bytes change nothing.
             let _ = forge(&mut Unstructured::new(rest));
         }
         Some((_, rest)) => {
@@ -24,7 +25,7 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// Reads a file, and does everything with what it holds.
+/// Reads a file, and uses its tree in every way.
 pub fn try_file(file: &[u8]) -> bool {
     match BspTree::read(file) {
         Ok(tree) => {
@@ -67,9 +68,9 @@ fn file<P: binspace::Polygon>(
     (file.len() < MOST).then_some(file)
 }
 
-/// Changes a number of the file a little or altogether, or copies one over another.
+/// Changes a number of the file slightly or completely, or copies one over another.
 fn change(bytes: &mut Unstructured<'_>, file: &mut [u8]) -> Result<()> {
-    // Behind the head: changes of that are always noticed.
+    // After the head, whose changes are always noticed.
     let place = |bytes: &mut Unstructured<'_>| bytes.int_in_range(16..=file.len() - 5);
     let at = place(bytes)?;
     let word = |at: usize| at & !3;

@@ -1,4 +1,4 @@
-//! A face cut again and again, each sign and each part against exact rationals.
+//! A face cut repeatedly; each sign and each part is compared with exact rationals.
 
 use super::super::cut_walk::{Tally, Walk};
 use super::super::decode;
@@ -7,7 +7,7 @@ use binspace::internals::{Faces, PlaneId};
 
 /// A scene of at most eight polygons, and up to sixteen cuts.
 pub fn run(data: &[u8]) {
-    // Bytes that run out end the cuts.
+    // The cuts end with the bytes.
     let _ = try_run(&mut Unstructured::new(data));
 }
 

@@ -9,10 +9,10 @@ use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::{BspTree, FrameBuilder};
 
-/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays, and what rays hit by
+/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays, and hits of rays by
 /// exact rationals.
 pub fn run(data: &[u8]) {
-    // Bytes that run out make no scene.
+    // Too few bytes make no scene.
     let _ = try_run(&mut Unstructured::new(data));
 }
 

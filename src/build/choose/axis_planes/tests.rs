@@ -12,14 +12,13 @@ use crate::exact::{Faces, PlaneId, PlaneKind, Side};
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 
-/// The least cost of all planes perpendicular to an axis through a corner, by looking at every
-/// piece for each.
+/// The least cost of all planes perpendicular to an axis through a corner, testing every piece for each.
 fn least(pieces: &[Piece], axis: usize, tolerance: f64) -> Cost {
     let coordinates = pieces.iter().flat_map(|piece| [piece.min[axis], piece.max[axis]]);
     coordinates.map(|c| at(pieces, axis, c, tolerance)).min_by(Cost::cmp).unwrap_or(Cost::MOST)
 }
 
-/// What a plane costs; infinite if it leaves all pieces on one side.
+/// The cost of a plane; infinite if it leaves all pieces on one side.
 fn at(pieces: &[Piece], axis: usize, c: f64, tolerance: f64) -> Cost {
     let (mut in_front, mut behind, mut splits) = (0, 0, 0);
     for piece in pieces {
@@ -53,7 +52,7 @@ fn assert_good(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     };
     assert!(clean.is_none_or(|clean| !cost_of(&clean).cuts), "{name}: {clean:?} cuts");
     assert!(found.is_none_or(|found| cost_of(&found) == found.cost), "{name}: {found:?}");
-    // Bins may miss the best plane, but in sets that `clean` is not for, not by much.
+    // Bins may miss the best plane, but not by much, except in sets for `clean`.
     let found = found.map_or(Cost::MOST, |plane| plane.cost);
     let is_good = found == best || found.amount <= 1.02 * best.amount;
     assert!(is_good || pieces.len() < Tuning::DEFAULT.clean_below, "{name}: {found:?}, {best:?}");
@@ -108,7 +107,7 @@ fn planes_go_through_rows_of_vertices() {
     }
 }
 
-/// Most of it is in two small parts of the whole, so that few bins hold nearly all.
+/// Most pieces are in two small parts of the whole, so that few bins hold nearly all.
 #[test]
 fn crowds_are_searched_like_others() {
     const CROWD: usize = 2000;
@@ -125,7 +124,7 @@ fn crowds_are_searched_like_others() {
     assert_good("a crowd", &polygons, 0.0);
 }
 
-/// A triangle that reaches so far along an axis, and from −1 to 1 along the others.
+/// A triangle with this extent along an axis, and from −1 to 1 along the others.
 fn reaching([begin, end]: [f64; 2], axis: usize) -> [DVec3; 3] {
     let middle = 0.5 * (begin + end);
     [[begin, -1.0, -1.0], [middle, 1.0, -1.0], [end, 1.0, 1.0]].map(|mut p| {
@@ -139,7 +138,7 @@ fn axis_of(found: &PricedPlane) -> usize {
     axis
 }
 
-/// Two heaps that reach into one another, but no further than the tolerance.
+/// Two groups that overlap by no more than the tolerance.
 #[test]
 fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
     const TOLERANCE: f64 = 1e-3;
@@ -150,18 +149,18 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
             [low, high].concat()
         };
         let even = Cost { cuts: false, amount: 2.0 * work(2) };
-        // In all by less than the tolerance.
+        // In total by less than the tolerance.
         let fixture = Fixture::new(&of([4e-4, 4e-4], [-4e-4, -4e-4]), TOLERANCE);
         let clean = FreePlanes::default().clean(&fixture.set(), &Tuning::DEFAULT);
         assert_eq!(clean.map(|clean| (axis_of(&clean), clean.cost)), Some((axis, even)));
-        // On either side of a plane by less than that.
+        // On each side of a plane by less than the tolerance.
         let fixture = Fixture::new(&of([7e-4, 0.0], [-7e-4, 0.0]), TOLERANCE);
         let found = FreePlanes::default().best(&fixture.set(), &Watch::default()).unwrap();
         assert_eq!(found.map(|found| (axis_of(&found), found.cost)), Some((axis, even)));
     }
 }
 
-/// The others begin at cuts, and no corner there names a plane.
+/// The others begin at cuts, so no corner there names a plane.
 #[test]
 fn a_plane_is_found_where_pieces_only_end() {
     let floor = [DVec3::NEG_Y, DVec3::new(0.0, -1.0, 1.0), DVec3::new(1.0, -1.0, 0.0)];
@@ -184,7 +183,7 @@ fn a_tolerance_may_be_wider_than_bins() {
     assert!(found.is_some());
 }
 
-/// Of pieces that were cut, too: where they end at a cut, there is no corner to name a plane by.
+/// Also for pieces that were cut: where they end at a cut, no corner names a plane.
 #[test]
 fn planes_go_through_the_corners_that_name_them() {
     let mut random = SplitMix64::new(5);
@@ -209,7 +208,7 @@ fn planes_go_through_the_corners_that_name_them() {
     assert!(named > 300, "{named}");
 }
 
-/// Of planes that cut nothing, the one that divides best, unless another is good enough.
+/// Finds the plane that divides best among those that cut nothing, unless another is good enough.
 #[test]
 fn the_best_of_the_planes_that_cut_nothing_is_found() {
     let mut random = SplitMix64::new(6);

@@ -1,4 +1,4 @@
-//! The contest of own planes against brute force with exact decisions.
+//! The comparison of own planes against brute force with exact decisions.
 
 use glam::DVec3;
 
@@ -84,7 +84,7 @@ fn halving_finds_a_good_plane() {
     }
 }
 
-/// A contest in which all candidates are compared with the first sample.
+/// Candidates that are all compared with the first sample.
 fn begun(set: &Set<'_>, tuning: &Tuning) -> Candidates {
     let (mut sample, mut candidates) = (Sample::default(), Candidates::default());
     sample.sketch.reset(set);

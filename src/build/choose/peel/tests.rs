@@ -18,8 +18,8 @@ fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
 }
 
-/// Asserts that each layer has all the rest on the side that it says, and that its own pieces are
-/// all those on its plane; gives which pieces are left.
+/// Asserts that each layer has all the rest on its declared side, and that its own pieces are all those on
+/// its plane; returns the pieces that are left.
 fn assert_layers(name: &str, set: &Set<'_>, peeled: Option<&Peeled>) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     let layers =
@@ -39,7 +39,7 @@ fn assert_layers(name: &str, set: &Set<'_>, peeled: Option<&Peeled>) -> Vec<bool
     left
 }
 
-/// Which pieces are left once each has been tried in turn.
+/// The pieces that are left once each has been tried in turn.
 fn brute_force(set: &Set<'_>, order: &[usize]) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     for &piece in order {
@@ -72,7 +72,7 @@ fn assert_like_brute_force(name: &str, fixture: &Fixture) -> usize {
     taken
 }
 
-/// Triangles on a sphere, with corners in common.
+/// Triangles on a sphere, with shared corners.
 fn sphere(rings: u32) -> Vec<[DVec3; 3]> {
     let point = |i: u32, j: u32| {
         let (a, b) = (f64::from(i % (2 * rings)), f64::from(j));
@@ -90,7 +90,7 @@ fn sphere(rings: u32) -> Vec<[DVec3; 3]> {
     triangles
 }
 
-/// A turned cube, each side a grid.
+/// A rotated cube, each side a grid.
 fn cube(side: u32) -> Vec<[DVec3; 3]> {
     let one = grid(side, |_| 0.0);
     let back = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
@@ -121,7 +121,7 @@ fn random_sets_are_peeled_as_by_brute_force() {
     assert!(taken > 30, "{taken}");
 }
 
-/// Heights that single precision does not see decide what can be taken.
+/// Heights that single precision does not see decide which pieces can be separated.
 #[test]
 fn what_is_near_is_decided_exactly() {
     let mut taken = 0;
@@ -163,7 +163,7 @@ fn convex_sets_come_apart_whatever_their_size() {
     }
 }
 
-/// More than one box, with and without what can be taken.
+/// More than one box, with and without peelable pieces.
 #[test]
 fn large_sets_are_peeled_as_by_brute_force() {
     let mut random = SplitMix64::new(2);
@@ -175,7 +175,7 @@ fn large_sets_are_peeled_as_by_brute_force() {
     assert!(taken >= sphere(9).len(), "{taken}");
 }
 
-/// The boxes of what is taken are empty, and what is left may be in boxes alone.
+/// The boxes of separated pieces are empty, and boxes may contain only remaining pieces.
 #[test]
 fn a_pile_is_taken_off_from_one_end() {
     let mut random = SplitMix64::new(3);

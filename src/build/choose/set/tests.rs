@@ -14,7 +14,7 @@ fn sketched(set: &Set<'_>) -> PackedPieces {
     sketch
 }
 
-/// Asserts that what the packed pieces call certain is so; says how much it calls so.
+/// Asserts that certain results of the packed pieces are true; returns their number.
 fn assert_certain(name: &str, fixture: &Fixture) -> usize {
     let set = fixture.set();
     let sketch = sketched(&set);
@@ -42,8 +42,8 @@ fn assert_certain(name: &str, fixture: &Fixture) -> usize {
     certain
 }
 
-/// All but one are exactly in one plane, at a corner of the box, so that coordinates and distances
-/// are as large as can be, and rounded as much.
+/// All but one are exactly in one plane, at a corner of the box, so that coordinates and distances, and
+/// their rounding errors, are as large as possible.
 #[test]
 fn rounding_makes_nothing_certain() {
     let mut random = SplitMix64::new(1);
@@ -69,11 +69,12 @@ fn rounding_makes_nothing_certain() {
         assert_certain(&format!("plane {round}"), &fixture);
         most = most.max(error(&fixture.set()));
     }
-    // The test comes near what the slack allows for.
+    // The test comes near the limit of the slack.
     assert!((0.15..1.0).contains(&most), "{most} of the slack");
 }
 
-/// The largest rounded distance of a piece but the last from the plane of another, by the slack.
+/// The largest rounded distance of a piece, except the last, from the plane of another, divided by the
+/// slack.
 fn error(set: &Set<'_>) -> f32 {
     let sketch = sketched(set);
     let others = || 0..set.len() - 1;
@@ -99,7 +100,7 @@ fn what_is_certain_is_so() {
         for tolerance in [0.0, 1e-9, 1e-5] {
             for apart in [0.0, 1e6] {
                 let mut polygons = triangles(&mut random, 60, size);
-                // Slivers, and neighbours with a corner in common.
+                // Slivers, and neighbours with a shared corner.
                 for i in 0..20 {
                     let [a, b, c] = polygons[i];
                     polygons.push([a, b, a + (b - a) * 0.4 + (c - a) * 1e-7]);
@@ -124,7 +125,7 @@ fn what_is_certain_is_so() {
     }
 }
 
-/// Of large faces, small pieces: their planes are as certain as those of small faces.
+/// Small pieces of large faces: their planes are as certain as those of small faces.
 #[test]
 fn small_pieces_of_large_faces_are_as_certain() {
     let mut random = SplitMix64::new(4);
@@ -137,7 +138,7 @@ fn small_pieces_of_large_faces_are_as_certain() {
                 [near() - DVec3::new(1.0, 0.1, 0.3), near() - DVec3::new(0.2, 1.0, 0.7), near()]
             })
             .collect();
-        // In the planes of those: nothing is certain of them.
+        // In the planes of those faces: nothing is certain for them.
         for i in 0..10 {
             let [a, b, c] = polygons[i];
             polygons.push([c, c + (a - c) * 1e-3, c + (b - c) * 1e-3]);
@@ -179,7 +180,7 @@ fn counts_are_those_of_a_plain_loop() {
     }
 }
 
-/// A wall that is much longer than it is high: its length alone decides how much is rounded.
+/// A wall that is much longer than it is high: its length alone decides the rounding.
 #[test]
 fn rounding_makes_nothing_certain_in_a_flat_box() {
     let mut random = SplitMix64::new(6);

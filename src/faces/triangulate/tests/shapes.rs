@@ -9,7 +9,7 @@ pub(super) fn random_points(n: usize, size: i64, random: &mut SplitMix64) -> Vec
     (0..n).map(|_| [coordinate(), coordinate()]).collect()
 }
 
-/// A kind of polygons that do not cross themselves.
+/// A family of polygons that do not cross themselves.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Family {
     Star,
@@ -50,7 +50,7 @@ pub(super) fn large(n: usize) -> Vec<(&'static str, Vec<Point>)> {
     ]
 }
 
-/// Corners at rising angles about the origin, near or far.
+/// Corners at rising angles around the origin, near or far.
 fn star(n: usize, random: &mut SplitMix64) -> Vec<Point> {
     let corner = |k: usize, radius: f64| {
         let (sin, cos) = (k as f64 / n as f64 * std::f64::consts::TAU).sin_cos();

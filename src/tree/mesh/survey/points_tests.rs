@@ -1,4 +1,4 @@
-//! The order of points along lines, of faces whose corners were moved.
+//! The order of points along lines of faces whose corners were moved.
 
 use std::cmp::Ordering;
 
@@ -9,12 +9,12 @@ use crate::tree::BspTree;
 use crate::tree::mesh::survey::{Points, Survey, by_line, compare};
 use crate::{BuildOptions, Heuristic};
 
-/// By how much a corner is below the plane of the others.
+/// The distance of a corner below the plane of the others.
 const OFF: f64 = 1.0 / 64.0;
 
 /// A quad whose topmost corner is given below the plane of the others, by less than the tolerance, and is
-/// moved up onto it; a floor through that corner as given, which cuts off a tip of the quad as moved, though
-/// none of it as given; and triangles that cut the tip.
+/// moved up onto it; a floor through that corner as given, which cuts off a tip of the quad as moved, but
+/// nothing of it as given; and triangles that cut the tip.
 fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
     let quad = [[2.0, 1.0, -2.625], [4.0, 4.0, -7.0], [1.0, 2.0, -2.625], [0.0, 0.0, -OFF]];
     let floor = [(-3.0, -3.0), (-2.0, -3.0), (-2.0, -2.0), (-3.0, -2.0)].map(|(x, y)| [x, y, -OFF]);
@@ -32,8 +32,8 @@ fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
     options.with_tolerance(OFF / 1.25).build(polygons).unwrap()
 }
 
-/// Whether any three ends on each line compare as numbers do. How many pairs on lines are at one point
-/// though they are at different places of the line.
+/// Whether any three ends on each line compare like numbers. Returns the number of pairs on lines that are
+/// one point although they are at different places of the line.
 fn check(tree: &BspTree) -> usize {
     let survey = Survey::new(tree.mesh_source()).unwrap();
     let points = Points::new(&survey).unwrap();
@@ -69,7 +69,7 @@ fn ends_on_a_line_of_a_face_with_moved_corners_have_a_total_order() {
     assert!(apart > 0, "no point has two places on a line");
 }
 
-/// So many ends that a sort by an order with a contradiction panics.
+/// Enough ends that a sort by a contradictory order panics.
 #[test]
 fn a_face_with_moved_corners_does_not_make_a_sort_panic() {
     for (triangles, seed) in [(8, 8), (9, 10), (10, 10), (11, 10)] {

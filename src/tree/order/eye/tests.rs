@@ -1,5 +1,5 @@
-//! How near the rounded distances of eyes come to their bound: eyes sought that a smaller bound
-//! would put on the wrong side.
+//! The distance of eyes' rounded values from their bound: searches for eyes that a smaller bound would put
+//! on the wrong side.
 
 use std::cmp::Ordering;
 
@@ -33,8 +33,8 @@ impl Numbers {
     }
 }
 
-/// A tree whose first plane is that of a triangle in a corner of the scene, which fills its lattice:
-/// planes far off the middle err most.
+/// A tree whose first plane is that of a triangle in a corner of the scene, which fills its lattice: planes
+/// far from the middle have the largest errors.
 fn tree(numbers: &mut Numbers) -> BspTree {
     let corner = DVec3::ONE.copysign(numbers.point()) * ALMOST_TWO;
     let triangle = [0; 3].map(|_| corner * (DVec3::ONE - numbers.point().abs() * 0.5));
@@ -43,8 +43,8 @@ fn tree(numbers: &mut Numbers) -> BspTree {
     options.build([triangle, all]).expect("finite")
 }
 
-/// How far on the wrong side of the first plane an eye is by its rounded distance, in the unit that
-/// the bound is stated in; 0 if it is on the right one.
+/// The distance on the wrong side of the first plane by an eye's rounded value, in the unit of the bound; 0
+/// if it is on the right side.
 fn error(tree: &BspTree, eye: Viewpoint) -> f64 {
     let view = View::new(tree, eye);
     let distance = view.distances(&tree.planes.0[0])[0];
@@ -59,7 +59,7 @@ fn error(tree: &BspTree, eye: Viewpoint) -> f64 {
     if rounded == exact { 0.0 } else { f64::from(distance.abs()) / size }
 }
 
-/// An eye in the first plane but for rounding, from any place, in 2⁵¹ lattice units; or likewise a
+/// An eye in the first plane except for rounding, from any place, in 2⁵¹ lattice units; or likewise a
 /// direction along it.
 fn in_plane(tree: &BspTree, place: DVec3, is_far: bool, nudge: f64) -> Viewpoint {
     let plane = tree.faces.plane(tree.nodes[0].plane);
@@ -80,10 +80,10 @@ fn a_bound_of_a_quarter_would_put_eyes_on_the_wrong_side() {
         for (kind, worst) in worst.iter_mut().enumerate() {
             let mut best = (0.0, numbers.point());
             for turn in 0..1000 {
-                // Climbs from the best of some.
+                // Hill climbing from the best of some samples.
                 let size = 10f64.powf(-4.0 - 3.0 * numbers.number());
                 let near = best.1 + best.1 * numbers.point() * size;
-                // Beyond the scene, as far again.
+                // Beyond the scene, up to its size again.
                 let place = if turn < 200 { numbers.point() * 1.5 } else { near };
                 let nudge = 1e-15 * numbers.number();
                 let found = error(&tree, in_plane(&tree, place, kind == 1, nudge));

@@ -12,7 +12,7 @@ const INCOMPLETE: &str = "do not add up to it";
 const OVERLAP: &str = "occurs twice, or another piece overlaps it";
 const CUT: &str = "on its two sides do not fit along the cut";
 
-/// Which group of its node's a fragment is in: the node, and 0 on the plane, 1 in front, 2 behind.
+/// The group of its node that contains a fragment: the node, and 0 on the plane, 1 in front, 2 behind.
 fn place(tree: &BspTree, fragment: u32) -> (usize, usize) {
     let is_here = |range: &std::ops::Range<u32>| range.contains(&fragment);
     let mut walk = crate::tree::node::Walk::new(tree);
@@ -25,7 +25,7 @@ fn place(tree: &BspTree, fragment: u32) -> (usize, usize) {
     panic!("no fragment {fragment}");
 }
 
-/// Takes a fragment out of the tree.
+/// Removes a fragment from the tree.
 fn remove(tree: &BspTree, fragment: u32) -> Dismantled {
     let mut parts = Dismantled::of(tree);
     let (node, group) = place(tree, fragment);
@@ -39,8 +39,8 @@ fn remove(tree: &BspTree, fragment: u32) -> Dismantled {
     parts
 }
 
-/// Puts a fragment that is the only one of a leaf, or on a plane, there once more: in a leaf, with
-/// its face's plane as a node.
+/// Duplicates a fragment that is the only one of a leaf, or on a plane: in a leaf, with its face's plane as
+/// a node.
 fn double(tree: &BspTree, fragment: u32) -> Dismantled {
     let mut parts = Dismantled::of(tree);
     let (node, group) = place(tree, fragment);
@@ -52,7 +52,7 @@ fn double(tree: &BspTree, fragment: u32) -> Dismantled {
         return parts;
     }
     assert!(sides.contains(&group));
-    // A leaf's subtree comes behind the other leaf, and in front of or behind the other subtree.
+    // A leaf's subtree comes after the other leaf, and before or after the other subtree.
     let raw = &mut parts.nodes[node];
     let child = if group == 1 { &mut raw.front } else { &mut raw.back };
     *child = RawChild::Node;
@@ -62,7 +62,7 @@ fn double(tree: &BspTree, fragment: u32) -> Dismantled {
     let handle = tree.nodes().nth(node).expect("the node");
     let front_nodes = tree.nodes[node].front_nodes as usize;
     let (at_node, at_piece) = if group == 1 {
-        // Behind the node's own and the back's leaf.
+        // After the node's own fragments and the back's leaf.
         let back_leaf = if tree.nodes[node].back_is_node() { 0 } else { handle.behind().len() };
         (node + 1, handle.on().end as usize + back_leaf)
     } else {
@@ -123,7 +123,7 @@ fn a_fragment_that_is_there_twice_is_found() {
     assert!(doubled.iter().all(|&doubled| doubled > 50), "{doubled:?}");
 }
 
-/// Areas alone add up.
+/// A sum of areas would not show this.
 #[test]
 fn a_half_that_is_lost_while_the_other_half_is_there_twice_is_found() {
     let tree = crossing(2);
@@ -163,7 +163,7 @@ fn a_half_in_place_of_the_other_half_s_quarter_is_found() {
     }
 }
 
-/// Changes one vertex of one fragment at a time; gives how many changes were found by their cuts.
+/// Changes one vertex of one fragment at a time; returns the number of changes found by their cuts.
 fn change_vertices(tree: &BspTree, change: impl Fn(u32, &Stored) -> Stored) -> usize {
     let mut found = 0;
     for fragment in tree.fragments() {
@@ -204,7 +204,7 @@ fn lines_that_name_the_wrong_side_or_plane_or_edge_are_found() {
     }
 }
 
-/// A square cut along its diagonal: the corners there could be named by the cut as well.
+/// A square cut along its diagonal: the cut could also name the corners there.
 #[test]
 fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
     let upright = square(2.0, 0.0).map(|p| glam::DVec3::new(p.x, p.x, p.y));
@@ -218,8 +218,8 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
         let on_edge = vertex.with_line(EdgeLine::edge(edge));
         on_edge.cut(&tree.faces, 1, &prepared).with_line(vertex.line()).stored()
     };
-    // Corner 0 as the place where the diagonal crosses the edge that ends or begins there: in one
-    // piece, and in both.
+    // Corner 0 as the place where the diagonal crosses the edge that ends or begins there: in one piece,
+    // and in both.
     for edge in [3, 0] {
         for pieces in [vec![1], vec![2], vec![1, 2]] {
             let edit = |parts: &mut Dismantled| {
@@ -234,13 +234,13 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
             let mut parts = Dismantled::of(&tree);
             edit(&mut parts);
             let said = verdict(&parts.tree(&tree));
-            // A crossing that is not between the ends of its edge may show as a wrong side first.
+            // A crossing that is not between the ends of its edge may be reported as a wrong side first.
             let faults = [if pieces.len() == 1 { CUT } else { INCOMPLETE }, "as its place says"];
             assert!(faults.iter().any(|fault| said.contains(fault)), "{said:?}");
         }
     }
-    // A vertex more where corner 0 is: an edge without length, in the piece that has the one edge
-    // there or the other.
+    // Another vertex at corner 0: an edge without length, in the piece that has the one edge there or the
+    // other.
     for long in [0, 3] {
         let edit = |parts: &mut Dismantled| {
             for (_, vertices) in &mut parts.pieces[1..] {
@@ -250,7 +250,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
                 let made = (renamed(&vertices[at], long)).restored(&tree.faces, 1);
                 let begins_edge = corner.line() == EdgeLine::edge(0);
                 match (long, begins_edge) {
-                    // The edge goes on to the corner, and from there to the cut.
+                    // The edge continues to the corner, and from there to the cut.
                     (0, false) => {
                         vertices[at] = corner.with_line(EdgeLine::edge(0)).stored();
                         vertices.insert(at + 1, made.with_line(corner.line()).stored());
@@ -307,7 +307,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
                 found += usize::from(!verdict(&parts.tree(&tree)).is_empty());
                 edits += 1;
             }
-            // Where an outline begins means nothing.
+            // The start of an outline means nothing.
             let mut parts = Dismantled::of(&tree);
             parts.pieces[fragment.index() as usize].1.rotate_left(1);
             assert_eq!(verdict(&parts.tree(&tree)), "", "{name}");
@@ -326,7 +326,7 @@ fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
     assert_eq!((tree.len(), tree.nodes[0].own()), (4, 2));
     let edit = |parts: &mut Dismantled| parts.nodes[0].plane = PlaneId::face(1);
     assert_fault(&tree, edit, CUT);
-    // Where nothing is cut, one is as good as the other.
+    // If nothing is cut, either is right.
     let tree = options.build(&polygons[..2]).expect("finite");
     let mut parts = Dismantled::of(&tree);
     parts.nodes[0].plane = PlaneId::face(1);

@@ -8,7 +8,7 @@ const LAYOUT: &str = "the layout for orders does not match the nodes";
 const POSITIONS: &str = "node 0: the positions are not those of the vertices";
 const ROUNDED: &str = "the rounded planes are not those of the nodes";
 
-/// Breaks every tree that has what an edit needs; gives how many.
+/// Breaks every tree to which an edit applies; returns their number.
 fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
     let mut broken = 0;
     for (name, mut tree) in trees() {
@@ -89,7 +89,7 @@ fn rounded_planes_of_other_nodes_are_found() {
     assert!(swapped >= 20 && missing >= 20, "{swapped} {missing}");
 }
 
-/// Keeps the positions of a tree's vertices, as a tree for one view does.
+/// Stores the positions of a tree's vertices, as in a tree for one view.
 fn keep_positions(tree: &mut BspTree) -> Option<()> {
     let of = |fragment: crate::Fragment<'_>| {
         let place =
@@ -113,7 +113,7 @@ fn positions_of_other_vertices_or_of_more_or_fewer_are_found() {
         assert_all(POSITIONS, |tree| {
             keep_positions(tree)?;
             tree.positions.pop();
-            // Without any, none are kept.
+            // Without any, none are stored.
             (!tree.positions.is_empty()).then_some(())
         }),
         assert_all(POSITIONS, |tree| {

@@ -1,4 +1,4 @@
-//! Names of what is not there.
+//! Names of things that do not exist.
 
 use super::{Dismantled, Stored, assert_fault, build, crossing, verdict};
 use crate::build::Heuristic;
@@ -37,7 +37,7 @@ fn planes_that_name_nothing_are_found() {
         ];
         for plane in unknown {
             for node in [0, tree.nodes.len() / 2, tree.nodes.len() - 1] {
-                // Neither can its plane be rounded.
+                // Its plane cannot be rounded either.
                 let mut tree = tree.clone();
                 tree.nodes[node].plane = plane;
                 let said = verdict(&tree);

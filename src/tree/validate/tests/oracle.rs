@@ -1,4 +1,4 @@
-//! Trees broken at random, against what the planes make of the faces when they are cut anew.
+//! Randomly broken trees, compared with the faces cut by the planes again.
 
 use super::{Dismantled, Stored, build, crossing, decals, tilted, verdict};
 use crate::build::Heuristic;
@@ -8,10 +8,10 @@ use crate::scene;
 use crate::tree::BspTree;
 use crate::tree::parts::{RawChild, RawNode};
 
-/// A piece of a face; all of it, if it has no vertices.
+/// A piece of a face, or the whole face if it has no vertices.
 type Live = (u32, Vec<Vertex>);
 
-/// Whether a tree is what its planes make of its faces: by cutting them from the root down.
+/// Whether a tree equals its faces cut by its planes from the root down.
 fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     let faces = &tree.faces;
     let mut pieces = parts.pieces.iter();
@@ -69,7 +69,7 @@ fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     nodes.next().is_none() && pieces.next().is_none() && cuts == parts.cuts
 }
 
-/// Whether a stored piece has a face and an outline, wherever it begins.
+/// Whether a stored piece has a face and an outline, up to its start.
 fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> bool {
     let outline: Vec<Stored> = vertices.iter().map(|vertex| vertex.stored()).collect();
     let n = outline.len();
@@ -77,7 +77,7 @@ fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> boo
     face == expected && stored.len() == n && (n == 0 || (0..n).any(turned))
 }
 
-/// One change to a tree, whatever comes of it.
+/// One random change to a tree.
 fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
     let mut below = |n: usize| (random.next() % n.max(1) as u64) as usize;
     let (a, b) = (below(parts.pieces.len()), below(parts.pieces.len()));
@@ -102,7 +102,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
         10 if n > 1 => vertices.insert(k % n, vertices[other % n]),
         11 if n > 1 => vertices.swap(k % n, other % n),
         12 | 13 if n > 1 && !from.is_empty() => {
-            // A line of a vertex, or a vertex but for its line, from another piece.
+            // A line of a vertex, or a vertex except for its line, from another piece.
             let [here, there] = [vertices[k % n], from[other % from.len()]]
                 .map(|vertex| vertex.restored(faces, face));
             let (vertex, line) =
@@ -117,7 +117,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
             }
         }
         _ => {
-            // A fragment more on the plane, or less.
+            // One fragment more on the plane, or one less.
             if other % 2 == 0 {
                 *own += 1;
                 let piece = parts.pieces[a].clone();

@@ -77,7 +77,7 @@ fn nodes_and_fragments_too_few_or_too_many_are_counted() {
     assert_ne!(verdict(&one_more), "");
 }
 
-/// Nodes that all hold nothing and have two sides each would be walked 2ⁿ times.
+/// Nodes that are all empty and have two sides each would be walked 2ⁿ times.
 #[test]
 fn sizes_that_send_a_walk_in_circles_end_it() {
     let mut tree = build(&scene::chain(200), Heuristic::First);
@@ -109,7 +109,7 @@ fn fragments_that_no_plane_tells_apart_are_a_crowd() {
     let fault = "a leaf has more than one fragment";
     for heuristic in [Heuristic::First, Heuristic::default()] {
         let tree = build(&scene::random_triangles(50, 1), heuristic);
-        // The root keeps one side as a leaf, with all that was below.
+        // The root keeps one side as a leaf, with everything below.
         for front in [true, false] {
             let edit = |parts: &mut Dismantled| {
                 let root = &tree.nodes[0];

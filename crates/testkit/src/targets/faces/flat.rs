@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Twice a vector area.
 pub(super) type Area = [i128; 3];
 
-/// How many points of a polygon are tried.
+/// The number of tested points of a polygon.
 const POINTS: usize = 24;
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [i128; 3] {
@@ -32,15 +32,15 @@ pub(super) fn area_of(corners: &[[f64; 3]]) -> Area {
     parts.fold([0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
-/// The axis along which an area is seen best, or several that are equally good but for rounding.
+/// The axis along which an area is largest, or several that are equal up to rounding.
 pub(super) fn main_axes(area: Area) -> Vec<usize> {
     let size = area.map(|component| component.unsigned_abs());
     let largest = size.into_iter().max().unwrap_or(0);
     (0..3).filter(|&axis| largest - size[axis] <= largest >> 40).collect()
 }
 
-/// Each point that a simple polygon goes around lies in one of its faces, and no other point does:
-/// seen along an axis, at points in the middle of a face and anywhere near.
+/// Checks that each point inside a simple polygon lies in one of its faces, and no other point does: in a
+/// projection along an axis, at points in the middle of a face and anywhere near.
 pub(super) fn winds_once(
     faces: &Faces,
     range: Range<u32>,
@@ -81,7 +81,7 @@ pub(super) fn winds_once(
     Ok(())
 }
 
-/// Whether a polygon winds round any of some points between its corners, seen along any axis.
+/// Whether a polygon winds around any of some points between its corners, in a projection along any axis.
 pub(super) fn goes_around_something(corners: &[[f64; 3]], dice: &mut Dice) -> bool {
     (0..POINTS).any(|_| {
         let mut some = || DVec3::from(corners[dice.below(corners.len())]);
@@ -90,7 +90,7 @@ pub(super) fn goes_around_something(corners: &[[f64; 3]], dice: &mut Dice) -> bo
     })
 }
 
-/// How often a polygon goes around a point, seen along an axis; `None` on its outline.
+/// The winding number of a polygon around a point, in a projection along an axis; `None` on its outline.
 fn winding(corners: &[[f64; 3]], point: [f64; 3], drop: usize) -> Option<i32> {
     let y = (drop + 2) % 3;
     let mut times = 0;

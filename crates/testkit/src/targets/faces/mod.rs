@@ -1,5 +1,4 @@
-//! Polygons of up to some thousand corners, simple or not: what becomes of them before a tree is
-//! built.
+//! Polygons of up to some thousand corners, simple or not: their preparation before a tree is built.
 
 mod flat;
 mod maze;
@@ -17,14 +16,14 @@ use flat::{Area, area_of, cross, main_axes};
 use outline::Outline;
 use std::ops::ControlFlow;
 
-/// Trees that take longer are the matter of other targets.
+/// Other targets test trees that take longer.
 const MOST_FRAGMENTS: usize = 20_000;
-/// As above: a build reports its progress about once in 65 536 pieces looked at.
+/// As above: a build reports its progress about once in 65 536 examined pieces.
 const MOST_CALLS: usize = 60;
 
-/// One to three outlines, put into space.
+/// One to three outlines, placed in space.
 pub fn run(data: &[u8]) {
-    // Bytes that run out make no polygon.
+    // Too few bytes make no polygon.
     let _ = try_run(&mut Unstructured::new(data));
 }
 
@@ -75,7 +74,7 @@ fn check(given: &[Given], options: BuildOptions, dice: &mut Dice) -> Verdict {
             tree.validate()?;
             cover::covers(&tree)
         }
-        // Triangles of polygons that cross, or are planar but for rounding, cut each other.
+        // Triangles of polygons that cross, or are planar except for rounding, cut each other.
         Err(error) => ensure(
             error.kind() == ErrorKind::OverBudget || error.kind() == ErrorKind::Cancelled,
             || error.to_string(),
@@ -83,7 +82,7 @@ fn check(given: &[Given], options: BuildOptions, dice: &mut Dice) -> Verdict {
     }
 }
 
-/// What is said of the polygons agrees with what became of them.
+/// Checks that the report on the polygons agrees with their faces.
 fn counts(given: &[Given], faces: &Faces, report: &Preparation) -> Verdict {
     let dropped: Vec<usize> = faces.dropped(report.polygons).collect();
     let crossing = given.iter().filter(|given| !given.is_simple()).count();
@@ -94,14 +93,14 @@ fn counts(given: &[Given], faces: &Faces, report: &Preparation) -> Verdict {
     ensure(fits, || format!("{report:?}, dropped {dropped:?}"))
 }
 
-/// How an outline's coordinates are rounded.
+/// The rounding of an outline's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Integers: exactly planar.
     Whole,
-    /// Tenths, which have no binary form: planar but for rounding.
+    /// Tenths, which are not binary fractions: planar except for rounding.
     Tenths,
-    /// Each corner a little off the plane.
+    /// Each corner slightly off the plane.
     Rough,
 }
 
@@ -128,7 +127,7 @@ impl Place {
     }
 }
 
-/// A polygon as it is given to the library.
+/// A polygon as given to the library.
 #[derive(Clone, Debug)]
 struct Given {
     corners: Vec<DVec3>,
@@ -146,7 +145,7 @@ impl Given {
             match place.kind {
                 Kind::Whole => point,
                 Kind::Tenths => point * 0.1,
-                // The same wherever the corner is repeated.
+                // The same for every repetition of the corner.
                 Kind::Rough => point + off * (2.0 * Dice(seed ^ hash([x, y])).share() - 1.0),
             }
         };
@@ -161,7 +160,7 @@ impl Given {
     }
 }
 
-/// A polygon with the faces it became.
+/// A polygon with its faces.
 struct Made<'a> {
     given: &'a Given,
     faces: &'a Faces,
@@ -173,8 +172,8 @@ impl Made<'_> {
         self.given.corners.iter().map(|&corner| self.faces.lattice().snap(corner)).collect()
     }
 
-    /// Dropped are those with fewer than three different corners, or with all on one line; of those
-    /// that touch themselves also what goes around nothing, as spikes do.
+    /// Polygons are dropped if they have fewer than three different corners, or collinear ones; if they
+    /// touch themselves, also if they wind around nothing, like spikes.
     fn is_dropped_if_it_has_no_area(&self, dice: &mut Dice) -> Verdict {
         let corners = self.snapped();
         let first = corners[0];
@@ -189,8 +188,8 @@ impl Made<'_> {
         })
     }
 
-    /// A face has area, its corners are the polygon's by number, and its outer edges run along those
-    /// of the polygon.
+    /// Checks that a face has area, that its corners are the polygon's by number, and that its outer edges
+    /// run along those of the polygon.
     fn names_its_corners(&self) -> Verdict {
         let corners = self.snapped();
         let moved = 2.0 * self.faces.tolerance() + 2.0;
@@ -218,7 +217,7 @@ impl Made<'_> {
         Ok(())
     }
 
-    /// The faces of a simple polygon face as it does, and have its area: exactly, unless corners
+    /// Checks that the faces of a simple polygon have its orientation and area: exactly, unless corners
     /// were rounded or moved.
     fn has_the_area(&self) -> Verdict {
         let whole = area_of(&self.snapped());
@@ -226,8 +225,8 @@ impl Made<'_> {
         let mut sum: Area = [0; 3];
         for face in self.range.clone() {
             let own = area_of(self.faces.corners(face));
-            // Corners on a line but for rounding may make a triangle that is seen edge-on, or that
-            // faces the other way along another axis than the one it was made along.
+            // Corners that are collinear except for rounding may make a triangle that is seen edge-on, or
+            // that faces the other way along an axis other than that of its projection.
             let least = i128::from(self.given.kind == Kind::Whole);
             let faces_as = |&axis: &usize| own[axis].signum() * whole[axis].signum() >= least;
             ensure(axes.iter().any(faces_as), || format!("face {face} faces the other way"))?;

@@ -10,18 +10,18 @@ pub(super) type Corner = [i32; 2];
 #[derive(Clone, Debug)]
 pub(super) struct Outline {
     pub(super) corners: Vec<Corner>,
-    /// Whether it is known not to touch or cross itself, but for corners given twice in a row.
+    /// Whether it is known not to touch or cross itself, except for consecutive equal corners.
     pub(super) is_simple: bool,
 }
 
-/// How many corners, about. Large ones are rare.
+/// The approximate number of corners. Large ones are rare.
 const SIZES: [usize; 12] = [3, 4, 5, 6, 8, 12, 20, 40, 100, 300, 1_000, 3_000];
-/// The most corners of an outline that crosses itself: the crossings grow with the square.
+/// The largest number of corners of an outline that crosses itself: the crossings grow with the square.
 const MOST_CROSSING: usize = 150;
-/// An outline of more corners is given no more.
+/// Larger outlines get no more corners.
 const MOST: usize = 6_000;
 
-/// What an outline is like.
+/// The shape of an outline.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
     Spiral,
@@ -93,7 +93,7 @@ fn change(outline: &mut Outline, how: u8, dice: &mut Dice) {
         }
         3 if corners.len() < MOST => subdivide(corners),
         4 => {
-            // There and back.
+            // Out and back.
             let aim = corners[dice.below(corners.len())];
             let from = corners[at];
             corners.splice(at..at, [from, aim]);
@@ -200,7 +200,7 @@ fn pentagram(size: usize, dice: &mut Dice) -> Vec<Corner> {
     (0..n).map(ray).collect()
 }
 
-/// There in zigzag, and back in another that crosses it.
+/// Out in zigzag, and back in another that crosses it.
 fn weave(size: usize) -> Vec<Corner> {
     let there = (size / 2).max(2) as i32;
     let back = (0..there).rev().map(|k| [k, 1 - k % 2]);

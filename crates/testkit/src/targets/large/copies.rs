@@ -1,15 +1,15 @@
-//! A small scene repeated: turned copies on a grid, or on top of one another.
+//! A small scene repeated: rotated copies on a grid, or on top of one another.
 
 use super::super::super::decode;
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 
-/// How many polygons the copies have together, about: below and above every size at which the
-/// builder goes another way. The large ones are rare, as they take long.
+/// The approximate number of polygons of all copies: below and above every size at which the builder
+/// changes its method. The large ones are rare, because they take long.
 const SIZES: [usize; 16] =
     [1, 40, 63, 64, 65, 120, 190, 255, 256, 257, 400, 700, 1_100, 2_047, 2_100, 5_000];
 
-/// Quarter turns and reflections: where each axis goes, and which of them are reversed. Exact.
+/// Quarter turns and reflections: the image of each axis, and which of them are reversed. Exact.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     axes: [usize; 3],
@@ -33,7 +33,7 @@ impl Turn {
     }
 }
 
-/// Where the copies stand: how many in a row, and how many rows in a layer.
+/// The places of the copies: the number in a row, and the number of rows in a layer.
 #[derive(Debug)]
 struct Grid {
     row: usize,

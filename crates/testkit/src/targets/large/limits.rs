@@ -1,4 +1,4 @@
-//! Builds that are watched, cut short by their caller, or held to a budget.
+//! Builds with callbacks, cancelled by their caller, or limited by a budget.
 
 use super::super::super::dice::Dice;
 use super::super::super::judge::{Verdict, ensure};
@@ -9,7 +9,7 @@ use binspace::{BspTree, BuildOptions, Error, ErrorKind, Progress};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// A build, what it reported, and how many polygons it read after it was cancelled.
+/// A build, its reports, and the number of polygons that it read after it was cancelled.
 pub(super) struct Watched {
     pub(super) result: Result<BspTree, Error>,
     pub(super) heard: Vec<Progress>,
@@ -41,7 +41,7 @@ pub(super) fn watch(
     Watched { result, heard, read_late: read_late.into_inner() }
 }
 
-/// First the polygons are counted, then the faces; what is done never falls, and at the end is all.
+/// First the polygons are counted, then the faces; `done` never decreases, and at the end equals the total.
 pub(super) fn progress(heard: &[Progress], faces: usize) -> Verdict {
     let pairs = || heard.windows(2).map(|pair| (pair[0], pair[1]));
     let done = pairs().all(|(before, after)| before.done <= after.done);
@@ -53,7 +53,7 @@ pub(super) fn progress(heard: &[Progress], faces: usize) -> Verdict {
 }
 
 impl Base<'_> {
-    /// A build that is cancelled says so, and no more is heard or read of it.
+    /// A cancelled build returns that error, and neither reports nor reads more.
     pub(super) fn cancel(&self, dice: &mut Dice) -> Verdict {
         for threads in [1, 1 + dice.below(pools::MOST_THREADS)] {
             let stop = match dice.below(4) {
@@ -69,7 +69,7 @@ impl Base<'_> {
                     let only = error.kind() == ErrorKind::Cancelled;
                     ensure(only && cut.heard.len() == stop, || format!("{error}, {}", what()))?;
                 }
-                // Several threads may have passed two marks at once, and made a call less.
+                // Several threads may have passed two marks together, and made a call less.
                 Ok(tree) => {
                     ensure(threads > 1 && cut.heard.len() < stop, what)?;
                     ensure(Snapshot::of(tree) == Snapshot::of(self.tree), what)?;

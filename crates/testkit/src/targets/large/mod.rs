@@ -20,14 +20,14 @@ use limits::Watched;
 /// A tree of more fragments takes too long to be judged: its scene is halved.
 const MOST_FRAGMENTS: usize = 8_000;
 
-/// A build that reports its progress more often, about once in 65 536 pieces looked at, takes too
-/// long as well.
+/// A build that reports its progress more often, about once in 65 536 examined pieces, takes too long as
+/// well.
 const MOST_CALLS: usize = 100;
 
 /// Trees of at most this many fragments are judged in rationals.
 const JUDGED: usize = 48;
 
-/// What is asked of a build beside its tree.
+/// The checks of a build besides its tree.
 #[derive(Clone, Copy, Debug)]
 enum Question {
     Budgets,
@@ -42,7 +42,7 @@ impl Question {
 
 /// A small scene repeated up to some thousand polygons.
 pub fn run(data: &[u8]) {
-    // Bytes that run out make no scene.
+    // Too few bytes make no scene.
     let _ = try_run(&mut Unstructured::new(data));
 }
 
@@ -91,7 +91,7 @@ fn refused(error: &Error, infinite: Option<usize>, polygons: usize) {
     assert!(named, "{error}");
 }
 
-/// A tree built by one thread, and what that reported.
+/// A tree built by one thread, and its reports.
 struct Base<'a> {
     options: BuildOptions,
     polygons: &'a [Vec<DVec3>],
@@ -116,7 +116,7 @@ impl Base<'_> {
         self.orders(question, dice)
     }
 
-    /// Orders in all forms, and by rays in big integers: more of these if the question is for them.
+    /// Checks orders in all forms, and by rays in big integers: more of these if `question` is for them.
     fn orders(&self, question: Question, dice: &mut Dice) -> Verdict {
         if self.tree.is_empty() {
             return Ok(());
@@ -132,7 +132,7 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// The same tree, bit for bit, by any number of threads.
+    /// Checks that any number of threads builds the same tree, bit for bit.
     fn threads(&self) -> Verdict {
         let expected = Snapshot::of(self.tree);
         for threads in 1..=pools::MOST_THREADS {
