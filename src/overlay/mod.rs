@@ -5,7 +5,8 @@ pub(crate) mod place;
 mod replace;
 mod thin;
 
-use std::fmt;
+use std::fmt::{self, Debug};
+use std::iter::FusedIterator;
 use std::sync::OnceLock;
 
 use order::InsertionTree;
@@ -16,7 +17,7 @@ pub use replace::{Marker, Segment, Shape, Shapes};
 use crate::error::{Error, Kind};
 use crate::exact::Faces;
 use crate::faces::{Preparation, Preparer};
-use crate::query::{Hits, Pieces, Targets};
+use crate::query::{Hit, Pieces, Targets};
 use crate::tree::bounds::Bounds;
 use crate::tree::parts::{Parts, Record};
 use crate::tree::{BspTree, Fragment, Mesh, Source};
@@ -258,7 +259,11 @@ impl Overlay {
     /// # Errors
     ///
     /// If the tree is neither the one that the overlay was made for nor a clone of it.
-    pub fn hits<'a>(&'a self, tree: &'a BspTree, ray: Ray) -> Result<Hits<'a>, Error> {
+    pub fn hits<'a>(
+        &'a self,
+        tree: &'a BspTree,
+        ray: Ray,
+    ) -> Result<impl FusedIterator<Item = Hit<'a>> + Clone + Debug, Error> {
         Ok(self.targets(tree)?.hits(ray))
     }
 
