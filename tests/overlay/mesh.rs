@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use binspace::mesh::Mesh;
 use binspace::overlay::{Overlay, Shapes};
-use binspace::{Culling, ErrorKind, Sides};
+use binspace::{Culling, ErrorKind, Facing};
 use proptest::prelude::*;
 use testkit::prelude::*;
 use testkit::shapes::{cuboid, rotation};
@@ -42,7 +42,7 @@ fn one_list_of_indices_draws_the_order_of_both() {
         let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
         let slack = (1e-12 * extent + 1e-14 * largest + 8.0 * tolerance) * extent;
         let eye = Viewpoint::Eye(Dice(seed).point(-2.0, 2.0) * extent);
-        let culling = Culling::NONE.with_sides(Sides::Front);
+        let culling = Culling::NONE.with_facing(Facing::Front);
         let order = overlay.order(&tree, eye).map_err(fail)?;
         for order in [order, order.culled(&culling)] {
             let (mut numbers, mut indices) = (vec![], vec![u32::MAX; 9 * vertices.len()]);

@@ -450,11 +450,10 @@ impl<'t> Oracle<'t> {
             chords.iter().any(|chord| chord.enter < chord.leave || is_inside(&chord.enter));
         let truth = self.hits(chords);
         let most = 2 * truth.len() + 9;
-        let found = match self.overlay {
-            Some(overlay) => overlay.hits(self.tree, ray).expect("its tree"),
-            None => self.tree.hits(ray),
+        let hits: Vec<Hit<'_>> = match self.overlay {
+            Some(overlay) => overlay.hits(self.tree, ray).expect("its tree").take(most).collect(),
+            None => self.tree.hits(ray).take(most).collect(),
         };
-        let hits: Vec<Hit<'_>> = found.take(most).collect();
         let fault = |what: &str| format!("{what}: {ray:?}\nfound {hits:#?}\nin truth {truth:#?}");
         let said = |hit: &Hit<'_>| (hit.polygon(), hit.fragment().face() as usize, hit.facing());
         let expected =
