@@ -79,7 +79,7 @@ pub(crate) struct BuildFileArgs {
     /// Divide the scene into N cells, and build a tree of each, one after the other: for scenes too large
     /// for memory
     ///
-    /// In memory are the vertices of the file, and then one cell. The folder has a file for each cell;
+    /// In memory are the vertices of the OBJ file (files of other formats are read whole), and then one cell. The folder has a file for each cell;
     /// `render`, `order` and `stats` take it in place of a scene, with one cell in memory at a time. It
     /// keeps no texture coordinates, normals or line numbers.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=500))]

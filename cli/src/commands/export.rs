@@ -198,7 +198,7 @@ impl Export<'_> {
             little(&mut self.mesh.vertices().flat_map(|vertex| light(vertex.polygon))),
             json!({"componentType": 5126, "count": count, "type": "VEC4"}),
         );
-        // Numbers of 32 bits that are not floating-point are for indices alone.
+        // Whole numbers of 32 bits are for indices alone; these are exact up to 2²⁴.
         let polygons = add(
             little(&mut self.mesh.vertices().map(|vertex| vertex.polygon as f32)),
             json!({"componentType": 5126, "count": count, "type": "SCALAR"}),

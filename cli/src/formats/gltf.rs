@@ -33,11 +33,15 @@ const GEOMETRIC: [&str; 4] = [
     "EXT_mesh_gpu_instancing",
 ];
 
+/// Keys of a document. They stand in any order, and one may be long.
+const KEYS: [&[u8]; 5] =
+    [b"\"asset\"", b"\"buffers\"", b"\"meshes\"", b"\"accessors\"", b"\"scenes\""];
+
 /// Whether a file begins as one of these.
 pub(crate) fn is_gltf(beginning: &[u8]) -> bool {
     let text = beginning.strip_prefix(b"\xef\xbb\xbf").unwrap_or(beginning).trim_ascii_start();
     let names = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
-    beginning.starts_with(b"glTF") || text.starts_with(b"{") && names(b"\"asset\"")
+    beginning.starts_with(b"glTF") || text.starts_with(b"{") && KEYS.into_iter().any(names)
 }
 
 /// What was read, and what was left out.

@@ -10,6 +10,7 @@ mod stl;
 mod tests;
 mod text;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use binspace::scene::Scene;
@@ -65,7 +66,7 @@ impl Kind {
             Self::Mesh(MeshKind::Gltf)
         } else if length == 0 {
             Self::Other("an empty file")
-        } else if let Some(name) = other::name(beginning, length) {
+        } else if let Some(name) = other::name(&narrowed(beginning), length) {
             Self::Other(name)
         } else if is_named_stl && beginning.contains(&0) {
             Self::Mesh(MeshKind::BinaryStl)
@@ -111,13 +112,23 @@ pub(crate) fn refused(name: &str, kind: &str) -> Failure {
 
 /// The error of an OBJ file, or that it is none.
 pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure {
-    // Each other byte of Latin letters is 0.
-    let some = beginning.get(2..).unwrap_or_default();
-    let some = &some[..some.len().min(64)];
-    let is_utf_16 = |start: usize| some.iter().skip(start).step_by(2).all(|&byte| byte == 0);
-    if some.len() < 2 || is_utf_16(0) || is_utf_16(1) || other::is_like_obj(beginning) {
+    let text = narrowed(beginning);
+    if beginning.is_empty() || other::is_like_obj(&text) {
         return Failure::Message(problem);
     }
-    let what = if beginning.contains(&0) { "binary file" } else { "text" };
+    let what = if text.is_empty() || text.contains(&0) { "binary file" } else { "text" };
     Failure::about(name, format!("this {what} is of no known kind; {READ}"))
+}
+
+/// The letters of a text in UTF-16, with those of ASCII as they are in UTF-8; other bytes as they are.
+fn narrowed(beginning: &[u8]) -> Cow<'_, [u8]> {
+    let marks: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
+    let text = marks.iter().find_map(|mark| beginning.strip_prefix(*mark)).unwrap_or(beginning);
+    // Every other byte of such letters is 0.
+    let some = &text[..text.len().min(64)];
+    let is_zero = |start: usize| some.iter().skip(start).step_by(2).all(|&byte| byte == 0);
+    if some.len() > 1 && (is_zero(0) || is_zero(1)) {
+        return text.iter().copied().filter(|&byte| byte != 0).collect();
+    }
+    Cow::Borrowed(beginning)
 }

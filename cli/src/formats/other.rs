@@ -2,7 +2,7 @@
 
 /// What begins with these bytes.
 const BEGINNINGS: [(&[u8], &str); 26] = [
-    (b"ISO-10303-21", "a STEP file"),
+    (b"ISO-10303-21", "a STEP or IFC file"),
     (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
     (b"\x1f\x8b", "compressed by gzip: unpack it (`gunzip -c FILE | binspace … -`)"),
     (b"BZh", "compressed by bzip2: unpack it (`bunzip2 -c FILE | binspace … -`)"),
@@ -67,7 +67,7 @@ pub(crate) fn name(beginning: &[u8], length: u64) -> Option<&'static str> {
         return Some(known.map_or("an XML file", |(_, name)| name));
     }
     if text.starts_with(b"{") {
-        return Some("a JSON file, but not a glTF file, as it has no `asset`");
+        return Some("a JSON file, but not a glTF file");
     }
     let mut lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
     if lines.next() == Some(b"0") && lines.next() == Some(b"SECTION") {

@@ -123,8 +123,8 @@ fn files_that_are_not_read_are_named() {
     let folder = Folder::new("formats_other");
     let reads = "binspace reads OBJ, STL, PLY, OFF and glTF 2.0 files";
     for (name, content, kind) in [
-        ("part.step", &b"ISO-10303-21;\nHEADER;\n"[..], "this is a STEP file"),
-        ("part.obj", b"ISO-10303-21;\nHEADER;\n", "this is a STEP file"),
+        ("part.step", &b"ISO-10303-21;\nHEADER;\n"[..], "this is a STEP or IFC file"),
+        ("part.obj", b"ISO-10303-21;\nHEADER;\n", "this is a STEP or IFC file"),
         ("page.stl", b"<!DOCTYPE html>\n<html></html>", "this is a page of HTML"),
         ("scene.fbx", b"Kaydara FBX Binary  \0", "this is an FBX file"),
         ("notes", b"Dear all,\nthe scene is attached.\n", "this text is of no known kind"),
