@@ -248,7 +248,7 @@ fn refused(problem: impl Into<Problem>) -> Error {
     error::Kind::File(FileFault { name: String::new(), line: None, problem }).error()
 }
 
-/// Ends of data and lack of memory are told from other failures to read.
+/// Distinguishes ends of data and lack of memory from other failures to read.
 fn failed(error: io::Error, what: &'static str) -> Error {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => {

@@ -67,10 +67,10 @@ impl From<Ordering> for Facing {
 /// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction is the
 /// difference of its ends, so its parameters are 0 to 1, both included.
 ///
-/// Decisions about a ray are exact for its given coordinates, in the polygons' unit, except for digits of
-/// points below 2⁻¹²⁰ of the scene's extent, or of the distance of the scene or of a point from the origin
-/// if that is larger, and for digits of a direction below 2⁻¹²⁰ of its largest. Near the origin, no `f64`
-/// of more than 2⁻⁶⁸ of the extent has such digits.
+/// Coordinates are in the polygons' unit. Decisions about a ray are exact for the given coordinates, except
+/// for their smallest digits. In a point these are below 2⁻¹²⁰ of the scene's extent, or of the distance of
+/// the scene or of a point from the origin if that is larger; in a direction, below 2⁻¹²⁰ of its largest
+/// coordinate. Near the origin, no `f64` of more than 2⁻⁶⁸ of the extent has such digits.
 ///
 /// | coordinates | the ray |
 /// |---|---|

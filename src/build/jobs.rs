@@ -100,7 +100,7 @@ fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Resu
 #[derive(Debug, Default)]
 pub(super) struct Output {
     pub(super) parts: Parts,
-    /// Where to insert the outputs of other jobs.
+    /// The places for the outputs of other jobs.
     gaps: Vec<Gap>,
 }
 

@@ -406,7 +406,7 @@ mod tests {
         }
     }
 
-    /// Where a box's ends and the lattice's origin have more digits together than a number holds.
+    /// For boxes whose ends and the lattice's origin have more digits together than a number holds.
     #[test]
     fn boxes_are_rounded_outwards() {
         let lattice = Lattice::new(DVec3::splat(2.0), DVec3::splat(4.0));

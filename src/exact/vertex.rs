@@ -367,7 +367,7 @@ impl Faces {
     }
 }
 
-/// Where a plane meets an edge; `None` if the leading bits do not decide.
+/// The point where a plane meets an edge; `None` if the leading bits do not decide.
 fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     let ExactEdge { ends, moved } = edge;
     let ends = ends.map(integers);
@@ -406,7 +406,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     }))
 }
 
-/// Where two planes meet that of a triangle; `None` if the leading bits do not decide.
+/// The point where two planes meet that of a triangle; `None` if the leading bits do not decide.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     let triangle = triangle.map(integers);
     let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));

@@ -57,11 +57,11 @@ pub struct Preparation {
     pub flattened: usize,
     /// The largest distance of such a corner from the plane, a length.
     pub flattened_by: f64,
-    /// The triangulated polygons that are probably planar, but bent by rounding. They are convex, and a
-    /// corner is off the plane of the others by more than the tolerance, but by no more than the larger of
-    /// 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
-    /// [`precision`](crate::Polygon::precision), and by no more than 1/256 of the width. With a tolerance
-    /// of `bent_by` they would be whole.
+    /// The triangulated polygons that are probably planar, but bent by rounding. They are convex. A corner
+    /// is off the plane of the others by more than the tolerance, but by no more than a limit. The limit is
+    /// the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
+    /// [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
+    /// `bent_by` they would be whole.
     pub bent: usize,
     /// The largest distance of such a corner from the plane, a length.
     pub bent_by: f64,

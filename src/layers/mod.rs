@@ -134,9 +134,9 @@
 //! A page has one tolerance, a length on the screen, where depth counts like x and y. It is four times the
 //! largest rounding error of a corner's distance from its layer's plane. Each number of a matrix is assumed
 //! to be off by 2⁻⁵² of itself, or 2⁻²³ if the layer is made by [`Layer::from_f32`]. The tolerance is at
-//! least 10⁻⁹ of the viewport's longer side, and at least 2⁻⁴⁵ of the largest coordinate, x, y or depth, of
-//! any corner (which is more only if a layer reaches further than 35 000 times that side). It is at most
-//! 10⁻⁵ of that side.
+//! least 10⁻⁹ of the viewport's longer side. It is also at least 2⁻⁴⁵ of the largest coordinate (x, y or
+//! depth) of any corner, which is more only if a layer reaches further than 35 000 times that side. It is
+//! at most 10⁻⁵ of that side.
 //!
 //! The order of two layers where they overlap:
 //!

@@ -129,7 +129,7 @@ pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Poi
     sides
 }
 
-/// Where a direction points as seen along a line: in two coordinates.
+/// A direction in two coordinates, as seen along a line.
 fn flat(along: &Point, way: &Point) -> [Rational; 2] {
     // Any direction that is not the line's spans the plane across it.
     let axis = (0..3).find(|&i| !along[i].is_zero()).unwrap();
@@ -169,9 +169,9 @@ pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> 
 struct Score {
     /// By the number of polygons in front: 0, 1, or more.
     crossed: [usize; 3],
-    /// Where polygons touch.
+    /// Places where polygons touch.
     touched: usize,
-    /// Where both are bent.
+    /// Places where both are bent.
     both: usize,
     unsure: usize,
 }
@@ -263,7 +263,7 @@ fn crossings_along_bends_are_those_that_rays_meet() {
     assert!(score.unsure * 20 < score.crossed.iter().sum(), "{score:?}");
 }
 
-/// How long the visible crossings of each two polygons are together.
+/// The total length of the visible crossings of each two polygons.
 fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
     let mut lengths = BTreeMap::new();
     for run in runs.iter().filter(|run| run.is_visible) {

@@ -76,7 +76,7 @@ fn check(
     let drawing =
         Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, Some(&overlay)).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
-    // How many paths there have to be before a point, and not before it.
+    // The number of paths required before a point, and not before it.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];

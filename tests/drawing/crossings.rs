@@ -1,4 +1,4 @@
-//! Where polygons go through one another, by hand; `hidden_crossings` has them against rays.
+//! Crossings of polygons, by hand; `hidden_crossings` compares them with rays.
 
 use super::{map_of, map_with};
 use binspace::drawing::{EdgeKind, EdgeRun};

@@ -56,7 +56,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         Origin::Along(way) => rational::scalar(&face.plane.normal, way).is_zero(),
     };
     let world = |point: &Point| lattice.to_world(point.each_ref().map(|c| c.to_f64().value()));
-    // Where polygons cross, or may do so.
+    // Lines along which polygons cross, or may cross.
     let mut lines: Vec<([usize; 2], [DVec3; 2])> = vec![];
     for (i, (p, a)) in sightlines.faces.iter().enumerate() {
         for (q, b) in &sightlines.faces[i + 1..] {

@@ -1,4 +1,4 @@
-//! Where polygons go through one another, shown or hidden, against rays in rationals.
+//! Visible and hidden crossings of polygons, compared with rays in rationals.
 
 use super::on_grid;
 use super::overlay::{between, place_in};

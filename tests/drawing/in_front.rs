@@ -1,4 +1,4 @@
-//! How many polygons lie in front of hidden edges, against rays in rationals.
+//! The number of polygons in front of hidden edges, compared with rays in rationals.
 
 use super::map_of;
 use super::on_grid;
@@ -92,7 +92,7 @@ fn edges_have_as_many_layers_as_rays_meet() {
                     }
                     // Polygons that contain the edge are not before it, though they may hide the polygon.
                     let mut layers = sightlines.polygons_before(&point).len();
-                    // (So it is of the blocks of a town that stand on its ground, seen from below.)
+                    // (For example, edges of a town's blocks on its ground, seen from below.)
                     on_walls += usize::from(layers == 0 && !run.is_visible);
                     layers = layers.max(usize::from(!run.is_visible));
                     assert_eq!(run.layers, Some(layers as u32), "{run:?} at {share}, {camera:?}");

@@ -88,7 +88,7 @@ fn edges_on_one_line_have_runs_of_their_own() {
             let mut found = [0.0, 0.0];
             for run in &runs {
                 let [a, b] = run.ends;
-                // The two walls have one edge in common: it is told of the first.
+                // The two walls have one edge in common: it is reported for the first.
                 if (run.polygon, run.edge) == (polygon, Some(k as u32)) {
                     found[usize::from(!run.is_visible)] += (b[0] - a[0]).hypot(b[1] - a[1]) / 10.0;
                 }

@@ -11,7 +11,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// How far a pen travels between segments or lines that it draws, from (0, 0).
+/// The distance that a pen travels between the segments or lines that it draws, from (0, 0).
 fn travel<'p>(lines: impl Iterator<Item = &'p [[f64; 2]]>) -> f64 {
     let mut pen = [0.0; 2];
     let mut sum = 0.0;

@@ -120,7 +120,7 @@ fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
 /// Halves of squares.
 type Area = BTreeSet<[i64; 2]>;
 
-/// How long the border of an area is, in halves of squares, and how many corners it has.
+/// The length of an area's border, in halves of squares, and its number of corners.
 fn border(area: &Area) -> [usize; 2] {
     let is_in = |x: i64, y: i64| area.contains(&[x, y]);
     let (mut length, mut corners) = (0, 0);

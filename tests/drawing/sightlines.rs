@@ -6,7 +6,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::rational::Point;
 
-/// Where rays come from, on the lattice of a scene.
+/// The origin of rays, on the lattice of a scene.
 pub(crate) enum Origin {
     Eye(Point),
     /// They have this direction, and no beginning.
@@ -54,7 +54,7 @@ impl Sightlines {
         Some(Self { rounded: rounded.collect(), faces: all, origin, from, camera, lattice })
     }
 
-    /// Where in the picture a point is, if it is ahead of the eye and in the picture.
+    /// The position of a point in the picture, if it is ahead of the eye and in the picture.
     pub(crate) fn place_of(&self, point: &Point) -> Option<[f64; 2]> {
         if let Origin::Eye(eye) = &self.origin {
             let arm = rational::difference(point, eye);
@@ -67,7 +67,7 @@ impl Sightlines {
         (0..2).all(|i| 0.0 < at[i] && at[i] < last[i]).then_some(at)
     }
 
-    /// Where the line of sight of a point meets the picture's plane.
+    /// The point where the line of sight of a point meets the picture's plane.
     pub(crate) fn project(&self, point: &Point) -> Option<[f64; 2]> {
         // Pixels of cameras begin at the picture's corner.
         let rounded = self.lattice.to_world(to_f64(point).to_array());

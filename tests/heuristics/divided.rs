@@ -40,7 +40,7 @@ impl Piece {
         reaches(std::cmp::Ordering::Greater) && reaches(std::cmp::Ordering::Less)
     }
 
-    /// Where a plane meets the outline.
+    /// The points where a plane meets the outline.
     pub(super) fn segment(&self, plane: &Plane) -> Vec<rational::Point> {
         let values = self.values(plane);
         let mut points = Vec::new();

@@ -150,7 +150,7 @@ fn a_turned_square_in_a_window_is_an_octagon() {
     let turned = middle * DMat4::from_rotation_z(std::f64::consts::FRAC_PI_4);
     let page = page_on(VIEWPORT, true, [Layer::new(square, turned).clipped_by(&window)]);
     let piece = page.back_to_front().next().unwrap();
-    // Where the sides meet: 100 from the middle across, and 100 (√2 − 1) along.
+    // The sides meet 100 from the middle across, and 100 (√2 − 1) along.
     let along = 100.0 * (2f64.sqrt() - 1.0);
     let mut found: Vec<[f64; 2]> =
         piece.vertices().map(|v| [v.position.x - 960.0, v.position.y - 540.0]).collect();

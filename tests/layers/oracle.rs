@@ -50,7 +50,7 @@ impl Truth {
         })
     }
 
-    /// How far inside the rectangle a point is, as a share of the smaller side; negative outside.
+    /// The distance of a point inside the rectangle, as a share of the smaller side; negative outside.
     pub(crate) fn inside(&self, local: &Point2) -> f64 {
         let [low, high] = &self.rect;
         let distances = (0..2).flat_map(|k| [&local[k] - &low[k], &high[k] - &local[k]]);

@@ -24,7 +24,7 @@ fn edges(faces: &Faces) -> HashMap<[[u64; 3]; 2], (u32, u32)> {
     edges
 }
 
-/// Where a plane cuts edge `k` of a face, if it does.
+/// The point where a plane cuts edge `k` of a face, if it does.
 fn cut_edge(faces: &Faces, plane: PlaneId, (face, k): (u32, u32)) -> Option<[f64; 3]> {
     let prepared = PreparedPlane::new(faces, plane);
     let next = (k + 1) % faces.corners(face).len() as u32;

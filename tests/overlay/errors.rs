@@ -24,7 +24,7 @@ fn polygons_beyond_the_grid_are_named() {
         assert!(error.to_string().contains("with_bounds"), "{error}");
         check_empty(&overlay, &tree);
     }
-    // Where the message leads.
+    // The remedy in the message.
     let far = low - (high - low) * 5.0;
     let roomy =
         BuildOptions::DEFAULT.with_bounds(far, high).build(scene.polygons()).expect("built");

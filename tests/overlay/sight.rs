@@ -17,7 +17,7 @@ pub(crate) fn between([p, q]: &[Point; 2], share: &Rational) -> Point {
     std::array::from_fn(|i| &p[i] + (&q[i] - &p[i]) * share)
 }
 
-/// How far along the ray from `eye` to `a` the point `b` of it is: 1 at `a`.
+/// The position of `b` along the ray from `eye` to `a`: 1 at `a`.
 pub(crate) fn ratio(eye: &Point, a: &Point, b: &Point) -> Rational {
     let arm = rational::difference(a, eye);
     let axis = (0..3).find(|&i| !arm[i].is_zero()).expect("another point than the eye");
@@ -61,7 +61,7 @@ pub(crate) fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
     turns.iter().all(|&turn| turn > -1e-6) || turns.iter().all(|&turn| turn < 1e-6)
 }
 
-/// Where the ray from the eye through a point meets the inside of a face: 1 at the point.
+/// The position where the ray from the eye through a point meets the inside of a face: 1 at the point.
 pub(crate) fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational> {
     let (from, to) = (face.plane.at(eye), face.plane.at(through));
     if from.is_zero() || from == to {

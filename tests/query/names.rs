@@ -22,7 +22,7 @@ fn plane(grid: Grid, points: [[i64; 3]; 3]) -> Plane {
     Plane::through([&p, &q, &r])
 }
 
-/// Where a ray meets a plane.
+/// The parameter where a ray meets a plane.
 fn parameter(plane: &Plane, from: &Point, direction: &Point) -> Rational {
     let slope = rational::scalar(&plane.normal, direction);
     assert!(!slope.is_zero(), "a ray that meets the plane");

@@ -4,7 +4,7 @@ use super::File;
 use testkit::prelude::*;
 use testkit::saved::bytes;
 
-/// Where the faces begin; each is 12 bytes.
+/// The start of the faces; each is 12 bytes.
 const FACES: usize = 88;
 
 /// The result of reading on some threads: the fault, or the file of the same tree.

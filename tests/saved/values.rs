@@ -7,7 +7,7 @@ use testkit::shapes::sheet;
 
 /// The place of the number of faces; `BspTree::write` describes the layout.
 const FACES: usize = 80;
-/// Where the flags are.
+/// The start of the flags.
 const FLAGS: usize = 16;
 /// Steps from the middle of the grid to its border, and to the side of a cell without a plane.
 const LIMIT: i64 = 1 << 51;

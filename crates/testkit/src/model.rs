@@ -29,7 +29,7 @@ impl Face {
         let moved = corners.iter().any(|corner| rational::sign(&plane.at(corner)).is_ne());
         let axis = main_axis(&plane);
         for corner in &mut corners {
-            // Where the line through the corner along the axis meets the plane.
+            // The point where the line through the corner along the axis meets the plane.
             let step = plane.at(corner) / &plane.normal[axis];
             corner[axis] -= step;
         }

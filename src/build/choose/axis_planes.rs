@@ -194,8 +194,9 @@ fn compare(a: &f64, b: &f64) -> Ordering {
     }
 }
 
-/// Where a piece begins to reach behind a plane across an axis, and where it no longer reaches in front of
-/// it, by more than the tolerance: one place for a piece thinner than twice that.
+/// The coordinates where a piece begins to reach behind a plane across an axis, and where it no longer
+/// reaches in front of it, by more than the tolerance. They are equal for a piece thinner than twice the
+/// tolerance.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];
@@ -221,9 +222,9 @@ struct Bin {
     ended: [u32; 3],
     /// The number of pieces that begin and end in the same place.
     flat: [u32; 3],
-    /// Where the first piece begins.
+    /// The beginning of the first piece.
     begin: [f64; 3],
-    /// Where the last piece ends.
+    /// The end of the last piece.
     end: [f64; 3],
 }
 
@@ -265,7 +266,7 @@ impl Bins {
         (place + TO_INTEGER).to_bits() as u32 as usize
     }
 
-    /// Where a bin begins.
+    /// The beginning of a bin.
     fn border(&self, axis: usize, bin: usize) -> f64 {
         self.start[axis] + (bin as f64 - 0.5) / self.per_unit[axis]
     }
