@@ -266,11 +266,6 @@ pub(super) fn is_empty([low, high]: &Rect) -> bool {
     (0..2).any(|axis| low[axis] > high[axis])
 }
 
-/// Whether a box reaches from one side of another to the opposite one, or beyond.
-pub(super) fn reaches_across([low, high]: &Rect, [from, to]: &Rect) -> bool {
-    (0..2).any(|axis| low[axis] <= from[axis] && to[axis] <= high[axis])
-}
-
 /// What two boxes have in common; if they are apart, an empty box.
 pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
     let axes = [0, 1];

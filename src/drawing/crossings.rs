@@ -6,14 +6,14 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::cell::Cell;
-use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
+use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::exact_lines::compare;
 use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
 use super::primitives::{Primitives, View};
-use super::sight::{ProjectedSegment, parts};
+use super::sight::{Depths, Passing, ProjectedSegment, in_layers, parts};
 use super::tile::{CUT, Growth, LINES, NARROWED, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
@@ -308,14 +308,16 @@ struct Crossing {
 
 impl VisibilityMap<'_> {
     fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(6, |watch| {
+        self.reporter.watch(5, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
             let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());
             for crossing in each(watch, VISITED, &crossings) {
                 sights.push(crossing?.sight);
             }
             let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
-            let depths = self.depths(&sights, is_own, watch)?;
+            let faces = self.primitives.lines.frame.faces;
+            let passes = self.in_front(Passing::new(&sights, &[]), true, watch)?.segments;
+            let depths = Depths::new(sights.len(), &passes, faces, is_own, watch)?;
             self.crossing_runs(&crossings, &shown, Some(&depths), watch)
         })
     }

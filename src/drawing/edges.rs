@@ -12,8 +12,8 @@ use super::crossings::{FaceEdge, InnerEdges};
 use super::leaf::Visible;
 use super::lines::{LineTable, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by};
-use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
-use super::tile::{CUT, Reaches, VISITED};
+use super::sight::{Depths, ImageLine, Passing, ProjectedSegment, in_layers, parts};
+use super::tile::{CUT, VISITED};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
@@ -348,33 +348,10 @@ pub(super) const SHORTEST: f64 = 1e-6;
 /// The place of what has no hidden runs.
 const NONE: u32 = u32::MAX;
 
-/// Both ends of a run.
-type Ends = [[f64; 2]; 2];
-
-/// From a place of a segment on, so many polygons are in front of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Depth {
-    from: f64,
-    layers: u32,
-}
-
-/// The depths of several segments, and where those of each begin: before its first, nothing is in front.
-#[derive(Default)]
-pub(super) struct Depths {
-    depths: Vec<Depth>,
-    begins: Vec<usize>,
-}
-
-impl Depths {
-    pub(super) fn of(&self, segment: usize) -> &[Depth] {
-        &self.depths[self.begins[segment]..self.begins[segment + 1]]
-    }
-}
-
 impl VisibilityMap<'_> {
-    /// The runs of all edges with the numbers of polygons in front of them: four phases.
+    /// The runs of all edges with the numbers of polygons in front of them: three phases.
     fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(4, |watch| {
+        self.reporter.watch(3, |watch| {
             let faces = self.primitives.lines.frame.faces;
             let Runs { edges, list } = self.edge_runs(watch)?;
             // The edges with hidden runs, and the number of each among these.
@@ -399,7 +376,8 @@ impl VisibilityMap<'_> {
                 let edge = &edges[hidden[sight as usize] as usize];
                 edge.faces.iter().any(|&(own, _)| own == face)
             };
-            let depths = self.depths(&sights, is_own, watch)?;
+            let passes = self.in_front(Passing::new(&sights, &[]), true, watch)?.segments;
+            let depths = Depths::new(sights.len(), &passes, faces, is_own, watch)?;
             let mut layered = Vec::new();
             for run in each(watch, VISITED, &list) {
                 let (run, number) = run?;
@@ -412,112 +390,4 @@ impl VisibilityMap<'_> {
             Ok(layered)
         })
     }
-
-    /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
-    pub(super) fn depths(
-        &self,
-        sights: &[ProjectedSegment],
-        is_own: impl Fn(u32, u32) -> bool,
-        watch: &Watch<'_>,
-    ) -> Result<Depths, Error> {
-        if sights.is_empty() {
-            return Ok(Depths { begins: vec![0], ..Depths::default() });
-        }
-        let (primitives, faces) = (&self.primitives, self.primitives.lines.frame.faces);
-        let mut reaches = Reaches::default();
-        // Hidden polygons hide edges too.
-        for face in 0..faces.len() {
-            let number = face as u32;
-            watch.work(VISITED + primitives.edges_work(number))?;
-            if primitives.sees(number) {
-                reaches.push(number, primitives.outline(number))?;
-            }
-            finish_item(watch, face, faces.len());
-        }
-        let around = |face: u32| primitives.views[face as usize].around;
-        let pieces =
-            Pieces { lines: &primitives.lines, reaches, face: &|face| face, around: &around };
-        let passing = Passing { sights, spots: &[] };
-        let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
-        let mut passes = found.sights;
-        let polygon = |face: u32| faces.polygon(face);
-        sort_by(&mut passes, watch, |a, b| {
-            let keys = [a, b].map(|pass| (pass.sight, polygon(pass.piece)));
-            keys[0].cmp(&keys[1]).then(a.places[0].total_cmp(&b.places[0]))
-        })?;
-        let (mut depths, mut changes) = (Depths::default(), Vec::new());
-        let mut rest = &passes[..];
-        for number in each(watch, VISITED, 0..sights.len() as u32) {
-            let number = number?;
-            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
-            rest = others;
-            changes.clear();
-            watch.work(own.len() * VISITED)?;
-            for same in own.chunk_by(|a, b| polygon(a.piece) == polygon(b.piece)) {
-                // Each polygon counts once, however many parts of it there are.
-                let counts = |pass: &&Pass| !is_own(number, pass.piece);
-                for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
-                    changes.push((from, 1));
-                    changes.push((to, -1));
-                }
-            }
-            sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
-            depths.begins.push(depths.depths.len());
-            let mut layers = 0i64;
-            for &(from, change) in &changes {
-                layers += change;
-                depths.depths.push(Depth { from, layers: layers as u32 });
-            }
-        }
-        depths.begins.push(depths.depths.len());
-        Ok(depths)
-    }
-}
-
-/// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
-/// rounding has left are not told from those before them.
-pub(super) fn in_layers(
-    ends: Ends,
-    is_visible: bool,
-    depths: Option<(&ProjectedSegment, &[Depth])>,
-    watch: &Watch<'_>,
-) -> Result<Vec<(Ends, u32)>, Error> {
-    let Some((sight, depths)) = depths.filter(|_| !is_visible) else {
-        return Ok(vec![(ends, u32::from(!is_visible))]);
-    };
-    let [a, b] = ends.map(|end| sight.course.place(end));
-    let (low, high) = (a.min(b), a.max(b));
-    // Where each part begins, as a share of the run.
-    let mut parts: Vec<(f64, u32)> = Vec::new();
-    let first = depths.partition_point(|depth| depth.from <= low);
-    let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);
-    let inside = depths[first..].iter().take_while(|depth| depth.from < high);
-    let begins = inside.map(|depth| (depth.from, depth.layers));
-    let mut begins = [(low, before)].into_iter().chain(begins).peekable();
-    while let Some((from, layers)) = begins.next() {
-        watch.work(1)?;
-        let to = begins.peek().map_or(high, |next| next.0);
-        let layers = layers.max(1);
-        let goes_on = parts.last().is_some_and(|last| last.1 == layers);
-        if to - from >= SHORTEST && !goes_on {
-            let start = if parts.is_empty() { low } else { from };
-            parts.push((start, layers));
-        }
-    }
-    if parts.is_empty() {
-        return Ok(vec![(ends, before.max(1))]);
-    }
-    let at = |place: f64| {
-        let share = (place - a) / (b - a);
-        [0, 1].map(|i: usize| ends[0][i] + (ends[1][i] - ends[0][i]) * share)
-    };
-    let count = parts.len();
-    let cut = |i: usize| if i == 0 || i == count { None } else { Some(at(parts[i].0)) };
-    let end = |i: usize| cut(i).unwrap_or(ends[usize::from((i == 0) != (a < b))]);
-    let mut all: Vec<_> = (0..count).map(|i| ([end(i), end(i + 1)], parts[i].1)).collect();
-    if a > b {
-        all.reverse();
-        all.iter_mut().for_each(|(ends, _)| ends.swap(0, 1));
-    }
-    Ok(all)
 }

@@ -11,9 +11,10 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
-use super::lines::{HalfPlane, LineTable};
+use super::lines::HalfPlane;
 use super::primitives::{FEW_CORNERS, Primitives};
-use super::tile::{CUT, Growth, Tile};
+use super::sight::Passing;
+use super::tile::{CUT, Candidates, Growth, Tile, TileList};
 use crate::Error;
 use crate::progress::Watch;
 
@@ -38,87 +39,105 @@ pub(super) struct Leaf {
 pub(super) const SHORT: usize = 64;
 
 impl Leaf {
-    /// Computes the visible parts of items in a tile. The items are sorted front to back.
-    pub(super) fn new(
-        tile: Tile,
-        items: &[u32],
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let lines = &primitives.lines;
-        let (whole, sides) = (Cell::rectangle(lines, tile.low, tile.high), tile.sides());
-        if items.len() <= SHORT {
-            let mut area = OpenArea::new(whole);
-            for &item in items {
-                watch.work(area.open.len() * CUT)?;
-                let around = &primitives.items[item as usize].around;
-                if area.is_apart(around) {
-                    continue;
-                }
-                let Some(halves) = primitives.crossing(item, &sides) else { continue };
-                area.subtract(item, around, &halves, primitives, watch)?;
-            }
-            return Ok(Self { tile, cells: area.cells });
-        }
-        let mut region = SubTile { cell: whole, pieces: vec![], growth: Growth::NONE };
-        for &item in items {
-            watch.work(CUT)?;
-            let Some(halves) = primitives.crossing(item, &sides) else { continue };
-            if let Some(cell) = region.cell.within(lines, &halves, None, watch)?
-                && region.push(Visible { item, cell }, primitives)
-            {
-                break;
-            }
-        }
+    /// Computes the visible parts of items in a tile.
+    pub(super) fn new(list: &TileList<'_>, watch: &Watch<'_>) -> Result<Self, Error> {
+        let TileList { tile, candidates, .. } = list;
+        let primitives = candidates.primitives;
         let mut cells = Vec::new();
-        let mut regions = vec![region];
-        while let Some(region) = regions.pop() {
-            match region.divider(&primitives.lines, watch)? {
-                Some(half) => regions.extend(region.halves(half, primitives, watch)?),
-                None => cells.extend(region.visible(primitives, watch)?),
+        if candidates.list.len() <= SHORT {
+            let mut area = OpenArea::new(tile.cell(&primitives.lines));
+            for candidate in &candidates.list {
+                watch.work(area.open.len() * CUT)?;
+                let (item, halves) = (candidate.number, candidates.halves_of(candidate));
+                area.subtract(item, candidates.around(item), halves, primitives, watch)?;
             }
+            cells = area.cells;
+        } else {
+            let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+            whole.for_each_part(|part| Ok(cells.extend(part.visible(watch)?)), watch)?;
         }
-        Ok(Self { tile, cells })
+        Ok(Self { tile: *tile, cells })
     }
 }
 
-/// A convex part of a tile, and the pieces in it, front to back and clipped to it.
-struct SubTile {
-    cell: Cell,
-    pieces: Vec<Visible>,
+/// A convex part of a tile, with what is in it.
+pub(super) struct SubTile<'l, 'p> {
+    pub(super) candidates: &'l Candidates<'p>,
+    pub(super) cell: Cell,
+    /// The candidates, front to back and clipped to the part.
+    pub(super) pieces: Vec<Visible>,
+    pub(super) passing: Passing<'l>,
     growth: Growth,
 }
 
-/// How many edges, each of another piece, are tried to divide a region. Too small: regions are divided unevenly, or
+/// How many edges, each of another piece, are tried to divide a part. Too small: parts are divided unevenly, or
 /// not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
 /// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes long.
 const SAMPLE: usize = 48;
 
-impl SubTile {
-    /// Adds a piece behind all others, and returns whether it is opaque and covers the region.
-    fn push(&mut self, piece: Visible, primitives: &Primitives<'_>) -> bool {
-        let (own, all) = (&piece.cell.sides, &self.cell.sides);
-        let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
-        let covers = primitives.is_opaque(piece.item)
-            && own.len() == all.len()
-            && own.iter().all(|side| is_side(side.half));
-        self.pieces.push(piece);
-        covers
+impl<'l, 'p> SubTile<'l, 'p> {
+    /// All of a tile, and what passes it.
+    pub(super) fn new(
+        list: &'l TileList<'p>,
+        passing: Passing<'l>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let candidates = &list.candidates;
+        let lines = &candidates.primitives.lines;
+        let cell = list.tile.cell(lines);
+        let mut whole = Self { candidates, cell, pieces: vec![], passing, growth: Growth::NONE };
+        for candidate in &candidates.list {
+            watch.work(CUT)?;
+            let cell = whole.cell.within(lines, candidates.halves_of(candidate), None, watch)?;
+            if let Some(cell) = cell
+                && whole.push(Visible { item: candidate.number, cell })
+            {
+                break;
+            }
+        }
+        Ok(whole)
     }
 
-    /// Divides the region along a line.
-    fn halves(
+    /// Adds a piece behind all others, and returns whether it hides what is behind it.
+    fn push(&mut self, piece: Visible) -> bool {
+        let is_hiding = self.candidates.hides(piece.item) && self.is_covered_by(&piece);
+        self.pieces.push(piece);
+        is_hiding
+    }
+
+    /// Whether a piece covers all of the part.
+    pub(super) fn is_covered_by(&self, piece: &Visible) -> bool {
+        let (own, all) = (&piece.cell.sides, &self.cell.sides);
+        let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
+        own.len() == all.len() && own.iter().all(|side| is_side(side.half))
+    }
+
+    /// Divides the part until lists are short, and calls a function with each part of it.
+    pub(super) fn for_each_part(
         self,
-        half: HalfPlane,
-        primitives: &Primitives<'_>,
+        mut see: impl FnMut(Self) -> Result<(), Error>,
         watch: &Watch<'_>,
-    ) -> Result<[Self; 2], Error> {
-        let lines = &primitives.lines;
+    ) -> Result<(), Error> {
+        let mut parts = vec![self];
+        while let Some(part) = parts.pop() {
+            match part.divider(watch)? {
+                Some(half) => parts.extend(part.halves(half, watch)?),
+                None => see(part)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Divides the part along a line.
+    fn halves(self, half: HalfPlane, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
+        let candidates = self.candidates;
+        let lines = &candidates.primitives.lines;
         let signs = self.cell.signs(lines, half);
         let mut parts = [false, true].map(|is_back| {
             let cell = self.cell.part(lines, half.flipped(is_back), &signs, sign(is_back));
-            Self { cell, pieces: vec![], growth: self.growth }
+            let passing = self.passing.over(lines, &cell);
+            Self { candidates, cell, pieces: vec![], passing, growth: self.growth }
         });
         let (count, mut is_full) = (self.pieces.len(), [false; 2]);
         for Visible { item, cell } in self.pieces {
@@ -133,7 +152,7 @@ impl SubTile {
                     true => cell.part(lines, half.flipped(is_back), &signs, sign(is_back)),
                     false => cell.clone(),
                 };
-                is_full[i] = parts[i].push(Visible { item, cell }, primitives);
+                is_full[i] = parts[i].push(Visible { item, cell });
             }
         }
         let growth = self.growth.after(count, parts.each_ref().map(|part| part.pieces.len()));
@@ -143,11 +162,8 @@ impl SubTile {
 
     /// Chooses the edge that divides the pieces best. `None` for short lists, and if no edge leaves clearly fewer
     /// pieces on both sides.
-    fn divider(
-        &self,
-        lines: &LineTable<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<HalfPlane>, Error> {
+    fn divider(&self, watch: &Watch<'_>) -> Result<Option<HalfPlane>, Error> {
+        let lines = &self.candidates.primitives.lines;
         if self.pieces.len() <= SHORT || self.growth.is_too_much() {
             return Ok(None);
         }
@@ -177,20 +193,14 @@ impl SubTile {
     }
 
     /// Computes the visible parts of the pieces.
-    fn visible(
-        self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Vec<Visible>, Error> {
+    fn visible(self, watch: &Watch<'_>) -> Result<Vec<Visible>, Error> {
+        let primitives = self.candidates.primitives;
         let mut area = OpenArea::new(self.cell);
         for Visible { item, cell } in self.pieces {
             watch.work(area.open.len() * CUT)?;
-            let around = cell.around();
-            if !area.is_apart(&around) {
-                let halves: SmallVec<[HalfPlane; 8]> =
-                    cell.sides.iter().map(|side| side.half).collect();
-                area.subtract(item, &around, &halves, primitives, watch)?;
-            }
+            let halves: SmallVec<[HalfPlane; 8]> =
+                cell.sides.iter().map(|side| side.half).collect();
+            area.subtract(item, &cell.around(), &halves, primitives, watch)?;
         }
         Ok(area.cells)
     }
@@ -218,11 +228,6 @@ impl OpenArea {
     fn new(cell: Cell) -> Self {
         let boxes = vec![cell.around()];
         Self { open: vec![cell], boxes, cells: vec![], outside: vec![], left: vec![] }
-    }
-
-    /// Whether a box overlaps no open cell.
-    fn is_apart(&self, around: &Rect) -> bool {
-        self.boxes.iter().all(|open| are_apart(open, around))
     }
 
     /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open cells.

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use super::cell::Cell;
 use super::leaf::{Leaf, SHORT, Visible};
 use super::primitives::Primitives;
-use super::tile::{Growth, List, TINY, Tile, found_in};
+use super::tile::{Candidates, TINY, TileList, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -281,59 +281,25 @@ impl MapCell<'_> {
     }
 }
 
-/// A tile with the pieces that may show in it.
-#[derive(Debug)]
-struct TileList {
-    tile: Tile,
-    list: List,
-    growth: Growth,
-}
-
 /// The visible parts of all items, in the order of the tiles: a phase.
-pub(super) fn visible(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
-    let halves = |part: &TileList, _: &mut Vec<Leaf>| part.halves(primitives, watch);
-    let leaf = |TileList { tile, list, .. }: &TileList, found: &mut Vec<Leaf>| {
-        if !list.items.is_empty() {
-            found.push(Leaf::new(*tile, &list.items, primitives, watch)?);
+pub(super) fn visible<'p>(
+    primitives: &'p Primitives<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<Leaf>, Error> {
+    let halves = |list: &TileList<'p>, _: &mut Vec<Leaf>| {
+        let is_leaf = list.candidates.list.len() <= SHORT || list.is_small(TINY);
+        (!is_leaf).then(|| list.halves(watch)).transpose()
+    };
+    let leaf = |list: &TileList<'p>, found: &mut Vec<Leaf>| {
+        if !list.candidates.list.is_empty() {
+            found.push(Leaf::new(list, watch)?);
         }
         Ok(())
     };
-    let tile = Tile::picture(primitives.lines.frame.rays.size());
-    let list = List::of_all(primitives, tile, watch)?;
-    let all = TileList { tile, list, growth: Growth::NONE };
-    let mut leaves = Vec::new();
-    for mut found in found_in(all, Vec::new, halves, leaf, watch)? {
-        leaves.append(&mut found);
-    }
-    Ok(leaves)
-}
-
-impl TileList {
-    /// Both halves of the tile, each with what may show in it; `None` of a leaf.
-    fn halves(
-        &self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
-        if self.is_leaf() {
-            return Ok(None);
-        }
-        let tiles = self.tile.halves();
-        let first = self.list.narrowed(primitives, tiles[0], watch)?;
-        let second = self.list.narrowed(primitives, tiles[1], watch)?;
-        let counts = [&first, &second].map(|list| list.items.len());
-        let growth = self.growth.after(self.list.items.len(), counts);
-        Ok(Some([
-            Self { tile: tiles[0], list: first, growth },
-            Self { tile: tiles[1], list: second, growth },
-        ]))
-    }
-
-    /// Whether the tile need not be halved.
-    fn is_leaf(&self) -> bool {
-        let items = &self.list.items;
-        items.len() <= SHORT || self.growth.is_too_much() || self.tile.is_within(TINY)
-    }
+    let items = Candidates::items(primitives, |_| true)?.ending_at_covers();
+    let all = TileList::picture(&items, watch)?;
+    let parts = found_in(all, Vec::new, halves, leaf, watch)?;
+    Ok(parts.into_iter().flatten().collect())
 }
 
 /// Each phase of an operation has so many parts.

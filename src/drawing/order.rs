@@ -13,7 +13,7 @@ use super::leaf::{Leaf, Visible};
 use super::lines::Mixer;
 use super::map::{each, sort_by, sort_unique};
 use super::primitives::{FEW_CORNERS, Primitives};
-use super::tile::{CUT, Reach, Reaches, Tile, VISITED, found_in};
+use super::tile::{CUT, Candidate, Candidates, Tile, VISITED, found_in};
 use crate::Error;
 use crate::progress::Watch;
 
@@ -492,10 +492,10 @@ impl Graph<'_> {
 }
 
 /// Leaves with the opaque faces that may reach into them, and the translucent items.
-struct LeafReaches<'l> {
+struct LeafLists<'l, 'p> {
     leaves: &'l [Leaf],
-    reaches: Reaches,
-    translucent: Reaches,
+    opaque: Candidates<'p>,
+    translucent: Candidates<'p>,
 }
 
 /// Which pairs of polygons are to be found.
@@ -515,57 +515,43 @@ impl Wanted<'_> {
 
 /// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
 /// not show; in pairs, opaque polygons have that, translucent items their own.
-pub(super) fn pairs<'l>(
-    primitives: &Primitives<'_>,
+pub(super) fn pairs<'l, 'p>(
+    primitives: &'p Primitives<'_>,
     leaves: &'l [Leaf],
     place: &(dyn Fn(u32) -> u32 + Sync),
     wanted: Wanted<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
-    let (mut reaches, mut translucent) = (Reaches::default(), Reaches::default());
-    let shows = |face: &u32| place(*face) != u32::MAX;
-    for face in each(watch, 2, 0..primitives.views.len() as u32) {
-        let face = face?;
-        if !shows(&face) {
-            continue;
-        }
-        if primitives.views[face as usize].is_opaque {
-            reaches.push(face, primitives.outline(face))?;
-        }
-    }
-    for item in each(watch, 2, 0..primitives.items.len() as u32) {
-        let item = item?;
-        if !primitives.is_opaque(item) && shows(&primitives.face(item)) {
-            translucent.push(item, primitives.halves(item))?;
-        }
-    }
-    let halves = |part: &LeafReaches<'l>, _: &mut Found| part.halves(primitives, watch);
-    let leaf = |part: &LeafReaches<'l>, found: &mut Found| {
+    let shows = |face: u32| place(face) != u32::MAX;
+    let is_opaque = |face: u32| primitives.views[face as usize].is_opaque;
+    let is_seen_through = |item: u32| {
+        let face = primitives.face(item);
+        !is_opaque(face) && shows(face)
+    };
+    let all = LeafLists {
+        leaves,
+        opaque: Candidates::faces(primitives, |face| is_opaque(face) && shows(face))?,
+        translucent: Candidates::items(primitives, is_seen_through)?,
+    };
+    let halves = |part: &LeafLists<'l, 'p>, _: &mut Found| part.halves(watch);
+    let leaf = |part: &LeafLists<'l, 'p>, found: &mut Found| {
         part.leaf(primitives, place, wanted, found, watch)
     };
-    let all = LeafReaches { leaves, reaches, translucent };
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
-impl<'l> LeafReaches<'l> {
+impl LeafLists<'_, '_> {
     /// The first and the second half of the leaves; `None` of a single one.
-    fn halves(
-        &self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
+    fn halves(&self, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
             return Ok(None);
         }
         let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
-        let part = |leaves: &'l [Leaf]| {
+        let part = |leaves| {
             let around = around(leaves);
-            let of_face = |face: u32| primitives.views[face as usize].around;
-            let of_item = |item: u32| primitives.items[item as usize].around;
-            let reaches = self.reaches.narrowed(&primitives.lines, &around, of_face, watch)?;
-            let translucent =
-                self.translucent.narrowed(&primitives.lines, &around, of_item, watch)?;
-            Ok(Self { leaves, reaches, translucent })
+            let opaque = self.opaque.narrowed(&around, watch)?;
+            let translucent = self.translucent.narrowed(&around, watch)?;
+            Ok(Self { leaves, opaque, translucent })
         };
         Ok(Some([part(first)?, part(second)?]))
     }
@@ -579,7 +565,7 @@ impl<'l> LeafReaches<'l> {
         found: &mut Found,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let Self { leaves, reaches, .. } = self;
+        let Self { leaves, opaque, .. } = self;
         // Nothing opaque shows above a face of which all shows that is in the tile.
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
@@ -594,11 +580,11 @@ impl<'l> LeafReaches<'l> {
             }
         }
         whole.sort_unstable();
-        let mut below: Vec<Reach> = Vec::with_capacity(reaches.list.len());
-        let is_below = |reach: &&Reach| whole.binary_search(&reach.number).is_err();
-        below.extend(reaches.list.iter().filter(is_below));
-        let is_marked = |reach: &&Reach| (wanted.is_marked)(place(reach.number));
-        let marked: Vec<Reach> = below.iter().filter(is_marked).copied().collect();
+        let mut below: Vec<Candidate> = Vec::with_capacity(opaque.list.len());
+        let is_below = |face: &&Candidate| whole.binary_search(&face.number).is_err();
+        below.extend(opaque.list.iter().filter(is_below));
+        let is_marked = |face: &&Candidate| (wanted.is_marked)(place(face.number));
+        let marked: Vec<Candidate> = below.iter().filter(is_marked).copied().collect();
         for visible in cells() {
             let Visible { item, cell } = visible;
             if !self.translucent.list.is_empty() {
@@ -614,10 +600,10 @@ impl<'l> LeafReaches<'l> {
                 (true, true) | (false, false) => &marked,
                 (false, true) => continue,
             };
-            for reach in each(watch, VISITED, below) {
-                let reach = reach?;
-                let pair = Pair { below: place(reach.number), above };
-                let is_apart = are_apart(&around, &primitives.views[reach.number as usize].around);
+            for face in each(watch, VISITED, below) {
+                let face = face?;
+                let pair = Pair { below: place(face.number), above };
+                let is_apart = are_apart(&around, opaque.around(face.number));
                 if is_apart
                     || pair.below == above
                     || !(wanted.is_wanted)(pair)
@@ -626,7 +612,7 @@ impl<'l> LeafReaches<'l> {
                     continue;
                 }
                 watch.work(CUT)?;
-                if cell.meets(&primitives.lines, reaches.halves_of(reach), watch)? {
+                if cell.meets(&primitives.lines, opaque.halves_of(face), watch)? {
                     add(found, pair);
                 }
             }
@@ -647,19 +633,19 @@ impl<'l> LeafReaches<'l> {
         let (face, is_opaque) = (primitives.face(item), primitives.is_opaque(item));
         let own = if is_opaque { place(face) } else { item };
         let around = cell.around();
-        for reach in each(watch, CUT, &self.translucent.list) {
-            let reach = reach?;
-            let other = reach.number;
+        for candidate in each(watch, CUT, &self.translucent.list) {
+            let candidate = candidate?;
+            let other = candidate.number;
             let pair = match other < item {
                 true => Pair { below: own, above: other },
                 false if is_opaque => Pair { below: other, above: own },
                 false => break,
             };
-            let is_apart = are_apart(&around, &primitives.items[other as usize].around);
+            let is_apart = are_apart(&around, self.translucent.around(other));
             if is_apart || primitives.face(other) == face || found.contains(&pair) {
                 continue;
             }
-            if cell.meets(&primitives.lines, self.translucent.halves_of(reach), watch)? {
+            if cell.meets(&primitives.lines, self.translucent.halves_of(candidate), watch)? {
                 add(found, pair);
             }
         }
@@ -683,7 +669,7 @@ fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool
 }
 
 /// The box around leaves.
-pub(super) fn around(leaves: &[Leaf]) -> Rect {
+fn around(leaves: &[Leaf]) -> Rect {
     leaves.iter().fold(NOWHERE, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();
         let axes = [0, 1];

@@ -6,7 +6,7 @@ use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::exact_lines::Frame;
 use super::lines::{HalfPlane, LineTable};
 use super::map::{each, finish_item};
-use super::tile::{Across, LINES, Tile};
+use super::tile::{LINES, Tile};
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::place;
@@ -38,8 +38,8 @@ pub(super) struct View {
     pub(super) is_opaque: bool,
     /// Whether its edges in the picture go through its corners as given.
     pub(super) is_as_given: bool,
-    /// The last of its items, if it has some.
-    pub(super) last: u32,
+    /// The first and the last of its items; `u32::MAX` if it has none.
+    pub(super) items: [u32; 2],
     /// Where the half-planes that bound it begin and end.
     halves: [u32; 2],
 }
@@ -94,9 +94,9 @@ impl<'t> Primitives<'t> {
         primitives.views = shared(&all, view, watch)?;
         let item = |index: u32| primitives.item(&tree.fragment(index));
         primitives.items = shared(&order, item, watch)?;
-        for numbered in each(watch, 1, (0..).zip(&primitives.items)) {
-            let (number, item) = numbered?;
-            primitives.views[item.face as usize].last = number;
+        for (number, item) in (0..).zip(&primitives.items) {
+            let View { items: [first, last], .. } = &mut primitives.views[item.face as usize];
+            (*first, *last) = (number.min(*first), number);
         }
         primitives.add_halves(watch)?;
         Ok(primitives)
@@ -159,39 +159,13 @@ impl<'t> Primitives<'t> {
         &self.halves[start as usize..end as usize]
     }
 
-    /// Where a box lies against an item: inside, the item covers it.
-    pub(super) fn across(&self, halves: &[HalfPlane], sides: &Rect) -> Across {
-        let mut all = Across::Inside;
-        for &half in halves {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return Across::Outside,
-                Across::Maybe => all = Across::Maybe,
-            }
-        }
-        all
-    }
-
-    /// The half-planes of an item whose lines may cross a box; `None` if the item certainly lies beside it.
-    pub(super) fn crossing(&self, item: u32, sides: &Rect) -> Option<SmallVec<[HalfPlane; 8]>> {
-        if is_within(&self.items[item as usize].around, sides) {
-            return Some(SmallVec::from_slice(self.halves(item)));
-        }
-        let mut crossing = SmallVec::new();
-        for &half in self.halves(item) {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return None,
-                Across::Maybe => crossing.push(half),
-            }
-        }
-        Some(crossing)
-    }
-
     /// Whether a face certainly covers a box.
     pub(super) fn covers(&self, face: u32, sides: &Rect) -> bool {
         is_within(sides, &self.views[face as usize].around)
-            && self.across(self.outline(face), sides) == Across::Inside
+            && self
+                .lines
+                .crossing(self.outline(face), sides)
+                .is_some_and(|halves| halves.is_empty())
     }
 
     /// A fragment, unless the picture shows nothing of it.
@@ -224,7 +198,7 @@ impl<'t> Primitives<'t> {
             is_positive: false,
             is_opaque: false,
             is_as_given: false,
-            last: 0,
+            items: [u32::MAX; 2],
             halves: [0; 2],
         };
         let opacity = self.opacity(face);

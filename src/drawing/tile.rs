@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use smallvec::SmallVec;
 
-use super::cell::{Rect, are_apart, is_within, reaches_across};
+use super::cell::{Cell, Rect, are_apart, is_within};
 use super::lines::{HalfPlane, LineTable, STEPS};
-use super::map::{each, finish_item};
-use super::primitives::{Item, Primitives};
+use super::map::finish_item;
+use super::primitives::{Primitives, View};
 use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -21,7 +21,7 @@ pub(super) struct Tile {
 
 /// Where a box lies against a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Across {
+enum Across {
     Inside,
     Outside,
     Maybe,
@@ -91,6 +91,11 @@ impl Tile {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= size)
     }
 
+    /// It as a cell.
+    pub(super) fn cell(&self, lines: &LineTable<'_>) -> Cell {
+        Cell::rectangle(lines, self.low, self.high)
+    }
+
     /// Its sides in pixels: exact.
     pub(super) fn sides(&self) -> Rect {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
@@ -98,8 +103,25 @@ impl Tile {
 }
 
 impl LineTable<'_> {
+    /// The half-planes whose lines may cross a box; `None` if the box certainly lies outside of one.
+    pub(super) fn crossing(
+        &self,
+        halves: &[HalfPlane],
+        sides: &Rect,
+    ) -> Option<SmallVec<[HalfPlane; 8]>> {
+        let mut crossing = SmallVec::new();
+        for &half in halves {
+            match self.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return None,
+                Across::Maybe => crossing.push(half),
+            }
+        }
+        Some(crossing)
+    }
+
     /// Where a box lies against a half.
-    pub(super) fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
+    fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));
@@ -187,184 +209,214 @@ fn alone<P, F>(
     Ok(found)
 }
 
-/// Of so many faces at most, the front ones, it is asked whether all their pieces cover a tile.
+/// So many faces at most, the front ones, are compared with a tile that all their items together may cover.
 const FACES: usize = 8;
 
-/// Items that may show in a tile, front to back.
-#[derive(Debug)]
-pub(super) struct List {
-    pub(super) items: Vec<u32>,
-    /// Items behind this one are missing from the list: they are hidden.
-    limit: u32,
+/// What the candidates of a list are: numbers of items, front to back, or of whole faces, by their first items.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Of {
+    Items,
+    Faces,
 }
 
-impl List {
-    /// What of all items may show in a tile.
-    pub(super) fn of_all(
-        primitives: &Primitives<'_>,
-        tile: Tile,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(primitives, tile, u32::MAX, primitives.items.len());
-        for item in each(watch, NARROWED, 0..primitives.items.len() as u32) {
-            if !narrow.add(item?) {
-                break;
-            }
-        }
-        narrow.finish(watch)
-    }
-
-    /// What of the list may show in a part of the tile.
-    pub(super) fn narrowed(
-        &self,
-        primitives: &Primitives<'_>,
-        tile: Tile,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let mut narrow = Narrow::new(primitives, tile, self.limit, self.items.len());
-        for item in each(watch, NARROWED, &self.items) {
-            if !narrow.add(*item?) {
-                break;
-            }
-        }
-        narrow.finish(watch)
-    }
-}
-
-/// Makes the list of a tile.
-struct Narrow<'a, 't> {
-    primitives: &'a Primitives<'t>,
-    sides: Rect,
-    list: List,
-}
-
-impl<'a, 't> Narrow<'a, 't> {
-    /// The list will be of so many items at most, none behind `limit`.
-    fn new(primitives: &'a Primitives<'t>, tile: Tile, limit: u32, most: usize) -> Narrow<'a, 't> {
-        let items = Vec::with_capacity(most);
-        Self { primitives, sides: tile.sides(), list: List { items, limit } }
-    }
-
-    /// Adds an item unless it is certain that the tile shows nothing of it; false if no item behind it can
-    /// show.
-    fn add(&mut self, item: u32) -> bool {
-        let Self { primitives, sides, list } = self;
-        if item > list.limit {
-            return false;
-        }
-        let Item { ref around, .. } = primitives.items[item as usize];
-        if are_apart(sides, around) {
-            return true;
-        }
-        // Lines are looked at only where they may tell more than boxes.
-        if reaches_across(around, sides) {
-            match primitives.across(primitives.halves(item), sides) {
-                Across::Inside if primitives.is_opaque(item) => list.limit = item,
-                Across::Outside => return true,
-                Across::Inside | Across::Maybe => {}
-            }
-        }
-        list.items.push(item);
-        item < list.limit
-    }
-
-    /// Ends the list with the last piece of a face that covers the tile, in however many pieces.
-    fn finish(self, watch: &Watch<'_>) -> Result<List, Error> {
-        let Self { primitives, sides, mut list } = self;
-        let mut end = list.limit;
-        let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
-        for (place, &item) in list.items.iter().enumerate() {
-            if item >= end || tried.len() == FACES {
-                break;
-            }
-            let face = primitives.face(item);
-            // If pieces of it are missing from the list, the others alone may not cover the tile.
-            if tried.contains(&face)
-                || !primitives.is_opaque(item)
-                || primitives.views[face as usize].last > list.limit
-                || !primitives.covers(face, &sides)
-            {
-                continue;
-            }
-            tried.push(face);
-            watch.work(list.items.len() - place)?;
-            let mut siblings =
-                list.items[place..].iter().filter(|&&other| primitives.face(other) == face);
-            end = siblings.next_back().map_or(end, |&last| end.min(last));
-        }
-        list.limit = end;
-        let len = list.items.partition_point(|&item| item <= end);
-        list.items.truncate(len);
-        Ok(list)
-    }
-}
-
-/// A piece, with those of its lines that may cross a part of the picture.
+/// An item or a face, with those of its half-planes whose lines may cross a part of the picture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reach {
-    /// What the caller gave it: the number of an item, or of a face that is taken whole.
+pub(super) struct Candidate {
     pub(super) number: u32,
     halves: [u32; 2],
 }
 
-impl Reach {
+impl Candidate {
     /// Whether it covers the whole part.
     pub(super) const fn covers(&self) -> bool {
         self.halves[0] == self.halves[1]
     }
 }
 
-/// The pieces that may reach into a part of the picture.
-#[derive(Debug, Default)]
-pub(super) struct Reaches {
-    pub(super) list: Vec<Reach>,
+/// The items or faces that may reach into a part of the picture, front to back.
+#[derive(Debug)]
+pub(super) struct Candidates<'p> {
+    pub(super) primitives: &'p Primitives<'p>,
+    of: Of,
+    pub(super) list: Vec<Candidate>,
     halves: Vec<HalfPlane>,
+    /// Whether the list ends where something opaque covers the part.
+    ends_at_cover: bool,
+    /// Items behind this one are missing from the list: they are hidden.
+    limit: u32,
 }
 
-impl Reaches {
-    /// Adds a piece.
-    pub(super) fn push(&mut self, number: u32, halves: &[HalfPlane]) -> Result<(), Error> {
+impl<'p> Candidates<'p> {
+    /// Some items.
+    pub(super) fn items(
+        primitives: &'p Primitives<'p>,
+        keep: impl Fn(u32) -> bool,
+    ) -> Result<Self, Error> {
+        let mut all = Self::none(primitives, Of::Items);
+        for item in (0..primitives.items.len() as u32).filter(|&item| keep(item)) {
+            all.push(item, primitives.halves(item))?;
+        }
+        Ok(all)
+    }
+
+    /// Some faces, of those that the picture may show.
+    pub(super) fn faces(
+        primitives: &'p Primitives<'p>,
+        keep: impl Fn(u32) -> bool,
+    ) -> Result<Self, Error> {
+        let mut all = Self::none(primitives, Of::Faces);
+        let faces = 0..primitives.views.len() as u32;
+        let mut faces: Vec<u32> = faces.filter(|&f| primitives.sees(f) && keep(f)).collect();
+        faces.sort_by_key(|&face| primitives.views[face as usize].items[0]);
+        for face in faces {
+            all.push(face, primitives.outline(face))?;
+        }
+        Ok(all)
+    }
+
+    fn none(primitives: &'p Primitives<'p>, of: Of) -> Self {
+        let (list, halves) = (vec![], vec![]);
+        Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
+    }
+
+    /// The same, without what is hidden behind something opaque that covers a part of the picture.
+    pub(super) fn ending_at_covers(self) -> Self {
+        Self { ends_at_cover: true, ..self }
+    }
+
+    fn push(&mut self, number: u32, halves: &[HalfPlane]) -> Result<(), Error> {
         let start = place(self.halves.len())?;
-        self.halves.reserve(halves.len());
         self.halves.extend_from_slice(halves);
-        self.list.push(Reach { number, halves: [start, place(self.halves.len())?] });
+        self.list.push(Candidate { number, halves: [start, place(self.halves.len())?] });
         Ok(())
     }
 
-    pub(super) fn halves_of(&self, reach: &Reach) -> &[HalfPlane] {
-        let [start, end] = reach.halves;
+    pub(super) fn halves_of(&self, candidate: &Candidate) -> &[HalfPlane] {
+        let [start, end] = candidate.halves;
         &self.halves[start as usize..end as usize]
     }
 
-    /// Those that may reach into a box; `around` gives a box around a piece.
-    pub(super) fn narrowed(
-        &self,
-        lines: &LineTable<'_>,
-        sides: &Rect,
-        around: impl Fn(u32) -> Rect,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let mut part = Self::default();
-        'pieces: for reach in each(watch, NARROWED, &self.list) {
-            let reach = reach?;
-            let around = around(reach.number);
-            if are_apart(sides, &around) {
+    /// The face of a candidate.
+    pub(super) fn face(&self, number: u32) -> u32 {
+        match self.of {
+            Of::Items => self.primitives.face(number),
+            Of::Faces => number,
+        }
+    }
+
+    /// A box around what of a candidate is in the picture.
+    pub(super) fn around(&self, number: u32) -> &Rect {
+        match self.of {
+            Of::Items => &self.primitives.items[number as usize].around,
+            Of::Faces => &self.primitives.views[number as usize].around,
+        }
+    }
+
+    /// The first and the last item of a candidate.
+    fn items_of(&self, number: u32) -> [u32; 2] {
+        match self.of {
+            Of::Items => [number; 2],
+            Of::Faces => self.primitives.views[number as usize].items,
+        }
+    }
+
+    /// Whether a candidate hides what is behind it, and the list is without what is hidden.
+    pub(super) fn hides(&self, number: u32) -> bool {
+        self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
+    }
+
+    /// Those that may reach into a box.
+    pub(super) fn narrowed(&self, sides: &Rect, watch: &Watch<'_>) -> Result<Self, Error> {
+        watch.work(self.list.len() * NARROWED)?;
+        let none = Self::none(self.primitives, self.of);
+        let mut part = Self { ends_at_cover: self.ends_at_cover, limit: self.limit, ..none };
+        for candidate in &self.list {
+            let (number, halves) = (candidate.number, self.halves_of(candidate));
+            let [first, last] = self.items_of(number);
+            if first > part.limit {
+                break;
+            }
+            let around = self.around(number);
+            if are_apart(sides, around) {
                 continue;
             }
-            if is_within(&around, sides) {
-                part.push(reach.number, self.halves_of(reach))?;
+            if is_within(around, sides) {
+                part.push(number, halves)?;
                 continue;
             }
-            let mut kept: SmallVec<[HalfPlane; 8]> = SmallVec::new();
-            for &half in self.halves_of(reach) {
-                match lines.across(half, sides) {
-                    Across::Inside => {}
-                    Across::Outside => continue 'pieces,
-                    Across::Maybe => kept.push(half),
-                }
+            let Some(crossing) = self.primitives.lines.crossing(halves, sides) else { continue };
+            if crossing.is_empty() && self.hides(number) {
+                part.limit = part.limit.min(last);
             }
-            part.push(reach.number, &kept)?;
+            part.push(number, &crossing)?;
+        }
+        if self.ends_at_cover && self.of == Of::Items {
+            part.end_at_face(sides);
         }
         Ok(part)
+    }
+
+    /// Ends a list of items with the last item of a face that covers the box, in however many items.
+    fn end_at_face(&mut self, sides: &Rect) {
+        let primitives = self.primitives;
+        let mut end = self.limit;
+        let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
+        for candidate in &self.list {
+            if candidate.number >= end || tried.len() == FACES {
+                break;
+            }
+            let face = primitives.face(candidate.number);
+            let View { items: [_, last], is_opaque, .. } = primitives.views[face as usize];
+            // If items of it are missing from the list, the others alone may not cover the box.
+            let is_in_list = last <= self.limit;
+            if is_opaque && is_in_list && !tried.contains(&face) && primitives.covers(face, sides) {
+                tried.push(face);
+                let mut numbers = self.list.iter().rev().map(|candidate| candidate.number);
+                let last = numbers.find(|&item| primitives.face(item) == face);
+                end = last.map_or(end, |last| end.min(last));
+            }
+        }
+        self.limit = end;
+        self.list.truncate(self.list.partition_point(|candidate| candidate.number <= end));
+    }
+}
+
+/// A tile with what may be in it.
+#[derive(Debug)]
+pub(super) struct TileList<'p> {
+    pub(super) tile: Tile,
+    pub(super) candidates: Candidates<'p>,
+    growth: Growth,
+}
+
+impl<'p> TileList<'p> {
+    /// The whole picture, with those of the candidates that may be in it.
+    pub(super) fn picture(candidates: &Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
+        let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
+        let candidates = candidates.narrowed(&tile.sides(), watch)?;
+        Ok(Self { tile, candidates, growth: Growth::NONE })
+    }
+
+    /// How many candidates do not cover the tile.
+    pub(super) fn open(&self) -> usize {
+        self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
+    }
+
+    /// Whether halving it is of no use, or it is no larger than so many steps.
+    pub(super) fn is_small(&self, least: i64) -> bool {
+        self.growth.is_too_much() || self.tile.is_within(least)
+    }
+
+    /// Both halves of the tile.
+    pub(super) fn halves(&self, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
+        let half = |tile: Tile| {
+            let candidates = self.candidates.narrowed(&tile.sides(), watch)?;
+            Ok(Self { tile, candidates, growth: Growth::NONE })
+        };
+        let [first, second] = self.tile.halves();
+        let mut halves = [half(first)?, half(second)?];
+        let growth = self.growth.after(self.open(), halves.each_ref().map(Self::open));
+        halves.iter_mut().for_each(|half| half.growth = growth);
+        Ok(halves)
     }
 }

@@ -2,9 +2,12 @@
 
 use std::cmp::Reverse;
 
+use smallvec::SmallVec;
+
 use super::cell::Cell;
 use super::join::Groups;
-use super::leaf::{Leaf, Visible};
+use super::leaf::{Leaf, SubTile, Visible};
+use super::lines::HalfPlane;
 use super::map::{
     Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by, sort_unique,
 };
@@ -12,7 +15,8 @@ use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sort
 use super::overlaid::{Between, Overlaid};
 use super::paths::{Area, Drawing, add_piece};
 use super::primitives::Primitives;
-use super::tile::{CUT, Growth, Reaches, TINIEST, Tile, VISITED, found_in};
+use super::sight::Passing;
+use super::tile::{CUT, Candidate, Candidates, TINIEST, TileList, VISITED, found_in};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Watch;
@@ -148,112 +152,67 @@ pub(super) fn mixed(
     Ok(drawing)
 }
 
-/// A tile with the items that may be in it, front to back.
-struct TileStack {
-    tile: Tile,
-    reaches: Reaches,
-    growth: Growth,
-}
-
 /// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
 /// pairs are compared; smaller: more tiles.
 const FEW: usize = 8;
 
 /// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
-/// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
-    let tile = Tile::picture(primitives.lines.frame.rays.size());
-    let mut reaches = Reaches::default();
-    for item in each(watch, 2, 0..primitives.items.len() as u32) {
-        let item = item?;
-        reaches.push(item, primitives.halves(item))?;
-    }
-    let all = TileStack { tile, reaches, growth: Growth::NONE };
-    let halves = |part: &TileStack, _: &mut Found| part.halves(primitives, watch);
-    let leaf = |part: &TileStack, found: &mut Found| part.leaf(primitives, found, watch);
-    let all = all.narrowed(primitives, tile, watch)?;
+/// an item covers a part of the picture, pairs with it stand for those of what is behind and in front of it.
+pub(super) fn overlaps<'p>(
+    primitives: &'p Primitives<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let halves = |list: &TileList<'p>, _: &mut Found| {
+        let between = list.candidates.list.split(Candidate::covers);
+        let most = between.map(<[_]>::len).max().unwrap_or(0);
+        let is_leaf = most <= FEW || list.is_small(TINIEST);
+        (!is_leaf).then(|| list.halves(watch)).transpose()
+    };
+    let leaf = |list: &TileList<'p>, found: &mut Found| {
+        let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+        whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
+    };
+    let all = TileList::picture(&Candidates::items(primitives, |_| true)?, watch)?;
     sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
 }
 
-impl TileStack {
-    fn is_leaf(&self) -> bool {
-        let between = self.reaches.list.split(|reach| reach.covers());
-        let most = between.map(<[_]>::len).max().unwrap_or(0);
-        most <= FEW || self.growth.is_too_much() || self.tile.is_within(TINIEST)
-    }
-
-    /// Both halves of the tile; `None` of a leaf.
-    fn halves(
-        &self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
-        if self.is_leaf() {
-            return Ok(None);
-        }
-        let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(primitives, tile, watch);
-        let mut parts = [narrowed(first)?, narrowed(second)?];
-        let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
-        let counts = [open(&parts[0]), open(&parts[1])];
-        let growth = self.growth.after(open(self), counts);
-        parts.iter_mut().for_each(|part| part.growth = growth);
-        Ok(Some(parts))
-    }
-
-    fn narrowed(
-        &self,
-        primitives: &Primitives<'_>,
-        tile: Tile,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let around = |item: u32| primitives.items[item as usize].around;
-        let reaches = self.reaches.narrowed(&primitives.lines, &tile.sides(), around, watch)?;
-        Ok(Self { tile, reaches, growth: Growth::NONE })
-    }
-
-    /// Adds the pairs of the tile.
-    fn leaf(
-        &self,
-        primitives: &Primitives<'_>,
-        found: &mut Found,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error> {
-        let mut add = |below: u32, above: u32| add(found, Pair { below, above });
-        let lines = &primitives.lines;
-        // The last item that covers the tile, and those behind it so far, with what they cover.
-        let mut cover: Option<u32> = None;
-        let mut behind: Vec<(u32, Cell)> = Vec::new();
-        for reach in &self.reaches.list {
-            watch.work(CUT)?;
-            let item = reach.number;
-            if reach.covers() {
-                if let (Some(cover), true) = (cover, behind.is_empty()) {
-                    add(item, cover);
-                }
-                for (above, _) in behind.drain(..) {
-                    add(item, above);
-                }
-                cover = Some(item);
-                continue;
-            }
-            let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
-            let halves = self.reaches.halves_of(reach);
-            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
-            if let Some(cover) = cover {
+/// Adds the pairs of a part of the picture.
+fn add_overlaps(
+    part: &SubTile<'_, '_>,
+    primitives: &Primitives<'_>,
+    found: &mut Found,
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+    // The last item that covers the part, and those behind it so far.
+    let mut cover: Option<u32> = None;
+    let mut behind: Vec<&Visible> = Vec::new();
+    for piece in &part.pieces {
+        let (item, face) = (piece.item, primitives.face(piece.item));
+        watch.work(behind.len() * CUT)?;
+        if part.is_covered_by(piece) {
+            if let (Some(cover), true) = (cover, behind.is_empty()) {
                 add(item, cover);
             }
-            let face = |item: u32| primitives.face(item);
-            for part in each(watch, CUT, &behind) {
-                let (above, other) = part?;
-                if face(*above) != face(item) && other.meets(lines, halves, watch)? {
-                    add(item, *above);
-                }
-            }
-            behind.push((item, cell));
+            behind.drain(..).for_each(|above| add(item, above.item));
+            cover = Some(item);
+            continue;
         }
-        Ok(())
+        if let Some(cover) = cover {
+            add(item, cover);
+        }
+        let halves: SmallVec<[HalfPlane; 8]> =
+            piece.cell.sides.iter().map(|side| side.half).collect();
+        for above in &behind {
+            if primitives.face(above.item) != face
+                && above.cell.meets(&primitives.lines, &halves, watch)?
+            {
+                add(item, above.item);
+            }
+        }
+        behind.push(piece);
     }
+    Ok(())
 }
 
 /// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
