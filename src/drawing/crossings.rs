@@ -3,18 +3,17 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
-use smallvec::SmallVec;
 
 use super::cell::Cell;
 use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::exact_lines::compare;
-use super::lines::{HalfPlane, LineTable, Table};
+use super::lines::{HalfPlane, Table};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
-use super::primitives::{Primitives, View};
+use super::primitives::Primitives;
 use super::sight::{Depths, Passing, ProjectedSegment, in_layers, parts};
-use super::tile::{CUT, Growth, LINES, NARROWED, VISITED, found_in};
+use super::tile::{CUT, Growth, NARROWED, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -81,13 +80,13 @@ impl VisibilityMap<'_> {
 
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
+            let inner = InnerEdges::of(self.primitives.lines.frame.faces);
             let common = self.common_sides(&inner, watch)?;
             let mut runs = Vec::new();
             for line in common.chunk_by(|a, b| a.line == b.line) {
                 let first = runs.len();
-                for side in each(watch, VISITED, line) {
-                    runs.push(self.run(side?));
+                for side in line {
+                    runs.push(self.run(side));
                 }
                 merge(&mut runs, first, watch)?;
             }
@@ -113,8 +112,7 @@ impl VisibilityMap<'_> {
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
-                for b in each(watch, VISITED, ahead) {
-                    let b = b?;
+                for b in ahead {
                     if b.is_negative != a.is_negative
                         && self.do_cross(a, b, inner, &mut are_crossing)
                     {
@@ -167,8 +165,7 @@ impl VisibilityMap<'_> {
     /// The lines of edges inside polygons.
     fn bends(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Table<HalfPlane, ()>, Error> {
         let mut bends = Table::default();
-        for outline in each(watch, 1, self.outlines()) {
-            let (face, halves) = outline?;
+        for (face, halves) in self.outlines() {
             for (k, half) in (0..).zip(halves) {
                 if inner.across((face, k)).is_some() {
                     watch.work(VISITED)?;
@@ -187,8 +184,7 @@ impl VisibilityMap<'_> {
         watch: &Watch<'_>,
     ) -> Result<Table<(u32, HalfPlane), Option<FaceEdge>>, Error> {
         let mut edges = Table::default();
-        for outline in each(watch, 1, self.outlines()) {
-            let (face, halves) = outline?;
+        for (face, halves) in self.outlines() {
             for (k, half) in (0..).zip(halves) {
                 watch.work(VISITED)?;
                 let line = half.positive();
@@ -276,8 +272,7 @@ fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(),
     let mut rest = runs.split_off(first);
     let key = |run: &EdgeRun| (run.polygon, other(run));
     sort_by(&mut rest, watch, |a, b| key(a).cmp(&key(b)))?;
-    for run in each(watch, 1, rest) {
-        let run = run?;
+    for run in rest {
         let goes_on = |before: &&mut EdgeRun| {
             (before.polygon, before.kind) == (run.polygon, run.kind)
                 && gap(before, &run) <= SHORTEST
@@ -311,8 +306,8 @@ impl VisibilityMap<'_> {
         self.reporter.watch(5, |watch| {
             let (crossings, shown) = self.all_crossings(watch)?;
             let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());
-            for crossing in each(watch, VISITED, &crossings) {
-                sights.push(crossing?.sight);
+            for crossing in &crossings {
+                sights.push(crossing.sight);
             }
             let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
             let faces = self.primitives.lines.frame.faces;
@@ -325,13 +320,13 @@ impl VisibilityMap<'_> {
     /// All crossings in the picture, and what shows of them, by their faces: four phases.
     fn all_crossings(&self, watch: &Watch<'_>) -> Result<(Vec<Crossing>, Vec<CommonSide>), Error> {
         let primitives = &self.primitives;
-        let inner = InnerEdges::of(primitives.lines.frame.faces, watch)?;
+        let inner = InnerEdges::of(primitives.lines.frame.faces);
         let mut shown = self.common_sides(&inner, watch)?;
         sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
         let mut pairs = straddling(primitives, &inner, watch)?;
         // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
-        for side in each(watch, VISITED, &shown) {
-            let [below, above] = side?.faces;
+        for side in &shown {
+            let [below, above] = side.faces;
             pairs.push(Pair { below, above });
         }
         sort_unique(&mut pairs, watch)?;
@@ -348,14 +343,13 @@ impl VisibilityMap<'_> {
     ) -> Result<Vec<EdgeRun>, Error> {
         let faces = self.primitives.lines.frame.faces;
         let (mut runs, mut visible) = (Vec::new(), Vec::new());
-        for numbered in each(watch, VISITED, crossings.iter().enumerate()) {
-            let (i, crossing) = numbered?;
+        for (i, crossing) in crossings.iter().enumerate() {
             let sight = &crossing.sight;
             let first = shown.partition_point(|side| side.faces < crossing.faces);
             let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
             visible.clear();
-            for side in each(watch, VISITED, own) {
-                let [a, b] = side?.ends.map(|end| sight.course.place_on(end));
+            for side in own {
+                let [a, b] = side.ends.map(|end| sight.course.place_on(end));
                 visible.push([a.min(b), a.max(b)]);
             }
             sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
@@ -386,77 +380,48 @@ fn crossings_of(
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
-    // With the lines in which the faces cut one another.
-    let mut lines = primitives.lines.clone();
-    let mut cuts = Vec::with_capacity(pairs.len());
-    for pair in each(watch, LINES, pairs) {
-        let Pair { below, above } = *pair?;
-        let View { is_positive, .. } = primitives.views[below as usize];
-        let is_bent = inner.bend(primitives.lines.frame.faces, [below, above]).is_some();
-        let cut = || lines.cut(below, PlaneId::face(above), true, is_positive);
-        cuts.push((!is_bent).then(cut).transpose()?);
-    }
-    let lines = &lines;
-    let shares: Vec<_> = pairs.chunks(SHARE).zip(cuts.chunks(SHARE)).enumerate().collect();
+    let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
     let count = shares.len();
-    let share = |(i, (pairs, cuts)): (usize, (&[Pair], &[Option<HalfPlane>]))| {
+    let share = |(i, pairs): (usize, &[Pair])| {
         let mut found = Vec::new();
-        for (&Pair { below, above }, &cut) in pairs.iter().zip(cuts) {
+        for &Pair { below, above } in pairs {
             let faces = [below, above];
             let corners: usize = faces.map(|face| primitives.edges_work(face)).iter().sum();
             watch.work(CUT + corners)?;
-            let sight = match (cut, inner.bend(primitives.lines.frame.faces, faces)) {
-                (Some(cut), _) => straight(faces, cut, primitives, lines, watch)?,
-                (None, Some(bend)) => bent(&bend, primitives, lines, watch)?,
-                (None, None) => None,
+            let sight = match inner.bend(primitives.lines.frame.faces, faces) {
+                Some(bend) => bent(&bend, primitives, watch)?,
+                None => straight(faces, primitives, watch)?,
             };
-            if let Some(sight) = sight {
-                found.push(Crossing { faces, sight });
-            }
+            found.extend(sight.map(|sight| Crossing { faces, sight }));
         }
         finish_item(watch, i, count);
         Ok(found)
     };
-    let mut all = Vec::new();
-    for mut found in parallel_map::map(shares, share)? {
-        all.reserve(found.len());
-        all.append(&mut found);
-    }
-    Ok(all)
+    Ok(parallel_map::map(shares, share)?.into_iter().flatten().collect())
 }
 
 /// Where two faces go through one another: where both are in the picture, the line along which they are as far
 /// away.
 fn straight(
-    [one, other]: [u32; 2],
-    cut: HalfPlane,
+    faces: [u32; 2],
     primitives: &Primitives<'_>,
-    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
-    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(primitives.outline(one));
-    halves.extend_from_slice(primitives.outline(other));
-    let Some(common) = Cell::picture(lines).within(lines, &halves, None, watch)? else {
-        return Ok(None);
-    };
-    if !common.meets(lines, &[cut.flipped(true)], watch)? {
-        return Ok(None);
-    }
-    let Some(Cell { sides }) = common.within(lines, &[cut], None, watch)? else { return Ok(None) };
-    let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
-    let next = if i + 1 == sides.len() { 0 } else { i + 1 };
-    Ok(ProjectedSegment::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
+    let lines = &primitives.lines;
+    let halves = faces.map(|face| primitives.outline(face)).concat();
+    let common = Cell::picture(lines).within(lines, &halves, None, watch)?;
+    Ok(common.and_then(|common| ProjectedSegment::crossing(lines, faces, &common)))
 }
 
 /// Where a face goes through a polygon along an edge inside it.
 fn bent(
     bend: &Bend,
     primitives: &Primitives<'_>,
-    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
-    let faces = primitives.lines.frame.faces;
+    let lines = &primitives.lines;
+    let faces = lines.frame.faces;
     let sight = ProjectedSegment::new(lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
     let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
@@ -497,8 +462,7 @@ pub(super) fn straddling(
     let boxes: Vec<Aabb> =
         ((0..faces.len() as u32).map(|face| aabb(faces.corners(face)))).collect();
     let (mut seen, mut all) = (Vec::new(), NOTHING);
-    for face in each(watch, 1, 0..faces.len() as u32) {
-        let face = face?;
+    for face in 0..faces.len() as u32 {
         if primitives.sees(face) {
             seen.push(face);
             all = around(all, boxes[face as usize]);
@@ -603,14 +567,14 @@ pub(super) struct Bend {
 }
 
 impl InnerEdges {
-    pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
+    pub(super) fn of(faces: &Faces) -> Self {
         let mut across = Table::default();
         // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
         // outline's on the other side.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
-            for numbered in each(watch, VISITED, &faces.numbered) {
-                let face = numbered?.0;
+            for numbered in &faces.numbered {
+                let face = numbered.0;
                 let edges = 0..faces.corners(face).len() as u32;
                 for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
                     let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
@@ -628,7 +592,7 @@ impl InnerEdges {
                 }
             }
         }
-        Ok(Self(across))
+        Self(across)
     }
 
     /// The face on the other side of an edge, and which of its edges it is.

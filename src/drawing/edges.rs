@@ -50,8 +50,7 @@ impl VisibilityMap<'_> {
         self.reporter.watch(2, |watch| {
             let list = self.edge_runs(watch)?.list;
             let mut runs = Vec::with_capacity(list.len());
-            for run in each(watch, 1, list) {
-                let (run, _) = run?;
+            for (run, _) in list {
                 if run.is_visible || hidden == Hidden::Keep {
                     runs.push(run);
                 }
@@ -69,8 +68,7 @@ impl VisibilityMap<'_> {
         self.collect(&mut edges, &numbers, watch)?;
         let count = edges.len();
         let mut list = Vec::with_capacity(count);
-        for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
-            let (number, edge) = numbered?;
+        for (number, edge) in edges.iter_mut().enumerate() {
             if let Some(course) = edge.course {
                 let first = list.len();
                 sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
@@ -94,8 +92,7 @@ impl VisibilityMap<'_> {
         // Which edges of a face lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         let faces = primitives.lines.frame.faces;
-        for face in each(watch, VISITED, 0..faces.len() as u32) {
-            let face = face?;
+        for face in 0..faces.len() as u32 {
             let corners = 0..faces.corners(face).len() as u32;
             for (k, half) in corners.zip(self.primitives.outline(face)) {
                 watch.work(VISITED)?;
@@ -206,11 +203,10 @@ pub(super) fn shared_edges(
         Ok(*points.entry(place).or_insert(next))
     };
     let mut by_points: Table<[u32; 2], u32> = Table::default();
-    let inner = InnerEdges::of(faces, watch)?;
+    let inner = InnerEdges::of(faces);
     let mut numbers = Numbers::default();
     let mut all: Vec<SharedEdge> = Vec::new();
-    for face in each(watch, VISITED, 0..faces.len() as u32) {
-        let face = face?;
+    for face in 0..faces.len() as u32 {
         if !is_drawn(face) {
             continue;
         }
@@ -379,8 +375,7 @@ impl VisibilityMap<'_> {
             let passes = self.in_front(Passing::new(&sights, &[]), true, watch)?.segments;
             let depths = Depths::new(sights.len(), &passes, faces, is_own, watch)?;
             let mut layered = Vec::new();
-            for run in each(watch, VISITED, &list) {
-                let (run, number) = run?;
+            for (run, number) in &list {
                 let place = places[*number as usize] as usize;
                 let known = sights.get(place).map(|sight| (sight, depths.of(place)));
                 for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {

@@ -1,6 +1,5 @@
 //! Joining pieces of polygons while an order of them is left.
 
-use super::map::each;
 use super::order::Pair;
 use super::tile::VISITED;
 use crate::Error;
@@ -36,16 +35,21 @@ enum Way {
 
 impl Groups {
     /// Each node by itself, in the order of their numbers: of each pair, `below` is the lower number.
-    pub(super) fn new(nodes: usize, pairs: &[Pair], watch: &Watch<'_>) -> Result<Self, Error> {
+    pub(super) fn new(nodes: usize, pairs: impl Iterator<Item = Pair>) -> Self {
         let numbers: Vec<u32> = (0..nodes as u32).collect();
         let (mut after, mut before) = (vec![vec![]; nodes], vec![vec![]; nodes]);
-        for pair in each(watch, VISITED, pairs) {
-            let pair = pair?;
-            after[pair.below as usize].push(pair.above);
-            before[pair.above as usize].push(pair.below);
+        for Pair { below, above } in pairs {
+            after[below as usize].push(above);
+            before[above as usize].push(below);
         }
-        let leader = numbers.clone();
-        Ok(Self { leader, place: numbers, after, before, met: vec![0; nodes], search: 0 })
+        Self {
+            leader: numbers.clone(),
+            place: numbers,
+            after,
+            before,
+            met: vec![0; nodes],
+            search: 0,
+        }
     }
 
     /// The group of a node, by one of its nodes.
@@ -70,10 +74,8 @@ impl Groups {
         let (a, b) = if self.place[a as usize] < self.place[b as usize] { (a, b) } else { (b, a) };
         if self.bring_together(a, b, BUDGET, watch)? {
             self.unite(a, b);
-            Ok(())
-        } else {
-            Ok(())
         }
+        Ok(())
     }
 
     /// Adds a pair of nodes, unless `above` has to come before `below`. Whether it was added. The search has no
@@ -212,7 +214,7 @@ mod tests {
             for above in 1..nodes as u32 {
                 pairs.extend((0..below(4)).map(|_| Pair { below: below(above.into()), above }));
             }
-            let mut groups = Groups::new(nodes, &pairs, &Watch::default()).unwrap();
+            let mut groups = Groups::new(nodes, pairs.iter().copied());
             for _ in 0..3 * nodes {
                 let [a, b] = [below(nodes as u64), below(nodes as u64)];
                 let [one, other] = [groups.group(a), groups.group(b)];
@@ -242,7 +244,7 @@ mod tests {
         for round in 0..300 {
             let nodes = 2 + round % 14;
             let mut below = |most: u64| (random.next() % most) as u32;
-            let mut groups = Groups::new(nodes, &[], &Watch::default()).unwrap();
+            let mut groups = Groups::new(nodes, std::iter::empty());
             let mut pairs: Vec<[u32; 2]> = vec![];
             for _ in 0..3 * nodes {
                 let [a, b] = [below(nodes as u64), below(nodes as u64)];
@@ -272,7 +274,7 @@ mod tests {
             // The first comes before all but the last.
             let last = between as u32 + 1;
             let pairs: Vec<Pair> = (1..last).map(|above| Pair { below: 0, above }).collect();
-            let mut groups = Groups::new(between + 2, &pairs, &Watch::default()).unwrap();
+            let mut groups = Groups::new(between + 2, pairs.into_iter());
             groups.join(0, last, &Watch::default()).unwrap();
             assert_eq!(groups.group(0) == groups.group(last), expected, "{between}");
         }

@@ -130,8 +130,7 @@ pub(super) fn order_by_rank(
     sort_unique(&mut ends, watch)?;
     let node_of_end = |end: usize| (count + end) as u32;
     let mut all = around.clone();
-    for ranked in each(watch, VISITED, (0..).zip(ranks)) {
-        let (node, ranks) = ranked?;
+    for (node, ranks) in (0..).zip(ranks) {
         let end = ends.partition_point(|&end| end < ranks.all[1]);
         all.push(Pair { below: node, above: node_of_end(end) });
         let before = ends.partition_point(|&end| end < ranks.shown[0]);
@@ -146,14 +145,7 @@ pub(super) fn order_by_rank(
     let components = cycles(of_nodes.len(), &all, watch)?;
     let component = |node: u32| components[node as usize];
     let group = |node: u32| component(node).unwrap_or(node);
-    let mut between = Vec::with_capacity(all.len());
-    for pair in each(watch, 1, &all) {
-        let pair = pair?.map(group);
-        if pair.below != pair.above {
-            between.push(pair);
-        }
-    }
-    sort_unique(&mut between, watch)?;
+    let between = contracted(all.iter(), group, watch)?;
     let outer = order(of_nodes.len(), &between, &of_nodes, &|_| true, watch)?.order;
     if (0..count as u32).all(|node| component(node).is_none()) {
         let order = outer.into_iter().filter(|&node| (node as usize) < count).collect();
@@ -172,8 +164,7 @@ pub(super) fn order_by_rank(
     let Ordered { mut order, is_clipped } =
         order(count, &within, &of_nodes[..count], &|_| true, watch)?;
     let mut positions: Vec<u32> = vec![0; of_nodes.len()];
-    for placed in each(watch, 1, (0..).zip(&outer)) {
-        let (position, &group) = placed?;
+    for (position, &group) in (0..).zip(&outer) {
         positions[group as usize] = position;
     }
     // Stable: within a component, the order of its own pairs.
@@ -221,12 +212,11 @@ impl Graph<'_> {
     /// The number of pairs within the component that end at a node, times that of those that begin.
     fn degrees(&mut self, nodes: &[u32]) -> Result<Vec<(u64, u32)>, Error> {
         let mut counts = std::mem::take(&mut self.search.counts);
-        for node in each(self.watch, 1, nodes) {
-            counts[*node? as usize] = [0; 2];
+        for &node in nodes {
+            counts[node as usize] = [0; 2];
         }
         let of = |node: u32| self.component[node as usize];
-        for node in each(self.watch, VISITED, nodes) {
-            let node = *node?;
+        for &node in nodes {
             for above in each(self.watch, 1, self.above(node)) {
                 let above = above?;
                 if of(above) == of(node) && self.holds(Pair { below: node, above }) {
@@ -237,8 +227,7 @@ impl Graph<'_> {
         }
         let product = |node: u32| counts[node as usize].map(u64::from).into_iter().product();
         let mut degrees = Vec::with_capacity(nodes.len());
-        for node in each(self.watch, 1, nodes) {
-            let node = *node?;
+        for &node in nodes {
             degrees.push((product(node), node));
         }
         self.search.counts = counts;
@@ -247,8 +236,8 @@ impl Graph<'_> {
 
     /// Takes back those of the clipped nodes that close no cycle: all cycles are within `nodes`.
     fn give_back(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
-        for node in each(self.watch, 1, nodes) {
-            self.component[*node? as usize] = nodes[0];
+        for &node in nodes {
+            self.component[node as usize] = nodes[0];
         }
         sort_by(&mut clipped, self.watch, |&a, &b| self.above_count(a).cmp(&self.above_count(b)))?;
         let pairs: usize = nodes.iter().map(|&node| self.above_count(node) as usize).sum();
@@ -258,8 +247,8 @@ impl Graph<'_> {
                 self.is_clipped[node as usize] = false;
             }
         }
-        for node in each(self.watch, 1, nodes) {
-            self.component[*node? as usize] = NONE;
+        for &node in nodes {
+            self.component[node as usize] = NONE;
         }
         Ok(())
     }
@@ -303,8 +292,7 @@ impl Graph<'_> {
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
         let mut waits: Vec<u32> = vec![0; nodes];
-        for pair in each(self.watch, 1, self.pairs) {
-            let pair = *pair?;
+        for &pair in self.pairs {
             waits[pair.above as usize] += u32::from(self.holds(pair));
         }
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
@@ -376,18 +364,15 @@ impl<'p> Graph<'p> {
         watch: &'p Watch<'p>,
     ) -> Result<Self, Error> {
         let mut starts = vec![0; nodes + 1];
-        for pair in each(watch, 1, pairs) {
-            let pair = pair?;
+        for pair in pairs {
             starts[pair.below as usize + 1] += 1;
         }
-        for node in each(watch, 1, 0..nodes) {
-            let node = node?;
+        for node in 0..nodes {
             starts[node + 1] += starts[node];
         }
         let (is_clipped, component) = (vec![false; nodes], vec![NONE; nodes]);
         let mut is_seen_through = vec![false; nodes];
-        for pair in each(watch, 1, pairs) {
-            let pair = pair?;
+        for pair in pairs {
             is_seen_through[pair.below as usize] |= !is_opaque(pair.above);
         }
         let (number, least) = (vec![NONE; nodes], vec![NONE; nodes]);
@@ -424,13 +409,12 @@ impl Graph<'_> {
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
         let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
-        for node in each(self.watch, 1, nodes) {
-            number[*node? as usize] = UNMET;
+        for &node in nodes {
+            number[node as usize] = UNMET;
         }
         let (mut stack, mut path, mut found) = (Vec::new(), Vec::new(), Vec::new());
         let mut next = 0;
-        for root in each(self.watch, 1, nodes) {
-            let root = *root?;
+        for &root in nodes {
             if number[root as usize] != UNMET {
                 continue;
             }
@@ -473,8 +457,7 @@ impl Graph<'_> {
                 if least[v] == number[v] {
                     let place = stack.iter().rposition(|&w| w as usize == v).unwrap_or(0);
                     let nodes = stack.split_off(place);
-                    for w in each(self.watch, 2, &nodes) {
-                        let w = *w?;
+                    for &w in &nodes {
                         is_on_stack[w as usize] = false;
                         self.component[w as usize] = if nodes.len() > 1 { v as u32 } else { NONE };
                     }
@@ -484,8 +467,8 @@ impl Graph<'_> {
                 }
             }
         }
-        for node in each(self.watch, 1, nodes) {
-            number[*node? as usize] = NONE;
+        for &node in nodes {
+            number[node as usize] = NONE;
         }
         Ok(found)
     }
@@ -570,8 +553,7 @@ impl LeafLists<'_, '_> {
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
         for Leaf { tile, cells } in *leaves {
-            for visible in each(watch, VISITED, cells) {
-                let visible = visible?;
+            for visible in cells {
                 let face = primitives.face(visible.item);
                 watch.work(primitives.edges_work(face))?;
                 if is_whole(primitives, tile, visible) {
@@ -702,13 +684,19 @@ pub(super) fn add(found: &mut Found, pair: Pair) {
 
 /// All pairs of several sets, sorted, each once.
 pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
-    let mut pairs = Vec::new();
-    for part in parts {
-        pairs.reserve(part.len());
-        for pair in each(watch, 1, part) {
-            pairs.push(pair?);
-        }
-    }
+    let mut pairs: Vec<Pair> = parts.into_iter().flatten().collect();
+    sort_unique(&mut pairs, watch)?;
+    Ok(pairs)
+}
+
+/// The pairs between what nodes belong to, sorted, each once.
+pub(super) fn contracted<'p>(
+    pairs: impl Iterator<Item = &'p Pair>,
+    of: impl Fn(u32) -> u32,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let pairs = pairs.map(|pair| pair.map(&of));
+    let mut pairs: Vec<Pair> = pairs.filter(|pair| pair.below != pair.above).collect();
     sort_unique(&mut pairs, watch)?;
     Ok(pairs)
 }

@@ -220,11 +220,10 @@ impl Between {
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.point == number));
             rest = others;
             let mut passed = Passed::new();
-            for pass in each(watch, VISITED, own) {
-                let pass = pass?;
+            for pass in own {
                 passed.insert((pass.is_behind, places[pass.piece as usize], pass.piece), 1);
             }
-            add_missed(&passed, &mut missed, watch)?;
+            add_missed(&passed, &mut missed);
             let below = Room::between(&passed, count).most;
             placed.push((below, Overlaid::Marker(*marker)));
         }
@@ -275,18 +274,17 @@ fn outermost(passed: &Passed) -> [Option<Key>; 2] {
 /// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
 /// and does not; and of what is first of all that has to come after, and all that has to come before and does
 /// not.
-fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
-    let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
+fn add_missed(passed: &Passed, missed: &mut Found) {
+    let [Some(below), Some(above)] = outermost(passed) else { return };
     if above.1 >= below.1 {
-        return Ok(());
+        return;
     }
-    for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
-        add(missed, Pair { below: below.2, above: early?.0.2 });
+    for early in passed.range((true, 0, 0)..(true, below.1, 0)) {
+        add(missed, Pair { below: below.2, above: early.0.2 });
     }
-    for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
-        add(missed, Pair { below: late?.0.2, above: above.2 });
+    for late in passed.range((false, above.1 + 1, 0)..(true, 0, 0)) {
+        add(missed, Pair { below: late.0.2, above: above.2 });
     }
-    Ok(())
 }
 
 /// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
@@ -301,8 +299,7 @@ fn in_order(
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.
     let mut events = Vec::new();
-    for pass in each(watch, VISITED, passes) {
-        let pass = pass?;
+    for pass in passes {
         let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
         for (at, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
             events.push((at, key, change));
@@ -316,7 +313,7 @@ fn in_order(
     for numbered in each(watch, 2 * VISITED, stops.chain([ends[1]]).enumerate()) {
         let (i, to) = numbered?;
         if to - done >= SHORTEST {
-            add_missed(&passed, missed, watch)?;
+            add_missed(&passed, missed);
             let next = Room::between(&passed, count);
             if let Some(common) = room.common(next) {
                 room = common;

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::exact_lines::Frame;
 use super::lines::{HalfPlane, LineTable};
-use super::map::{each, finish_item};
+use super::map::finish_item;
 use super::tile::{LINES, Tile};
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
@@ -82,10 +82,8 @@ impl<'t> Primitives<'t> {
         }
         let faces = tree.faces();
         let frame = Frame { rays, faces };
-        let mut order = Vec::with_capacity(tree.len());
-        for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {
-            order.push(fragment?.index());
-        }
+        let order = tree.order(frame.rays.viewpoint()).front_to_back();
+        let order: Vec<u32> = order.into_iter().map(|fragment| fragment.index()).collect();
         let lines = LineTable::new(frame);
         let mut primitives =
             Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
@@ -230,16 +228,9 @@ impl<'t> Primitives<'t> {
         !is_empty(&self.views[face as usize].around)
     }
 
-    /// A number above those of all polygons that the picture may show.
-    pub(super) fn polygons_end(&self, watch: &Watch<'_>) -> Result<usize, Error> {
-        let mut end = 0;
-        for face in each(watch, 1, 0..self.views.len() as u32) {
-            let face = face?;
-            if self.sees(face) {
-                end = end.max(self.lines.frame.faces.polygon(face) + 1);
-            }
-        }
-        Ok(end)
+    /// How many polygons the tree was built of.
+    pub(super) fn polygon_count(&self) -> usize {
+        self.tree.preparation().polygons
     }
 
     /// To look at all edges of a face takes as long as a build takes to examine so many pieces; 0 for faces of few

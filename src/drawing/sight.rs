@@ -79,17 +79,13 @@ impl ProjectedSegment {
         Some(segment)
     }
 
-    /// The line in which two faces go through one another, between these points of the picture.
-    pub(super) fn crossing(
-        lines: &LineTable<'_>,
-        faces: [u32; 2],
-        ends: [[f64; 2]; 2],
-    ) -> Option<Self> {
+    /// The line in which two faces go through one another, as far as it divides a cell.
+    pub(super) fn crossing(lines: &LineTable<'_>, faces: [u32; 2], cell: &Cell) -> Option<Self> {
         let rounded = lines.rounded_other(&cut(lines, faces));
         let mut segment = Self::along(rounded, Source::Crossing(faces))?;
-        let [a, b] = ends.map(|end| segment.course.place(end));
-        segment.limit([a.min(b), a.max(b)]);
-        ((a - b).abs() >= SHORTEST).then_some(segment)
+        segment.course.places = ALL;
+        let is_divided = beside(&segment.signs(lines, cell)).is_eq();
+        segment.within(segment.chord(lines, cell).filter(|_| is_divided)?)
     }
 
     /// As much of it as lies between two places.
