@@ -12,7 +12,7 @@ use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique}
 use super::order::{Found, Pair, add, sorted};
 use super::pen::distance;
 use super::primitives::Primitives;
-use super::sight::{Depths, Passing, ProjectedSegment, in_layers, parts};
+use super::sight::{ProjectedSegment, parts};
 use super::tile::{CUT, Growth, NARROWED, VISITED, found_in};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
@@ -70,11 +70,8 @@ impl VisibilityMap<'_> {
     pub fn crossings(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         match hidden {
             Hidden::Skip => self.visible_crossings(),
-            Hidden::Keep => self.reporter.watch(4, |watch| {
-                let (crossings, shown) = self.all_crossings(watch)?;
-                self.crossing_runs(&crossings, &shown, None, watch)
-            }),
-            Hidden::Count => self.crossings_in_layers(),
+            Hidden::Keep => self.all_crossings(4, hidden),
+            Hidden::Count => self.all_crossings(5, hidden),
         }
     }
 
@@ -302,74 +299,43 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(5, |watch| {
-            let (crossings, shown) = self.all_crossings(watch)?;
-            let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());
-            for crossing in &crossings {
-                sights.push(crossing.sight);
-            }
-            let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
-            let faces = self.primitives.lines.frame.faces;
-            let passes = self.in_front(Passing::new(&sights, &[]), true, watch)?.segments;
-            let depths = Depths::new(sights.len(), &passes, faces, is_own, watch)?;
-            self.crossing_runs(&crossings, &shown, Some(&depths), watch)
-        })
-    }
-
-    /// All crossings in the picture, and what shows of them, by their faces: four phases.
-    fn all_crossings(&self, watch: &Watch<'_>) -> Result<(Vec<Crossing>, Vec<CommonSide>), Error> {
-        let primitives = &self.primitives;
-        let inner = InnerEdges::of(primitives.lines.frame.faces);
-        let mut shown = self.common_sides(&inner, watch)?;
-        sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
-        let mut pairs = straddling(primitives, &inner, watch)?;
-        // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
-        for side in &shown {
-            let [below, above] = side.faces;
-            pairs.push(Pair { below, above });
-        }
-        sort_unique(&mut pairs, watch)?;
-        Ok((crossings_of(&pairs, primitives, &inner, watch)?, shown))
-    }
-
-    /// The runs of crossings, with how many polygons are in front of each if that is known.
-    fn crossing_runs(
-        &self,
-        crossings: &[Crossing],
-        shown: &[CommonSide],
-        depths: Option<&Depths>,
-        watch: &Watch<'_>,
-    ) -> Result<Vec<EdgeRun>, Error> {
-        let faces = self.primitives.lines.frame.faces;
-        let (mut runs, mut visible) = (Vec::new(), Vec::new());
-        for (i, crossing) in crossings.iter().enumerate() {
-            let sight = &crossing.sight;
-            let first = shown.partition_point(|side| side.faces < crossing.faces);
-            let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
-            visible.clear();
-            for side in own {
-                let [a, b] = side.ends.map(|end| sight.course.place_on(end));
-                visible.push([a.min(b), a.max(b)]);
-            }
-            sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-            let [a, b] = crossing.faces.map(|face| faces.polygon(face));
-            let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
-            for (ends, is_visible) in parts(&sight.course, visible.iter().copied()) {
-                let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
-                let Some(depths) = depths else {
-                    runs.push(run);
-                    continue;
-                };
-                for (ends, layers) in
-                    in_layers(ends, is_visible, Some((sight, depths.of(i))), watch)?
-                {
-                    runs.push(EdgeRun { ends, layers: Some(layers), ..run });
+    /// The runs of all crossings in the picture, in so many phases.
+    fn all_crossings(&self, phases: usize, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
+        self.reporter.watch(phases, |watch| {
+            let primitives = &self.primitives;
+            let faces = primitives.lines.frame.faces;
+            let inner = InnerEdges::of(faces);
+            let mut shown = self.common_sides(&inner, watch)?;
+            sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
+            let mut pairs = straddling(primitives, &inner, watch)?;
+            // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+            let of_shown = shown.iter().map(|side| side.faces);
+            pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
+            sort_unique(&mut pairs, watch)?;
+            let crossings = crossings_of(&pairs, primitives, &inner, watch)?;
+            let (mut list, mut visible) = (Vec::new(), Vec::new());
+            for (number, crossing) in (0..).zip(&crossings) {
+                let course = &crossing.sight.course;
+                let first = shown.partition_point(|side| side.faces < crossing.faces);
+                let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
+                visible.clear();
+                visible.extend(own.map(|side| {
+                    let [a, b] = side.ends.map(|end| course.place_on(end));
+                    [a.min(b), a.max(b)]
+                }));
+                sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
+                let [a, b] = crossing.faces.map(|face| faces.polygon(face));
+                let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
+                for (ends, is_visible) in parts(course, visible.iter().copied()) {
+                    let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
+                    list.push((run, number));
                 }
             }
-        }
-        sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
-        Ok(runs)
+            sort_by(&mut list, watch, |(a, _), (b, _)| a.polygon.cmp(&b.polygon))?;
+            let segment = |number: u32| Some(crossings[number as usize].sight);
+            let is_own = |number: u32, face: u32| crossings[number as usize].faces.contains(&face);
+            self.runs(list, hidden, segment, is_own, watch)
+        })
     }
 }
 
@@ -469,7 +435,7 @@ pub(super) fn straddling(
         }
     }
     let all = Block { bounds: all, faces: seen, growth: Growth::NONE };
-    let halves = |block: &Block, _: &mut Found| block.halves(&boxes, watch);
+    let halves = |block: &Block| block.halves(&boxes, watch);
     let leaf = |block: &Block, found: &mut Found| {
         for (i, &a) in block.faces.iter().enumerate() {
             for b in each(watch, NARROWED, &block.faces[i + 1..]) {
@@ -489,7 +455,7 @@ pub(super) fn straddling(
         }
         Ok(())
     };
-    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+    sorted(found_in(all, halves, leaf, watch)?, watch)
 }
 
 impl Faces {

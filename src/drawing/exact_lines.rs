@@ -103,12 +103,6 @@ impl Frame<'_> {
         Sheet { kappa, phi: [first, right, down].map(|v| plane.along(v)) }
     }
 
-    /// The side of a face's plane from which rays come; `Equal` if they run along it.
-    pub(super) fn seen_side(&self, face: u32) -> Ordering {
-        let side = self.sheet(PlaneId::face(face)).side();
-        if self.rays.is_perspective() { side } else { side.reverse() }
-    }
-
     /// Where a lattice point is in the picture.
     pub(super) fn image(&self, point: [f64; 3]) -> Image {
         let Rays { base, right, down, pencil, .. } = self.rays;

@@ -286,7 +286,7 @@ pub(super) fn visible<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<Leaf>, Error> {
-    let halves = |list: &TileList<'p>, _: &mut Vec<Leaf>| {
+    let halves = |list: &TileList<'p>| {
         let is_leaf = list.candidates.list.len() <= SHORT || list.is_small(TINY);
         (!is_leaf).then(|| list.halves(watch)).transpose()
     };
@@ -298,7 +298,7 @@ pub(super) fn visible<'p>(
     };
     let items = Candidates::items(primitives, |_| true)?.ending_at_covers();
     let all = TileList::picture(&items, watch)?;
-    let parts = found_in(all, Vec::new, halves, leaf, watch)?;
+    let parts = found_in(all, halves, leaf, watch)?;
     Ok(parts.into_iter().flatten().collect())
 }
 

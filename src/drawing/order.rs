@@ -516,11 +516,11 @@ pub(super) fn pairs<'l, 'p>(
         opaque: Candidates::faces(primitives, |face| is_opaque(face) && shows(face))?,
         translucent: Candidates::items(primitives, is_seen_through)?,
     };
-    let halves = |part: &LeafLists<'l, 'p>, _: &mut Found| part.halves(watch);
+    let halves = |part: &LeafLists<'l, 'p>| part.halves(watch);
     let leaf = |part: &LeafLists<'l, 'p>, found: &mut Found| {
         part.leaf(primitives, place, wanted, found, watch)
     };
-    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+    sorted(found_in(all, halves, leaf, watch)?, watch)
 }
 
 impl LeafLists<'_, '_> {

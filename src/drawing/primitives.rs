@@ -1,5 +1,7 @@
 //! What a picture is made of: pieces of faces, front to back, and the lines that bound them.
 
+use std::cmp::Ordering;
+
 use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
@@ -32,8 +34,8 @@ pub(super) struct Item {
 pub(super) struct View {
     /// A box around what of it is in the picture; an empty one if the picture shows nothing of it.
     pub(super) around: Rect,
-    /// Whether the κ of its plane is positive.
-    pub(super) is_positive: bool,
+    /// The side of its plane that the rays come from: `Greater` is its front, `Equal` if they run along it.
+    pub(super) side: Ordering,
     /// Whether it hides what is behind it.
     pub(super) is_opaque: bool,
     /// Whether its edges in the picture go through its corners as given.
@@ -104,7 +106,8 @@ impl<'t> Primitives<'t> {
     fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
         let faces = self.lines.frame.faces;
         for face in 0..faces.len() {
-            let View { is_positive, is_as_given, .. } = self.views[face];
+            let is_as_given = self.views[face].is_as_given;
+            let is_positive = self.is_positive(face as u32);
             let start = place(self.halves.len())?;
             if self.sees(face as u32) {
                 let corners = faces.corners(face as u32).len() as u32;
@@ -118,7 +121,7 @@ impl<'t> Primitives<'t> {
         }
         for item in 0..self.items.len() {
             let Item { face, fragment, .. } = self.items[item];
-            let View { is_positive, halves, .. } = self.views[face as usize];
+            let (halves, is_positive) = (self.views[face as usize].halves, self.is_positive(face));
             let fragment = self.tree.fragment(fragment);
             self.items[item].halves = halves;
             if fragment.is_whole() {
@@ -191,16 +194,20 @@ impl<'t> Primitives<'t> {
 
     fn view(&self, face: u32) -> View {
         let Frame { rays, faces } = &self.lines.frame;
+        let plane = PlaneId::face(face);
+        let certain = Sheet::new(rays, faces, plane).certain_side();
+        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
+        let side = if rays.is_perspective() { side } else { side.reverse() };
         let unseen = View {
             around: NOWHERE,
-            is_positive: false,
+            side,
             is_opaque: false,
             is_as_given: false,
             items: [u32::MAX; 2],
             halves: [0; 2],
         };
         let opacity = self.opacity(face);
-        if opacity == 0.0 {
+        if opacity == 0.0 || side.is_eq() || side.is_lt() && rays.is_front_only() {
             return unseen;
         }
         let moved = match faces.moved_axis(face) {
@@ -209,18 +216,14 @@ impl<'t> Primitives<'t> {
         };
         let corners: SmallVec<[[f64; 3]; 8]> =
             faces.corners(face).iter().chain(&moved).copied().collect();
-        let Some(around) = self.around(&corners) else {
-            return unseen;
-        };
-        let plane = PlaneId::face(face);
-        let certain = Sheet::new(rays, faces, plane).certain_side();
-        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
-        let is_positive = side.is_gt();
-        if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
-            return unseen;
-        }
-        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, is_positive);
-        View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, ..unseen }
+        let Some(around) = self.around(&corners) else { return unseen };
+        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, side);
+        View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }
+    }
+
+    /// Whether the κ of a face's plane is positive, of a face that the picture may show.
+    fn is_positive(&self, face: u32) -> bool {
+        self.views[face as usize].side.is_gt() == self.lines.frame.rays.is_perspective()
     }
 
     /// Whether the picture may show some of a face.
@@ -293,7 +296,7 @@ impl Frame<'_> {
     /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in the
     /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if one was
     /// moved by more than [`FURTHEST_MOVE`].
-    fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], is_positive: bool) -> bool {
+    fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let Frame { rays, faces } = self;
         let n = given.len();
         let is_far = |(given, at): (&[f64; 3], &[f64; 3])| {
@@ -302,7 +305,6 @@ impl Frame<'_> {
         if n > FEW_CORNERS_AS_GIVEN || given.iter().zip(faces.corners(face)).any(is_far) {
             return false;
         }
-        let is_front = is_positive == rays.is_perspective();
         let from_eye = |point: [f64; 3]| match rays.pencil {
             RayOrigin::From { .. } => rays.origin_from(point).map(|c| -c),
             RayOrigin::Along { direction } => direction.map(|c| c as f64),
@@ -315,10 +317,10 @@ impl Frame<'_> {
         let at = |k: usize| given[if k < n { k } else { k - n }];
         (0..n).all(|k| {
             let (a, ray) = (at(k), from_eye(at(k)));
-            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, is_front))
+            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, side.is_gt()))
         }) && (!rays.is_perspective() || {
             let normal = normal_of(faces.triangle(face));
-            given.iter().all(|&corner| is_certain(normal, from_eye(corner), is_positive))
+            given.iter().all(|&corner| is_certain(normal, from_eye(corner), side.is_gt()))
         })
     }
 }

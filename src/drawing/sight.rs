@@ -451,7 +451,7 @@ pub(super) fn passes<'p>(
     watch: &Watch<'_>,
 ) -> Result<Passes, Error> {
     type Part<'p> = (TileList<'p>, Passing<'p>);
-    let halves = |(list, passing): &Part<'p>, _: &mut Passes| {
+    let halves = |(list, passing): &Part<'p>| {
         if passing.is_empty() || list.open() <= FEW || list.is_small(TINIEST) {
             return Ok(None);
         }
@@ -471,7 +471,7 @@ pub(super) fn passes<'p>(
     };
     let all = (TileList::picture(candidates, watch)?, passing);
     let mut passes = Passes::default();
-    for mut found in found_in(all, Passes::default, halves, leaf, watch)? {
+    for mut found in found_in(all, halves, leaf, watch)? {
         passes.segments.append(&mut found.segments);
         passes.points.append(&mut found.points);
     }
@@ -487,11 +487,12 @@ impl Passes {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let Passing { segments, points, near_segments, near_points } = &part.passing;
-        let lines = &part.candidates.primitives.lines;
+        let primitives = part.candidates.primitives;
+        let lines = &primitives.lines;
         for Visible { item: piece, cell } in &part.pieces {
             watch.work((near_segments.len() + near_points.len()) * CUT)?;
             let (around, face) = (cell.around(), part.candidates.face(*piece));
-            let side = lines.frame.seen_side(face);
+            let side = primitives.views[face as usize].side;
             for &number in near_segments {
                 let segment = &segments[number as usize];
                 if !segment.may_meet(&around) {

@@ -144,7 +144,7 @@ pub(super) fn overlaps<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
 ) -> Result<Vec<Pair>, Error> {
-    let halves = |list: &TileList<'p>, _: &mut Found| {
+    let halves = |list: &TileList<'p>| {
         let between = list.candidates.list.split(Candidate::covers);
         let most = between.map(<[_]>::len).max().unwrap_or(0);
         let is_leaf = most <= FEW || list.is_small(TINIEST);
@@ -155,7 +155,7 @@ pub(super) fn overlaps<'p>(
         whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
     };
     let all = TileList::picture(&Candidates::items(primitives, |_| true)?, watch)?;
-    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+    sorted(found_in(all, halves, leaf, watch)?, watch)
 }
 
 /// Adds the pairs of a part of the picture.
