@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::lines::{HalfPlane, LineTable};
 use super::primitives::FEW_CORNERS;
-use super::tile::Tile;
+use super::quadtree::Tile;
 use crate::Error;
 use crate::progress::Watch;
 
@@ -275,8 +275,8 @@ pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::Corner;
-    use crate::drawing::exact_lines::meeting;
     use crate::drawing::lines::HalfPlane;
+    use crate::drawing::lines::meeting;
     use crate::drawing::lines::tests::{all_lines, quads};
     use crate::random::SplitMix64;
     use crate::tree::BspTree;

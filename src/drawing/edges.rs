@@ -9,12 +9,10 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::crossings::{FaceEdge, InnerEdges};
-use super::exact_lines::Frame;
-use super::leaf::Visible;
-use super::lines::Table;
+use super::lines::{Table, ViewFrame};
 use super::map::{Hidden, VisibilityMap, finish_item, sort_by, sort_unique};
-use super::sight::{Depths, Passing, ProjectedSegment, in_layers, parts};
-use super::tile::{CUT, VISITED};
+use super::quadtree::{CUT, VISITED, Visible};
+use super::segments::{Depths, Passing, ProjectedSegment, in_layers, parts};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
@@ -43,6 +41,7 @@ impl VisibilityMap<'_> {
             self.collect(&mut edges, &numbers, watch)?;
             let (mut list, count) = (Vec::new(), edges.len());
             for (number, edge) in (0..).zip(&mut edges) {
+                watch.work(VISITED)?;
                 sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
                 self.add_runs(edge, |run| list.push((run, number)));
                 finish_item(watch, number as usize, count);
@@ -139,7 +138,7 @@ impl VisibilityMap<'_> {
     /// polygon shows a side there.
     fn add_runs(&self, edge: &SharedEdge, give: impl FnMut(EdgeRun)) {
         let Some(segment) = &edge.segment else { return };
-        let Frame { rays, faces } = &self.primitives.lines.frame;
+        let ViewFrame { rays, faces } = &self.primitives.lines.frame;
         let sides = edge.faces.iter().map(|&(face, _)| self.primitives.views[face as usize].side);
         let sides: SmallVec<[Ordering; 2]> = sides.collect();
         let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !rays.is_front_only();
@@ -184,7 +183,7 @@ impl VisibilityMap<'_> {
         for face in (0..faces.len() as u32).filter(|&face| primitives.opacity(face) > 0.0) {
             let range = faces.corner_range(face);
             for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
-                watch.work(CUT / 2)?;
+                watch.work(CUT)?;
                 let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
                 let [a, b] = [point(range.start + k), point(next)];
                 let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);

@@ -11,9 +11,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use super::cell::Cell;
-use super::leaf::{Leaf, SHORT, Visible};
 use super::primitives::Primitives;
-use super::tile::{Candidates, TINY, TileList, found_in};
+use super::quadtree::{Candidates, Leaf, SHORT, TINY, TileList, Visible, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};

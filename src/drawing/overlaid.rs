@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use super::edges::SHORTEST;
+use super::graph::Pair;
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
-use super::order::{Found, Pair, add};
+use super::pairs::{Found, add};
 use super::primitives::Primitives;
-use super::sight::{
+use super::quadtree::{CUT, Candidates, VISITED};
+use super::segments::{
     Depths, Pass, Passes, Passing, ProjectedPoint, ProjectedSegment, in_layers, parts, passes,
     take_own,
 };
-use super::tile::{CUT, Candidates, VISITED};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;

@@ -10,14 +10,13 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, Side};
-use super::exact_lines::{Frame, ROUNDING, Rounded};
-use super::leaf::{Leaf, Visible};
-use super::lines::{HalfPlane, LineTable};
+use super::graph::{Ordered, Ranks, Wanted, order_by_rank};
+use super::lines::{HalfPlane, LineTable, ROUNDING, Rounded, ViewFrame};
 use super::map::{VisibilityMap, finish_item, sort_by};
-use super::order::{Ordered, Ranks, Wanted, order_by_rank, pairs};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
+use super::pairs::pairs;
 use super::primitives::Primitives;
-use super::tile::{CUT, VISITED};
+use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use super::translucent::mixed;
 use crate::memory::place;
 use crate::progress::Watch;
@@ -199,7 +198,7 @@ impl<'s, 't> PolygonEdges<'s, 't> {
 
     /// How far a point on the line of an edge is beyond the ends of the edge, in pixels, rounded.
     fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
-        let Frame { rays, faces } = &self.primitives.lines.frame;
+        let ViewFrame { rays, faces } = &self.primitives.lines.frame;
         let arms = faces.ends(face, k).map(|end| {
             let ([x, y, weight], _) = rays.project(end);
             // An end behind the eye is beyond the picture.

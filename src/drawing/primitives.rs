@@ -5,10 +5,9 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
-use super::exact_lines::Frame;
-use super::lines::{HalfPlane, LineTable};
+use super::lines::{HalfPlane, LineTable, ViewFrame};
 use super::map::finish_item;
-use super::tile::{LINES, Tile};
+use super::quadtree::{LINES, Tile};
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::place;
@@ -83,7 +82,7 @@ impl<'t> Primitives<'t> {
             return Err(Kind::OfCell.error());
         }
         let faces = tree.faces();
-        let frame = Frame { rays, faces };
+        let frame = ViewFrame { rays, faces };
         let order = tree.order(frame.rays.viewpoint()).front_to_back();
         let order: Vec<u32> = order.into_iter().map(|fragment| fragment.index()).collect();
         let lines = LineTable::new(frame);
@@ -193,7 +192,7 @@ impl<'t> Primitives<'t> {
     }
 
     fn view(&self, face: u32) -> View {
-        let Frame { rays, faces } = &self.lines.frame;
+        let ViewFrame { rays, faces } = &self.lines.frame;
         let plane = PlaneId::face(face);
         let certain = Sheet::new(rays, faces, plane).certain_side();
         let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
@@ -292,12 +291,12 @@ fn shared<T: Send>(
 /// of the faces as moved, which decide what is in front.
 const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
-impl Frame<'_> {
+impl ViewFrame<'_> {
     /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in the
     /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if one was
     /// moved by more than [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
-        let Frame { rays, faces } = self;
+        let ViewFrame { rays, faces } = self;
         let n = given.len();
         let is_far = |(given, at): (&[f64; 3], &[f64; 3])| {
             (0..3).any(|axis| (given[axis] - at[axis]).abs() > FURTHEST_MOVE)

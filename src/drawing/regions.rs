@@ -3,12 +3,11 @@
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
-use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
 use super::primitives::Primitives;
-use super::tile::{CUT, VISITED};
+use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 

@@ -2,19 +2,14 @@
 
 use std::cmp::Reverse;
 
-use smallvec::SmallVec;
-
 use super::cell::Cell;
-use super::join::Groups;
-use super::leaf::{Leaf, SubTile, Visible};
-use super::lines::HalfPlane;
+use super::graph::{Groups, Ordered, Pair, Wanted, contracted, cycles, order};
 use super::map::{Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by};
-use super::order::{Found, Ordered, Pair, Wanted, add, contracted, cycles, order, pairs, sorted};
 use super::overlaid::Between;
+use super::pairs::{Found, add, overlaps, pairs, sorted};
 use super::paths::{Area, Drawing, add_piece};
 use super::primitives::Primitives;
-use super::sight::Passing;
-use super::tile::{CUT, Candidate, Candidates, TINIEST, TileList, found_in};
+use super::quadtree::{CUT, Leaf, Visible};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Watch;
@@ -132,69 +127,6 @@ pub(super) fn mixed(
     let ordered = parts.order(primitives, &pairs, Some(leaves), watch)?;
     let (drawing, _) = parts.drawing(primitives, &ordered, Some(leaves), left_out, watch)?;
     Ok(drawing)
-}
-
-/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
-/// pairs are compared; smaller: more tiles.
-const FEW: usize = 8;
-
-/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
-/// an item covers a part of the picture, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps<'p>(
-    primitives: &'p Primitives<'_>,
-    watch: &Watch<'_>,
-) -> Result<Vec<Pair>, Error> {
-    let halves = |list: &TileList<'p>| {
-        let between = list.candidates.list.split(Candidate::covers);
-        let most = between.map(<[_]>::len).max().unwrap_or(0);
-        let is_leaf = most <= FEW || list.is_small(TINIEST);
-        (!is_leaf).then(|| list.halves(watch)).transpose()
-    };
-    let leaf = |list: &TileList<'p>, found: &mut Found| {
-        let whole = SubTile::new(list, Passing::NOTHING, watch)?;
-        whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
-    };
-    let all = TileList::picture(&Candidates::items(primitives, |_| true)?, watch)?;
-    sorted(found_in(all, halves, leaf, watch)?, watch)
-}
-
-/// Adds the pairs of a part of the picture.
-fn add_overlaps(
-    part: &SubTile<'_, '_>,
-    primitives: &Primitives<'_>,
-    found: &mut Found,
-    watch: &Watch<'_>,
-) -> Result<(), Error> {
-    let mut add = |below: u32, above: u32| add(found, Pair { below, above });
-    // The last item that covers the part, and those behind it so far.
-    let mut cover: Option<u32> = None;
-    let mut behind: Vec<&Visible> = Vec::new();
-    for piece in &part.pieces {
-        let (item, face) = (piece.item, primitives.face(piece.item));
-        watch.work(behind.len() * CUT)?;
-        if part.is_covered_by(piece) {
-            if let (Some(cover), true) = (cover, behind.is_empty()) {
-                add(item, cover);
-            }
-            behind.drain(..).for_each(|above| add(item, above.item));
-            cover = Some(item);
-            continue;
-        }
-        if let Some(cover) = cover {
-            add(item, cover);
-        }
-        let halves: SmallVec<[HalfPlane; 8]> =
-            piece.cell.sides.iter().map(|side| side.half).collect();
-        for above in &behind {
-            if primitives.face(above.item) != face
-                && above.cell.meets(&primitives.lines, &halves, watch)?
-            {
-                add(item, above.item);
-            }
-        }
-        behind.push(piece);
-    }
-    Ok(())
 }
 
 /// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.

@@ -6,11 +6,11 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
 use super::edges::SHORTEST;
-use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
-use super::leaf::{SubTile, Visible};
-use super::lines::LineTable;
+use super::lines::{ExactLine, Image, LineTable, Rounded, meeting, side_at};
 use super::map::{VisibilityMap, sort_by};
-use super::tile::{CUT, Candidates, NARROWED, TINIEST, Tile, TileList, VISITED, found_in};
+use super::quadtree::{
+    CUT, Candidates, NARROWED, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
+};
 use crate::Error;
 use crate::exact::{Faces, Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
