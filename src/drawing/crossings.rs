@@ -10,7 +10,6 @@ use super::graph::Pair;
 use super::lines::{HalfPlane, Table, compare};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
 use super::pairs::{Found, add, sorted};
-use super::pen::distance;
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
 use super::segments::{ProjectedSegment, parts};
@@ -35,12 +34,14 @@ struct CutSide {
 
 /// What two such sides have in common: a part of a crossing that shows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CommonSide {
+struct CommonSide {
     line: HalfPlane,
     /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
     /// other shows.
-    pub(super) faces: [u32; 2],
-    pub(super) ends: [[f64; 2]; 2],
+    faces: [u32; 2],
+    /// Where it begins and ends along the line, and in the picture.
+    places: [f64; 2],
+    ends: [[f64; 2]; 2],
 }
 
 /// Whether two faces go through one another in a line: by the line and the faces.
@@ -78,16 +79,30 @@ impl VisibilityMap<'_> {
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
             let inner = InnerEdges::of(self.primitives.lines.frame.faces);
-            let common = self.common_sides(&inner, watch)?;
-            let mut runs = Vec::new();
-            for line in common.chunk_by(|a, b| a.line == b.line) {
-                let first = runs.len();
-                for side in line {
-                    runs.push(self.run(side));
+            let mut common = self.common_sides(&inner, watch)?;
+            let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
+            sort_by(&mut common, watch, |a, b| {
+                key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
+            })?;
+            // Of two translucent polygons they are found from either side.
+            let mut joined: Vec<CommonSide> = Vec::new();
+            for side in common {
+                match joined.last_mut() {
+                    Some(before)
+                        if key(before) == key(&side)
+                            && side.places[0] <= before.places[1] + SHORTEST =>
+                    {
+                        if side.places[1] > before.places[1] {
+                            before.places[1] = side.places[1];
+                            before.ends[1] = side.ends[1];
+                        }
+                    }
+                    _ => joined.push(side),
                 }
-                merge(&mut runs, first, watch)?;
             }
-            runs.retain(|run| distance(run.ends[0], run.ends[1]) >= SHORTEST);
+            joined.retain(|side| side.places[1] - side.places[0] >= SHORTEST);
+            let run = |side: &CommonSide| self.run(side.faces, side.ends, true);
+            let mut runs: Vec<EdgeRun> = joined.iter().map(run).collect();
             sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
             Ok(runs)
         })
@@ -95,7 +110,7 @@ impl VisibilityMap<'_> {
 
     /// What sides of cells have in common that lie on either side of a line in which their faces go through one
     /// another, line by line: two phases.
-    pub(super) fn common_sides(
+    fn common_sides(
         &self,
         inner: &InnerEdges,
         watch: &Watch<'_>,
@@ -231,60 +246,32 @@ impl VisibilityMap<'_> {
         })
     }
 
-    fn run(&self, side: &CommonSide) -> EdgeRun {
-        let [a, b] = side.faces.map(|face| self.primitives.lines.frame.faces.polygon(face));
-        let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
-        EdgeRun { polygon, edge: None, kind, ends: side.ends, is_visible: true, layers: None }
+    /// The polygons of two faces, the lower number first.
+    fn polygons_of(&self, faces: [u32; 2]) -> [usize; 2] {
+        let [a, b] = faces.map(|face| self.primitives.lines.frame.faces.polygon(face));
+        [a.min(b), a.max(b)]
+    }
+
+    fn run(&self, faces: [u32; 2], ends: [[f64; 2]; 2], is_visible: bool) -> EdgeRun {
+        let [polygon, other] = self.polygons_of(faces);
+        let kind = EdgeKind::Crossing(other);
+        EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None }
     }
 }
 
 impl CommonSide {
     fn new([a, b]: [&CutSide; 2], inner: &InnerEdges) -> Self {
-        let start = if a.places[0] > b.places[0] { a } else { b }.ends[0];
-        let end = if a.places[1] < b.places[1] { a } else { b }.ends[1];
+        let start = if a.places[0] > b.places[0] { a } else { b };
+        let end = if a.places[1] < b.places[1] { a } else { b };
+        let places = [start.places[0], end.places[1]];
         let first = |side: &CutSide| {
             let across = side.inner.and_then(|edge| inner.across(edge));
             across.map_or(side.face, |(face, _)| face.min(side.face))
         };
         let (one, other) = (first(a), first(b));
         let faces = [one.min(other), one.max(other)];
-        Self { line: a.line, faces, ends: [start, end] }
+        Self { line: a.line, faces, places, ends: [start.ends[0], end.ends[1]] }
     }
-}
-
-/// How far the second of two runs along a line begins behind the end of the first, if it does.
-fn gap(before: &EdgeRun, run: &EdgeRun) -> f64 {
-    let reach = distance(before.ends[0], before.ends[1]);
-    distance(before.ends[0], run.ends[0]) - reach
-}
-
-/// Joins runs of the same polygons, from the `first` on, where one begins where another ends or before: they are
-/// on one line, in its direction. (Runs of two translucent polygons are found from either side.)
-fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(), Error> {
-    let other = |run: &EdgeRun| match run.kind {
-        EdgeKind::Crossing(other) => other,
-        _ => 0,
-    };
-    // Stable: runs of one pair stay in their order along the line.
-    let mut rest = runs.split_off(first);
-    let key = |run: &EdgeRun| (run.polygon, other(run));
-    sort_by(&mut rest, watch, |a, b| key(a).cmp(&key(b)))?;
-    for run in rest {
-        let goes_on = |before: &&mut EdgeRun| {
-            (before.polygon, before.kind) == (run.polygon, run.kind)
-                && gap(before, &run) <= SHORTEST
-        };
-        match runs[first..].last_mut().filter(goes_on) {
-            Some(before) => {
-                let [start, end] = [before.ends[1], run.ends[1]];
-                if distance(before.ends[0], end) > distance(before.ends[0], start) {
-                    before.ends[1] = end;
-                }
-            }
-            None => runs.push(run),
-        }
-    }
-    Ok(())
 }
 
 /// So many pairs are looked at by one thread.
@@ -295,7 +282,7 @@ const SHARE: usize = 256;
 struct Crossing {
     /// As those of [`CommonSide`].
     faces: [u32; 2],
-    sight: ProjectedSegment,
+    segment: ProjectedSegment,
 }
 
 impl VisibilityMap<'_> {
@@ -315,7 +302,7 @@ impl VisibilityMap<'_> {
             let crossings = crossings_of(&pairs, primitives, &inner, watch)?;
             let (mut list, mut visible) = (Vec::new(), Vec::new());
             for (number, crossing) in (0..).zip(&crossings) {
-                let course = &crossing.sight.course;
+                let course = &crossing.segment.course;
                 let first = shown.partition_point(|side| side.faces < crossing.faces);
                 let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
                 visible.clear();
@@ -324,15 +311,13 @@ impl VisibilityMap<'_> {
                     [a.min(b), a.max(b)]
                 }));
                 sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-                let [a, b] = crossing.faces.map(|face| faces.polygon(face));
-                let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
-                for (ends, is_visible) in parts(course, visible.iter().copied()) {
-                    let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
-                    list.push((run, number));
-                }
+                let parts = parts(course, visible.iter().copied()).into_iter();
+                list.extend(parts.map(|(ends, is_visible)| {
+                    (self.run(crossing.faces, ends, is_visible), number)
+                }));
             }
             sort_by(&mut list, watch, |(a, _), (b, _)| a.polygon.cmp(&b.polygon))?;
-            let segment = |number: u32| Some(crossings[number as usize].sight);
+            let segment = |number: u32| Some(crossings[number as usize].segment);
             let is_own = |number: u32, face: u32| crossings[number as usize].faces.contains(&face);
             self.runs(list, hidden, segment, is_own, watch)
         })
@@ -354,11 +339,11 @@ fn crossings_of(
             let faces = [below, above];
             let corners: usize = faces.map(|face| primitives.edges_work(face)).iter().sum();
             watch.work(CUT + corners)?;
-            let sight = match inner.bend(primitives.lines.frame.faces, faces) {
+            let segment = match inner.bend(primitives.lines.frame.faces, faces) {
                 Some(bend) => bent(&bend, primitives, watch)?,
                 None => straight(faces, primitives, watch)?,
             };
-            found.extend(sight.map(|sight| Crossing { faces, sight }));
+            found.extend(segment.map(|segment| Crossing { faces, segment }));
         }
         finish_item(watch, i, count);
         Ok(found)
@@ -388,21 +373,21 @@ fn bent(
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
     let lines = &primitives.lines;
     let faces = lines.frame.faces;
-    let sight = ProjectedSegment::new(lines, faces.ends(face, k));
+    let segment = ProjectedSegment::new(lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
-    let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
+    let Some(segment) = segment.filter(|segment| segment.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
         Some(k) => ProjectedSegment::new(lines, faces.ends(other, k)).map(|along| {
-            let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));
+            let [a, b] = along.course.places.map(|at| segment.course.place(along.course.at(at)));
             [a.min(b), a.max(b)]
         }),
         None => {
             let cell =
                 Cell::picture(lines).within(lines, primitives.outline(other), None, watch)?;
-            cell.and_then(|cell| sight.chord(lines, &cell))
+            cell.and_then(|cell| segment.chord(lines, &cell))
         }
     };
-    Ok(common.and_then(|common| sight.within(common)))
+    Ok(common.and_then(|common| segment.within(common)))
 }
 
 /// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
@@ -419,7 +404,7 @@ struct Block {
 
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
 /// these than the tolerance, that may go through one another: a phase.
-pub(super) fn straddling(
+fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,

@@ -1,7 +1,4 @@
 //! Edges of polygons: visible and hidden runs, by the faces that share an edge.
-//!
-//! The number of polygons in front of an edge is its quantitative invisibility (A. Appel, "The notion of
-//! quantitative invisibility and the machine rendering of solids", 1967).
 
 use std::cmp::Ordering;
 
@@ -41,7 +38,7 @@ impl VisibilityMap<'_> {
             self.collect(&mut edges, &numbers, watch)?;
             let (mut list, count) = (Vec::new(), edges.len());
             for (number, edge) in (0..).zip(&mut edges) {
-                watch.work(VISITED)?;
+                watch.work(CUT + edge.visible.len() * VISITED)?;
                 sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
                 self.add_runs(edge, |run| list.push((run, number)));
                 finish_item(watch, number as usize, count);

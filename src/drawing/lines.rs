@@ -30,7 +30,7 @@ const FEW: usize = 8;
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// The lines of a picture: of the edges of all faces that it may show, and of the cuts of their pieces.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct LineTable<'t> {
     pub(super) frame: ViewFrame<'t>,
     /// The largest coordinates in the picture.
@@ -291,12 +291,6 @@ impl<'t> LineTable<'t> {
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
-    /// How many lines there are, borders not counted.
-    #[cfg(test)]
-    pub(super) fn len(&self) -> usize {
-        self.keys.len()
-    }
-
     /// What made a line first.
     fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
@@ -316,7 +310,7 @@ impl<'t> LineTable<'t> {
 impl LineTable<'_> {
     /// A half's line in floats.
     #[inline]
-    pub(in crate::drawing) fn rounded(&self, half: HalfPlane) -> Rounded {
+    pub(super) fn rounded(&self, half: HalfPlane) -> Rounded {
         match half.number() {
             Some(line) => self.rounded[line as usize],
             None => {
@@ -329,27 +323,27 @@ impl LineTable<'_> {
     }
 
     /// How much the parts of a line's slope may be off.
-    pub(in crate::drawing) fn slope_error(&self, line: &Rounded) -> f64 {
+    pub(super) fn slope_error(&self, line: &Rounded) -> f64 {
         line.error / self.reach[0].min(self.reach[1])
     }
 
     /// The edge from one lattice point to another in floats, whether its line is one of these or not.
-    pub(in crate::drawing) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
+    pub(super) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
         rounded_edge(&self.frame, ends, self.reach)
     }
 
     /// A line in floats that is none of these.
-    pub(in crate::drawing) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
+    pub(super) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
         Rounded::new(exact, self.reach)
     }
 
     /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
-    pub(in crate::drawing) fn shows(&self, at: [f64; 2]) -> bool {
+    pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
     }
 
     /// The line of a half, in integers.
-    pub(in crate::drawing) fn exact(&self, half: HalfPlane) -> ExactLine {
+    pub(super) fn exact(&self, half: HalfPlane) -> ExactLine {
         match half.number() {
             Some(line) => self.exact_of(self.key(line)),
             None => {
@@ -486,8 +480,8 @@ pub(super) struct Foot {
 
 /// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
 /// shows a scene from very far, all are in one place.
-#[derive(Clone, Debug, Default)]
-pub(super) struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
+#[derive(Debug, Default)]
+struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
 
 type Place = [i64; 3];
 
@@ -663,7 +657,7 @@ impl LineTable<'_> {
 pub(super) type ExactLine = [Int<6>; 3];
 
 /// What all lines of a picture share: its rays, and the faces.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct ViewFrame<'t> {
     pub(super) rays: Rays,
     pub(super) faces: &'t Faces,

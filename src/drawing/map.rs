@@ -2,8 +2,7 @@
 //!
 //! A tile has a list of the pieces that may show in it, front to back. The list ends with the first piece that
 //! covers the tile. Where it is short, the tile is a leaf, and what is visible of each piece is
-//! subtracted from what is left open; otherwise the tile is halved (J. E. Warnock, "A hidden surface
-//! algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
+//! subtracted from what is left open; otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -46,8 +45,8 @@ use crate::view::Camera;
 /// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the number
 /// of its parts; it does not change during the operation. `done` begins with 0, never decreases, and is `total` in
 /// the last call, when the result is ready. Parts do not take equally long. The callback is called about once a
-/// millisecond, by any thread, one call at a time; only the sorting of a long list takes longer (a tenth of a
-/// second for a million items). If it returns `Break`, the operation ends with an error whose
+/// millisecond, by any thread, one call at a time; only sorting a long list and passing over it take longer (a tenth
+/// of a second for a million items). If it returns `Break`, the operation ends with an error whose
 /// [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
 /// several threads use one map at once, the callback is called for each of them in turn, and the last call of an
 /// operation may be missing.

@@ -1,4 +1,7 @@
 //! Segments and points of the scene in the picture, and where they pass in front of pieces or behind them.
+//!
+//! The number of polygons in front of a segment is its quantitative invisibility (A. Appel, "The notion of
+//! quantitative invisibility and the machine rendering of solids", 1967).
 
 use std::cmp::Ordering;
 
@@ -58,19 +61,35 @@ pub(super) const MARGIN: f64 = 1e-3;
 impl ProjectedSegment {
     /// `None` if it is not in the picture, or a point there.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
-        let tile = Tile::picture(lines.frame.rays.size());
-        let certain = certain_ends(lines, ends, &tile.sides());
-        if certain == Certain::Outside {
+        let [low, high] = Tile::picture(lines.frame.rays.size()).sides();
+        let images = ends.map(|end| lines.frame.image(end));
+        let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
+        let at = images.map(|image| point_of(&image));
+        // Rounding moves points by far less than a margin.
+        let is_beyond = |axis: usize| {
+            at.iter().all(|at| at[axis] < low[axis] - MARGIN)
+                || at.iter().all(|at| at[axis] > high[axis] + MARGIN)
+        };
+        if is_ahead == [false; 2] || is_ahead == [true; 2] && (is_beyond(0) || is_beyond(1)) {
             return None;
         }
+        let is_inside = |at: &[f64; 2]| {
+            (0..2).all(|axis| low[axis] + MARGIN < at[axis] && at[axis] < high[axis] - MARGIN)
+        };
         let mut segment = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
-        let [from, to] = match certain {
-            Certain::Inside(ends) => ends.map(|end| segment.course.place(end)),
-            _ => {
-                let all = Cell::picture(lines);
-                segment.picture = beside(&segment.signs(lines, &all));
-                segment.in_cell(lines, &all, ends)?
+        let [from, to] = if is_ahead == [true; 2] && at.iter().all(is_inside) {
+            at.map(|end| segment.course.place(end))
+        } else {
+            let all = Cell::picture(lines);
+            segment.picture = beside(&segment.signs(lines, &all));
+            let [mut from, mut to] = segment.chord(lines, &all)?;
+            if is_ahead[0] {
+                from = from.max(segment.course.place(at[0]));
             }
+            if is_ahead[1] {
+                to = to.min(segment.course.place(at[1]));
+            }
+            [from, to]
         };
         if (to - from).is_nan() || to - from < SHORTEST {
             return None;
@@ -107,20 +126,6 @@ impl ProjectedSegment {
         (slope > 0.0).then_some(Self { source, rounded, course, picture, around: NOWHERE })
     }
 
-    /// From where to where it is in a cell, by its ends.
-    fn in_cell(&self, lines: &LineTable<'_>, cell: &Cell, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
-        let [mut from, mut to] = self.chord(lines, cell)?;
-        let images = ends.map(|end| lines.frame.image(end));
-        let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
-        if is_ahead[0] {
-            from = from.max(self.place_of(&images[0]));
-        }
-        if is_ahead[1] {
-            to = to.min(self.place_of(&images[1]));
-        }
-        (is_ahead != [false; 2]).then_some([from, to])
-    }
-
     fn limit(&mut self, places: [f64; 2]) {
         self.course.places = places;
         let [a, b] = places.map(|place| self.course.at(place));
@@ -129,11 +134,6 @@ impl ProjectedSegment {
             axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
             axes.map(|i: usize| a[i].max(b[i]) + MARGIN),
         ];
-    }
-
-    fn place_of<const N: usize>(&self, image: &[Int<N>; 3]) -> f64 {
-        let [weight, x, y] = image.map(Int::to_f64);
-        self.course.place([x / weight, y / weight])
     }
 
     fn exact(&self, lines: &LineTable<'_>) -> ExactLine {
@@ -277,7 +277,7 @@ impl ProjectedSegment {
             parts[0] + parts[1]
         });
         if mean[0].sign().is_gt() {
-            let place = self.place_of(&mean);
+            let place = self.course.place(point_of(&mean));
             return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
         // Behind the eye: what is ahead is all on the side of the end that is.
@@ -301,6 +301,12 @@ impl ImageLine {
     pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
         self.place(point).clamp(self.places[0], self.places[1])
     }
+}
+
+/// Where in the picture a point of the scene is, rounded.
+fn point_of<const N: usize>(image: &[Int<N>; 3]) -> [f64; 2] {
+    let [weight, x, y] = image.map(Int::to_f64);
+    [x / weight, y / weight]
 }
 
 /// On which side of a line a cell is whose corners are on these sides of it; `Equal` if it is on both.
@@ -329,9 +335,8 @@ impl ProjectedPoint {
         if !image[0].sign().is_gt() {
             return None;
         }
-        let [weight, x, y] = image.map(Int::to_f64);
-        let spot = Self { point, at: [x / weight, y / weight] };
-        spot.is_in(lines, &Cell::picture(lines)).then_some(spot)
+        let projected = Self { point, at: point_of(&image) };
+        projected.is_in(lines, &Cell::picture(lines)).then_some(projected)
     }
 
     /// A box around it.
@@ -612,50 +617,6 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// What floats tell of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Certain {
-    /// Both ends are in the picture, here.
-    Inside([[f64; 2]; 2]),
-    /// No point is in the picture.
-    Outside,
-    Unknown,
-}
-
-/// One over the largest error of a projected point, in pixels, that counts as none.
-const FAR: f64 = (1u64 << 30) as f64;
-
-/// What floats tell of the segment between two lattice points. (Most are inside or outside.)
-pub(super) fn certain_ends(
-    lines: &LineTable<'_>,
-    ends: [[f64; 3]; 2],
-    [low, high]: &Rect,
-) -> Certain {
-    let projected = ends.map(|end| lines.frame.rays.project(end));
-    // What is positive in the picture and ahead of the eye, and how far off that may be.
-    let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
-        let side = |at: f64, error: f64, border: f64, sign: f64| {
-            let off = error + border.abs() * ez;
-            (sign * (at - border * z), off + 4.0 * f64::EPSILON * (at.abs() + (border * z).abs()))
-        };
-        let beyond = |at, error, axis: usize| side(at, error, low[axis], 1.0);
-        let before = |at, error, axis: usize| side(at, error, high[axis], -1.0);
-        [(z, ez), beyond(x, ex, 0), before(x, ex, 0), beyond(y, ey, 1), before(y, ey, 1)]
-    };
-    let [a, b] = projected.map(inside);
-    let is_out = |&(value, off): &(f64, f64)| value < -off;
-    if a.iter().zip(&b).any(|(a, b)| is_out(a) && is_out(b)) {
-        return Certain::Outside;
-    }
-    let is_in = |&(value, off): &(f64, f64)| value > off;
-    // Near the eye, errors that are small for the scene are large in the picture.
-    let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
-    match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
-        true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
-        false => Certain::Unknown,
-    }
-}
-
 /// Intervals that are given in the order of their beginnings: those that lie one over another, or end where another
 /// begins but for rounding, as one.
 pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
@@ -706,10 +667,10 @@ pub(super) fn in_layers(
     depths: Option<(&ProjectedSegment, &[Depth])>,
     watch: &Watch<'_>,
 ) -> Result<Vec<(Ends, u32)>, Error> {
-    let Some((sight, depths)) = depths.filter(|_| !is_visible) else {
+    let Some((segment, depths)) = depths.filter(|_| !is_visible) else {
         return Ok(vec![(ends, u32::from(!is_visible))]);
     };
-    let [a, b] = ends.map(|end| sight.course.place(end));
+    let [a, b] = ends.map(|end| segment.course.place(end));
     let (low, high) = (a.min(b), a.max(b));
     // Where each part begins, as a share of the run.
     let mut parts: Vec<(f64, u32)> = Vec::new();

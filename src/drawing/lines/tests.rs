@@ -11,6 +11,13 @@ use crate::view::Camera;
 
 const SIZE: [u32; 2] = [320, 200];
 
+impl LineTable<'_> {
+    /// How many lines there are, borders not counted.
+    pub(in crate::drawing) fn len(&self) -> usize {
+        self.keys.len()
+    }
+}
+
 /// All lines of all pieces that a camera sees.
 pub(in crate::drawing) fn all_lines<'t>(
     tree: &'t BspTree,
