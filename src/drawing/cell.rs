@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::lines::{HalfPlane, LineTable};
 use super::primitives::FEW_CORNERS;
-use super::tile::Tile;
+use super::quadtree::Tile;
 use crate::Error;
 use crate::progress::Watch;
 
@@ -266,11 +266,6 @@ pub(super) fn is_empty([low, high]: &Rect) -> bool {
     (0..2).any(|axis| low[axis] > high[axis])
 }
 
-/// Whether a box reaches from one side of another to the opposite one, or beyond.
-pub(super) fn reaches_across([low, high]: &Rect, [from, to]: &Rect) -> bool {
-    (0..2).any(|axis| low[axis] <= from[axis] && to[axis] <= high[axis])
-}
-
 /// What two boxes have in common; if they are apart, an empty box.
 pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
     let axes = [0, 1];
@@ -280,8 +275,8 @@ pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::Corner;
-    use crate::drawing::exact_lines::meeting;
     use crate::drawing::lines::HalfPlane;
+    use crate::drawing::lines::meeting;
     use crate::drawing::lines::tests::{all_lines, quads};
     use crate::random::SplitMix64;
     use crate::tree::BspTree;

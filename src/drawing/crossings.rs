@@ -3,18 +3,16 @@
 use std::cmp::Ordering;
 
 use glam::DVec3;
-use smallvec::SmallVec;
 
 use super::cell::Cell;
-use super::edges::{Depths, EdgeKind, EdgeRun, SHORTEST, in_layers};
-use super::exact_lines::compare;
-use super::lines::{HalfPlane, LineTable, Table};
+use super::edges::{EdgeKind, EdgeRun, SHORTEST};
+use super::graph::Pair;
+use super::lines::{HalfPlane, Table, compare};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
-use super::order::{Found, Pair, add, sorted};
-use super::pen::distance;
-use super::primitives::{Primitives, View};
-use super::sight::{ProjectedSegment, parts};
-use super::tile::{CUT, Growth, LINES, NARROWED, VISITED, found_in};
+use super::pairs::{Found, add, sorted};
+use super::primitives::Primitives;
+use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
+use super::segments::{ProjectedSegment, parts};
 use crate::exact::{Faces, PlaneId, PreparedPlane, cross};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
@@ -36,12 +34,14 @@ struct CutSide {
 
 /// What two such sides have in common: a part of a crossing that shows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CommonSide {
+struct CommonSide {
     line: HalfPlane,
     /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
     /// other shows.
-    pub(super) faces: [u32; 2],
-    pub(super) ends: [[f64; 2]; 2],
+    faces: [u32; 2],
+    /// Where it begins and ends along the line, and in the picture.
+    places: [f64; 2],
+    ends: [[f64; 2]; 2],
 }
 
 /// Whether two faces go through one another in a line: by the line and the faces.
@@ -71,27 +71,38 @@ impl VisibilityMap<'_> {
     pub fn crossings(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         match hidden {
             Hidden::Skip => self.visible_crossings(),
-            Hidden::Keep => self.reporter.watch(4, |watch| {
-                let (crossings, shown) = self.all_crossings(watch)?;
-                self.crossing_runs(&crossings, &shown, None, watch)
-            }),
-            Hidden::Count => self.crossings_in_layers(),
+            Hidden::Keep => self.all_crossings(4, hidden),
+            Hidden::Count => self.all_crossings(5, hidden),
         }
     }
 
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
-            let common = self.common_sides(&inner, watch)?;
-            let mut runs = Vec::new();
-            for line in common.chunk_by(|a, b| a.line == b.line) {
-                let first = runs.len();
-                for side in each(watch, VISITED, line) {
-                    runs.push(self.run(side?));
+            let inner = InnerEdges::of(self.primitives.lines.frame.faces);
+            let mut common = self.common_sides(&inner, watch)?;
+            let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
+            sort_by(&mut common, watch, |a, b| {
+                key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
+            })?;
+            // Of two translucent polygons they are found from either side.
+            let mut joined: Vec<CommonSide> = Vec::new();
+            for side in common {
+                match joined.last_mut() {
+                    Some(before)
+                        if key(before) == key(&side)
+                            && side.places[0] <= before.places[1] + SHORTEST =>
+                    {
+                        if side.places[1] > before.places[1] {
+                            before.places[1] = side.places[1];
+                            before.ends[1] = side.ends[1];
+                        }
+                    }
+                    _ => joined.push(side),
                 }
-                merge(&mut runs, first, watch)?;
             }
-            runs.retain(|run| distance(run.ends[0], run.ends[1]) >= SHORTEST);
+            joined.retain(|side| side.places[1] - side.places[0] >= SHORTEST);
+            let run = |side: &CommonSide| self.run(side.faces, side.ends, true);
+            let mut runs: Vec<EdgeRun> = joined.iter().map(run).collect();
             sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
             Ok(runs)
         })
@@ -99,7 +110,7 @@ impl VisibilityMap<'_> {
 
     /// What sides of cells have in common that lie on either side of a line in which their faces go through one
     /// another, line by line: two phases.
-    pub(super) fn common_sides(
+    fn common_sides(
         &self,
         inner: &InnerEdges,
         watch: &Watch<'_>,
@@ -113,8 +124,7 @@ impl VisibilityMap<'_> {
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
-                for b in each(watch, VISITED, ahead) {
-                    let b = b?;
+                for b in ahead {
                     if b.is_negative != a.is_negative
                         && self.do_cross(a, b, inner, &mut are_crossing)
                     {
@@ -167,8 +177,7 @@ impl VisibilityMap<'_> {
     /// The lines of edges inside polygons.
     fn bends(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Table<HalfPlane, ()>, Error> {
         let mut bends = Table::default();
-        for outline in each(watch, 1, self.outlines()) {
-            let (face, halves) = outline?;
+        for (face, halves) in self.outlines() {
             for (k, half) in (0..).zip(halves) {
                 if inner.across((face, k)).is_some() {
                     watch.work(VISITED)?;
@@ -187,8 +196,7 @@ impl VisibilityMap<'_> {
         watch: &Watch<'_>,
     ) -> Result<Table<(u32, HalfPlane), Option<FaceEdge>>, Error> {
         let mut edges = Table::default();
-        for outline in each(watch, 1, self.outlines()) {
-            let (face, halves) = outline?;
+        for (face, halves) in self.outlines() {
             for (k, half) in (0..).zip(halves) {
                 watch.work(VISITED)?;
                 let line = half.positive();
@@ -238,61 +246,32 @@ impl VisibilityMap<'_> {
         })
     }
 
-    fn run(&self, side: &CommonSide) -> EdgeRun {
-        let [a, b] = side.faces.map(|face| self.primitives.lines.frame.faces.polygon(face));
-        let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
-        EdgeRun { polygon, edge: None, kind, ends: side.ends, is_visible: true, layers: None }
+    /// The polygons of two faces, the lower number first.
+    fn polygons_of(&self, faces: [u32; 2]) -> [usize; 2] {
+        let [a, b] = faces.map(|face| self.primitives.lines.frame.faces.polygon(face));
+        [a.min(b), a.max(b)]
+    }
+
+    fn run(&self, faces: [u32; 2], ends: [[f64; 2]; 2], is_visible: bool) -> EdgeRun {
+        let [polygon, other] = self.polygons_of(faces);
+        let kind = EdgeKind::Crossing(other);
+        EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None }
     }
 }
 
 impl CommonSide {
     fn new([a, b]: [&CutSide; 2], inner: &InnerEdges) -> Self {
-        let start = if a.places[0] > b.places[0] { a } else { b }.ends[0];
-        let end = if a.places[1] < b.places[1] { a } else { b }.ends[1];
+        let start = if a.places[0] > b.places[0] { a } else { b };
+        let end = if a.places[1] < b.places[1] { a } else { b };
+        let places = [start.places[0], end.places[1]];
         let first = |side: &CutSide| {
             let across = side.inner.and_then(|edge| inner.across(edge));
             across.map_or(side.face, |(face, _)| face.min(side.face))
         };
         let (one, other) = (first(a), first(b));
         let faces = [one.min(other), one.max(other)];
-        Self { line: a.line, faces, ends: [start, end] }
+        Self { line: a.line, faces, places, ends: [start.ends[0], end.ends[1]] }
     }
-}
-
-/// How far the second of two runs along a line begins behind the end of the first, if it does.
-fn gap(before: &EdgeRun, run: &EdgeRun) -> f64 {
-    let reach = distance(before.ends[0], before.ends[1]);
-    distance(before.ends[0], run.ends[0]) - reach
-}
-
-/// Joins runs of the same polygons, from the `first` on, where one begins where another ends or before: they are
-/// on one line, in its direction. (Runs of two translucent polygons are found from either side.)
-fn merge(runs: &mut Vec<EdgeRun>, first: usize, watch: &Watch<'_>) -> Result<(), Error> {
-    let other = |run: &EdgeRun| match run.kind {
-        EdgeKind::Crossing(other) => other,
-        _ => 0,
-    };
-    // Stable: runs of one pair stay in their order along the line.
-    let mut rest = runs.split_off(first);
-    let key = |run: &EdgeRun| (run.polygon, other(run));
-    sort_by(&mut rest, watch, |a, b| key(a).cmp(&key(b)))?;
-    for run in each(watch, 1, rest) {
-        let run = run?;
-        let goes_on = |before: &&mut EdgeRun| {
-            (before.polygon, before.kind) == (run.polygon, run.kind)
-                && gap(before, &run) <= SHORTEST
-        };
-        match runs[first..].last_mut().filter(goes_on) {
-            Some(before) => {
-                let [start, end] = [before.ends[1], run.ends[1]];
-                if distance(before.ends[0], end) > distance(before.ends[0], start) {
-                    before.ends[1] = end;
-                }
-            }
-            None => runs.push(run),
-        }
-    }
-    Ok(())
 }
 
 /// So many pairs are looked at by one thread.
@@ -303,77 +282,45 @@ const SHARE: usize = 256;
 struct Crossing {
     /// As those of [`CommonSide`].
     faces: [u32; 2],
-    sight: ProjectedSegment,
+    segment: ProjectedSegment,
 }
 
 impl VisibilityMap<'_> {
-    fn crossings_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(6, |watch| {
-            let (crossings, shown) = self.all_crossings(watch)?;
-            let mut sights: Vec<ProjectedSegment> = Vec::with_capacity(crossings.len());
-            for crossing in each(watch, VISITED, &crossings) {
-                sights.push(crossing?.sight);
+    /// The runs of all crossings in the picture, in so many phases.
+    fn all_crossings(&self, phases: usize, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
+        self.reporter.watch(phases, |watch| {
+            let primitives = &self.primitives;
+            let faces = primitives.lines.frame.faces;
+            let inner = InnerEdges::of(faces);
+            let mut shown = self.common_sides(&inner, watch)?;
+            sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
+            let mut pairs = straddling(primitives, &inner, watch)?;
+            // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+            let of_shown = shown.iter().map(|side| side.faces);
+            pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
+            sort_unique(&mut pairs, watch)?;
+            let crossings = crossings_of(&pairs, primitives, &inner, watch)?;
+            let (mut list, mut visible) = (Vec::new(), Vec::new());
+            for (number, crossing) in (0..).zip(&crossings) {
+                let course = &crossing.segment.course;
+                let first = shown.partition_point(|side| side.faces < crossing.faces);
+                let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
+                visible.clear();
+                visible.extend(own.map(|side| {
+                    let [a, b] = side.ends.map(|end| course.place_on(end));
+                    [a.min(b), a.max(b)]
+                }));
+                sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
+                let parts = parts(course, visible.iter().copied()).into_iter();
+                list.extend(parts.map(|(ends, is_visible)| {
+                    (self.run(crossing.faces, ends, is_visible), number)
+                }));
             }
-            let is_own = |sight: u32, face: u32| crossings[sight as usize].faces.contains(&face);
-            let depths = self.depths(&sights, is_own, watch)?;
-            self.crossing_runs(&crossings, &shown, Some(&depths), watch)
+            sort_by(&mut list, watch, |(a, _), (b, _)| a.polygon.cmp(&b.polygon))?;
+            let segment = |number: u32| Some(crossings[number as usize].segment);
+            let is_own = |number: u32, face: u32| crossings[number as usize].faces.contains(&face);
+            self.runs(list, hidden, segment, is_own, watch)
         })
-    }
-
-    /// All crossings in the picture, and what shows of them, by their faces: four phases.
-    fn all_crossings(&self, watch: &Watch<'_>) -> Result<(Vec<Crossing>, Vec<CommonSide>), Error> {
-        let primitives = &self.primitives;
-        let inner = InnerEdges::of(primitives.lines.frame.faces, watch)?;
-        let mut shown = self.common_sides(&inner, watch)?;
-        sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
-        let mut pairs = straddling(primitives, &inner, watch)?;
-        // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
-        for side in each(watch, VISITED, &shown) {
-            let [below, above] = side?.faces;
-            pairs.push(Pair { below, above });
-        }
-        sort_unique(&mut pairs, watch)?;
-        Ok((crossings_of(&pairs, primitives, &inner, watch)?, shown))
-    }
-
-    /// The runs of crossings, with how many polygons are in front of each if that is known.
-    fn crossing_runs(
-        &self,
-        crossings: &[Crossing],
-        shown: &[CommonSide],
-        depths: Option<&Depths>,
-        watch: &Watch<'_>,
-    ) -> Result<Vec<EdgeRun>, Error> {
-        let faces = self.primitives.lines.frame.faces;
-        let (mut runs, mut visible) = (Vec::new(), Vec::new());
-        for numbered in each(watch, VISITED, crossings.iter().enumerate()) {
-            let (i, crossing) = numbered?;
-            let sight = &crossing.sight;
-            let first = shown.partition_point(|side| side.faces < crossing.faces);
-            let own = shown[first..].iter().take_while(|side| side.faces == crossing.faces);
-            visible.clear();
-            for side in each(watch, VISITED, own) {
-                let [a, b] = side?.ends.map(|end| sight.course.place_on(end));
-                visible.push([a.min(b), a.max(b)]);
-            }
-            sort_by(&mut visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-            let [a, b] = crossing.faces.map(|face| faces.polygon(face));
-            let (polygon, kind) = (a.min(b), EdgeKind::Crossing(a.max(b)));
-            for (ends, is_visible) in parts(&sight.course, visible.iter().copied()) {
-                let run = EdgeRun { polygon, edge: None, kind, ends, is_visible, layers: None };
-                let Some(depths) = depths else {
-                    runs.push(run);
-                    continue;
-                };
-                for (ends, layers) in
-                    in_layers(ends, is_visible, Some((sight, depths.of(i))), watch)?
-                {
-                    runs.push(EdgeRun { ends, layers: Some(layers), ..run });
-                }
-            }
-        }
-        sort_by(&mut runs, watch, |a, b| a.polygon.cmp(&b.polygon))?;
-        Ok(runs)
     }
 }
 
@@ -384,92 +331,63 @@ fn crossings_of(
     inner: &InnerEdges,
     watch: &Watch<'_>,
 ) -> Result<Vec<Crossing>, Error> {
-    // With the lines in which the faces cut one another.
-    let mut lines = primitives.lines.clone();
-    let mut cuts = Vec::with_capacity(pairs.len());
-    for pair in each(watch, LINES, pairs) {
-        let Pair { below, above } = *pair?;
-        let View { is_positive, .. } = primitives.views[below as usize];
-        let is_bent = inner.bend(primitives.lines.frame.faces, [below, above]).is_some();
-        let cut = || lines.cut(below, PlaneId::face(above), true, is_positive);
-        cuts.push((!is_bent).then(cut).transpose()?);
-    }
-    let lines = &lines;
-    let shares: Vec<_> = pairs.chunks(SHARE).zip(cuts.chunks(SHARE)).enumerate().collect();
+    let shares: Vec<_> = pairs.chunks(SHARE).enumerate().collect();
     let count = shares.len();
-    let share = |(i, (pairs, cuts)): (usize, (&[Pair], &[Option<HalfPlane>]))| {
+    let share = |(i, pairs): (usize, &[Pair])| {
         let mut found = Vec::new();
-        for (&Pair { below, above }, &cut) in pairs.iter().zip(cuts) {
+        for &Pair { below, above } in pairs {
             let faces = [below, above];
             let corners: usize = faces.map(|face| primitives.edges_work(face)).iter().sum();
             watch.work(CUT + corners)?;
-            let sight = match (cut, inner.bend(primitives.lines.frame.faces, faces)) {
-                (Some(cut), _) => straight(faces, cut, primitives, lines, watch)?,
-                (None, Some(bend)) => bent(&bend, primitives, lines, watch)?,
-                (None, None) => None,
+            let segment = match inner.bend(primitives.lines.frame.faces, faces) {
+                Some(bend) => bent(&bend, primitives, watch)?,
+                None => straight(faces, primitives, watch)?,
             };
-            if let Some(sight) = sight {
-                found.push(Crossing { faces, sight });
-            }
+            found.extend(segment.map(|segment| Crossing { faces, segment }));
         }
         finish_item(watch, i, count);
         Ok(found)
     };
-    let mut all = Vec::new();
-    for mut found in parallel_map::map(shares, share)? {
-        all.reserve(found.len());
-        all.append(&mut found);
-    }
-    Ok(all)
+    Ok(parallel_map::map(shares, share)?.into_iter().flatten().collect())
 }
 
 /// Where two faces go through one another: where both are in the picture, the line along which they are as far
 /// away.
 fn straight(
-    [one, other]: [u32; 2],
-    cut: HalfPlane,
+    faces: [u32; 2],
     primitives: &Primitives<'_>,
-    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
-    let mut halves: SmallVec<[HalfPlane; 8]> = SmallVec::from_slice(primitives.outline(one));
-    halves.extend_from_slice(primitives.outline(other));
-    let Some(common) = Cell::picture(lines).within(lines, &halves, None, watch)? else {
-        return Ok(None);
-    };
-    if !common.meets(lines, &[cut.flipped(true)], watch)? {
-        return Ok(None);
-    }
-    let Some(Cell { sides }) = common.within(lines, &[cut], None, watch)? else { return Ok(None) };
-    let Some(i) = sides.iter().position(|side| side.half == cut) else { return Ok(None) };
-    let next = if i + 1 == sides.len() { 0 } else { i + 1 };
-    Ok(ProjectedSegment::crossing(lines, [one, other], [i, next].map(|i| sides[i].start.at)))
+    let lines = &primitives.lines;
+    let halves = faces.map(|face| primitives.outline(face)).concat();
+    let common = Cell::picture(lines).within(lines, &halves, None, watch)?;
+    Ok(common.and_then(|common| ProjectedSegment::crossing(lines, faces, &common)))
 }
 
 /// Where a face goes through a polygon along an edge inside it.
 fn bent(
     bend: &Bend,
     primitives: &Primitives<'_>,
-    lines: &LineTable<'_>,
     watch: &Watch<'_>,
 ) -> Result<Option<ProjectedSegment>, Error> {
     let Bend { edge: (face, k), other, other_edge, .. } = *bend;
-    let faces = primitives.lines.frame.faces;
-    let sight = ProjectedSegment::new(lines, faces.ends(face, k));
+    let lines = &primitives.lines;
+    let faces = lines.frame.faces;
+    let segment = ProjectedSegment::new(lines, faces.ends(face, k));
     // Along a border of the picture, there is nothing on the other side.
-    let Some(sight) = sight.filter(|sight| sight.picture.is_eq()) else { return Ok(None) };
+    let Some(segment) = segment.filter(|segment| segment.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
         Some(k) => ProjectedSegment::new(lines, faces.ends(other, k)).map(|along| {
-            let [a, b] = along.course.places.map(|at| sight.course.place(along.course.at(at)));
+            let [a, b] = along.course.places.map(|at| segment.course.place(along.course.at(at)));
             [a.min(b), a.max(b)]
         }),
         None => {
             let cell =
                 Cell::picture(lines).within(lines, primitives.outline(other), None, watch)?;
-            cell.and_then(|cell| sight.chord(lines, &cell))
+            cell.and_then(|cell| segment.chord(lines, &cell))
         }
     };
-    Ok(common.and_then(|common| sight.within(common)))
+    Ok(common.and_then(|common| segment.within(common)))
 }
 
 /// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
@@ -486,7 +404,7 @@ struct Block {
 
 /// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
 /// these than the tolerance, that may go through one another: a phase.
-pub(super) fn straddling(
+fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
     watch: &Watch<'_>,
@@ -495,15 +413,14 @@ pub(super) fn straddling(
     let boxes: Vec<Aabb> =
         ((0..faces.len() as u32).map(|face| aabb(faces.corners(face)))).collect();
     let (mut seen, mut all) = (Vec::new(), NOTHING);
-    for face in each(watch, 1, 0..faces.len() as u32) {
-        let face = face?;
+    for face in 0..faces.len() as u32 {
         if primitives.sees(face) {
             seen.push(face);
             all = around(all, boxes[face as usize]);
         }
     }
     let all = Block { bounds: all, faces: seen, growth: Growth::NONE };
-    let halves = |block: &Block, _: &mut Found| block.halves(&boxes, watch);
+    let halves = |block: &Block| block.halves(&boxes, watch);
     let leaf = |block: &Block, found: &mut Found| {
         for (i, &a) in block.faces.iter().enumerate() {
             for b in each(watch, NARROWED, &block.faces[i + 1..]) {
@@ -523,7 +440,7 @@ pub(super) fn straddling(
         }
         Ok(())
     };
-    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
+    sorted(found_in(all, halves, leaf, watch)?, watch)
 }
 
 impl Faces {
@@ -601,14 +518,14 @@ pub(super) struct Bend {
 }
 
 impl InnerEdges {
-    pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
+    pub(super) fn of(faces: &Faces) -> Self {
         let mut across = Table::default();
         // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
         // outline's on the other side.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
-            for numbered in each(watch, VISITED, &faces.numbered) {
-                let face = numbered?.0;
+            for numbered in &faces.numbered {
+                let face = numbered.0;
                 let edges = 0..faces.corners(face).len() as u32;
                 for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
                     let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
@@ -626,7 +543,7 @@ impl InnerEdges {
                 }
             }
         }
-        Ok(Self(across))
+        Self(across)
     }
 
     /// The face on the other side of an edge, and which of its edges it is.

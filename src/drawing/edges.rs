@@ -1,7 +1,4 @@
 //! Edges of polygons: visible and hidden runs, by the faces that share an edge.
-//!
-//! The number of polygons in front of an edge is its quantitative invisibility (A. Appel, "The notion of
-//! quantitative invisibility and the machine rendering of solids", 1967).
 
 use std::cmp::Ordering;
 
@@ -9,21 +6,13 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::crossings::{FaceEdge, InnerEdges};
-use super::leaf::Visible;
-use super::lines::{LineTable, Table};
-use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by};
-use super::sight::{ImageLine, Pass, Passing, Pieces, ProjectedSegment, merged, parts, passes};
-use super::tile::{CUT, Reaches, VISITED};
+use super::lines::{Table, ViewFrame};
+use super::map::{Hidden, VisibilityMap, finish_item, sort_by, sort_unique};
+use super::quadtree::{CUT, VISITED, Visible};
+use super::segments::{Depths, Passing, ProjectedSegment, in_layers, parts};
 use crate::Error;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
-
-/// Edges with the runs of those that a polygon shows.
-pub(super) struct Runs {
-    pub(super) edges: Vec<SharedEdge>,
-    /// Each with the number of its edge.
-    pub(super) list: Vec<(EdgeRun, u32)>,
-}
 
 impl VisibilityMap<'_> {
     /// The edges of polygons that show a side to the camera, as far as they are in the picture, in runs
@@ -44,43 +33,60 @@ impl VisibilityMap<'_> {
     ///
     /// If it was [cancelled](Self#progress).
     pub fn edges(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
-        if hidden == Hidden::Count {
-            return self.edges_in_layers();
-        }
-        self.reporter.watch(2, |watch| {
-            let list = self.edge_runs(watch)?.list;
-            let mut runs = Vec::with_capacity(list.len());
-            for run in each(watch, 1, list) {
-                let (run, _) = run?;
-                if run.is_visible || hidden == Hidden::Keep {
-                    runs.push(run);
-                }
+        self.reporter.watch(if hidden == Hidden::Count { 3 } else { 2 }, |watch| {
+            let (mut edges, numbers) = self.shared_edges(watch)?;
+            self.collect(&mut edges, &numbers, watch)?;
+            let (mut list, count) = (Vec::new(), edges.len());
+            for (number, edge) in (0..).zip(&mut edges) {
+                watch.work(CUT + edge.visible.len() * VISITED)?;
+                sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
+                self.add_runs(edge, |run| list.push((run, number)));
+                finish_item(watch, number as usize, count);
             }
-            Ok(runs)
+            let key = |run: &EdgeRun| (run.polygon, run.edge);
+            sort_by(&mut list, watch, |(a, _), (b, _)| key(a).cmp(&key(b)))?;
+            let is_own = |edge: u32, face: u32| {
+                edges[edge as usize].faces.iter().any(|&(own, _)| own == face)
+            };
+            self.runs(list, hidden, |edge| edges[edge as usize].segment, is_own, watch)
         })
     }
 
-    /// The runs of all edges: two phases.
-    pub(super) fn edge_runs(&self, watch: &Watch<'_>) -> Result<Runs, Error> {
-        let is_drawn = |face| self.primitives.opacity(face) > 0.0;
-        let mut views = Views { map: self, sides: Table::default() };
-        let side = |face| views.side(face);
-        let (mut edges, numbers) = shared_edges(&self.primitives.lines, is_drawn, side, watch)?;
-        self.collect(&mut edges, &numbers, watch)?;
-        let count = edges.len();
-        let mut list = Vec::with_capacity(count);
-        for numbered in each(watch, VISITED, edges.iter_mut().enumerate()) {
-            let (number, edge) = numbered?;
-            if let Some(course) = edge.course {
-                let first = list.len();
-                sort_by(&mut edge.visible, watch, |a, b| a[0].total_cmp(&b[0]))?;
-                views.runs(edge, &course, |run| list.push((run, number as u32)));
-                watch.work((list.len() - first) * VISITED)?;
-            }
-            finish_item(watch, number, count);
+    /// Runs, each with the number of its segment, as far as they are wanted. With [`Hidden::Count`], hidden ones are cut
+    /// where the number of polygons in front of them changes, of faces that are not the segment's own: a phase.
+    pub(super) fn runs(
+        &self,
+        mut list: Vec<(EdgeRun, u32)>,
+        hidden: Hidden,
+        segment: impl Fn(u32) -> Option<ProjectedSegment>,
+        is_own: impl Fn(u32, u32) -> bool,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<EdgeRun>, Error> {
+        list.retain(|(run, _)| run.is_visible || hidden != Hidden::Skip);
+        if hidden != Hidden::Count {
+            return Ok(list.into_iter().map(|(run, _)| run).collect());
         }
-        sort_by(&mut list, watch, |(a, _), (b, _)| (a.polygon, a.edge).cmp(&(b.polygon, b.edge)))?;
-        Ok(Runs { edges, list })
+        let hidden = list.iter().filter(|(run, _)| !run.is_visible);
+        let mut hidden: Vec<u32> = hidden.map(|&(_, number)| number).collect();
+        sort_unique(&mut hidden, watch)?;
+        let segments: Vec<ProjectedSegment> =
+            hidden.iter().filter_map(|&number| segment(number)).collect();
+        let passes = self.in_front(Passing::new(&segments, &[]), true, watch)?.segments;
+        let faces = self.primitives.lines.frame.faces;
+        let is_own = |place: u32, face: u32| is_own(hidden[place as usize], face);
+        let depths = Depths::new(segments.len(), &passes, faces, is_own, watch)?;
+        let mut layered = Vec::new();
+        for (run, number) in list {
+            let known = hidden.binary_search(&number).ok();
+            let known = known.map(|place| (&segments[place], depths.of(place)));
+            let parts = in_layers(run.ends, run.is_visible, known, watch)?.into_iter();
+            layered.extend(parts.map(|(ends, layers)| EdgeRun {
+                ends,
+                layers: Some(layers),
+                ..run
+            }));
+        }
+        Ok(layered)
     }
 
     /// Adds to each edge where it shows: a phase.
@@ -94,28 +100,27 @@ impl VisibilityMap<'_> {
         // Which edges of a face lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         let faces = primitives.lines.frame.faces;
-        for face in each(watch, VISITED, 0..faces.len() as u32) {
-            let face = face?;
+        for face in 0..faces.len() as u32 {
             let corners = 0..faces.corners(face).len() as u32;
             for (k, half) in corners.zip(self.primitives.outline(face)) {
                 watch.work(VISITED)?;
                 if numbers.contains_key(&(face, k)) {
-                    edges.reserve(1);
                     edges.entry((face, half.line())).or_default().push(k);
                 }
             }
         }
         let count = self.leaves.len();
         for (i, leaf) in self.leaves.iter().enumerate() {
-            for visible in each(watch, SIDES, &leaf.cells) {
-                let Visible { item, cell } = visible?;
+            watch.work(leaf.cells.len() * SIDES)?;
+            for Visible { item, cell } in &leaf.cells {
                 let face = primitives.face(*item);
                 for (i, side) in cell.sides.iter().enumerate() {
                     let end = cell.sides[if i + 1 == cell.sides.len() { 0 } else { i + 1 }].start;
                     for &k in edges.get(&(face, side.half.line())).into_iter().flatten() {
                         let Some(&number) = numbers.get(&(face, k)) else { continue };
                         let edge = &mut all[number as usize];
-                        let Some(course) = &edge.course else { continue };
+                        let Some(segment) = &edge.segment else { continue };
+                        let course = &segment.course;
                         let [a, b] = [side.start.at, end.at].map(|point| course.place_on(point));
                         edge.visible.push([a.min(b), a.max(b)]);
                     }
@@ -125,33 +130,17 @@ impl VisibilityMap<'_> {
         }
         Ok(())
     }
-}
-
-/// To look at the sides of a cell takes as long as a build takes to examine so many pieces.
-const SIDES: usize = 16;
-
-/// From which sides faces are seen.
-struct Views<'m> {
-    map: &'m VisibilityMap<'m>,
-    sides: Table<u32, Ordering>,
-}
-
-impl Views<'_> {
-    fn side(&mut self, face: u32) -> Ordering {
-        let frame = &self.map.primitives.lines.frame;
-        *self.sides.entry(face).or_insert_with(|| frame.seen_side(face))
-    }
 
     /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
     /// polygon shows a side there.
-    fn runs(&mut self, edge: &SharedEdge, course: &ImageLine, give: impl FnMut(EdgeRun)) {
-        let fronts_only = self.map.primitives.lines.frame.rays.is_front_only();
-        let sides: SmallVec<[Ordering; 2]> =
-            edge.faces.iter().map(|&(face, _)| self.side(face)).collect();
-        let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !fronts_only;
+    fn add_runs(&self, edge: &SharedEdge, give: impl FnMut(EdgeRun)) {
+        let Some(segment) = &edge.segment else { return };
+        let ViewFrame { rays, faces } = &self.primitives.lines.frame;
+        let sides = edge.faces.iter().map(|&(face, _)| self.primitives.views[face as usize].side);
+        let sides: SmallVec<[Ordering; 2]> = sides.collect();
+        let shows = |side: &Ordering| side.is_gt() || side.is_lt() && !rays.is_front_only();
         let fronts = sides.iter().position(|side| side.is_gt());
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return };
-        let faces = self.map.primitives.lines.frame.faces;
         let mut numbered = sides.iter().enumerate();
         // Of an edge along a border of the picture, none may be in the picture.
         if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
@@ -161,7 +150,7 @@ impl Views<'_> {
         let (polygon, kind) = (faces.polygon(face), edge.kind(faces, &sides));
         let number = faces.outline_edge(face, k);
         let mut runs: SmallVec<[EdgeRun; 4]> = SmallVec::new();
-        for (ends, is_visible) in parts(course, edge.visible.iter().copied()) {
+        for (ends, is_visible) in parts(&segment.course, edge.visible.iter().copied()) {
             runs.push(EdgeRun { polygon, edge: number, kind, ends, is_visible, layers: None });
         }
         if edge.is_turned(faces, 0, owner) {
@@ -170,90 +159,73 @@ impl Views<'_> {
         }
         runs.into_iter().for_each(give)
     }
+
+    /// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
+    /// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
+    /// without them.
+    fn shared_edges(&self, watch: &Watch<'_>) -> Result<(Vec<SharedEdge>, Numbers), Error> {
+        let primitives = &self.primitives;
+        let faces = primitives.lines.frame.faces;
+        let side = |face: u32| primitives.views[face as usize].side;
+        let mut points: Table<[u64; 3], u32> = Table::default();
+        let mut point = |corner: usize| {
+            let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
+            let next = points.len() as u32;
+            *points.entry(place).or_insert(next)
+        };
+        let mut by_points: Table<[u32; 2], u32> = Table::default();
+        let inner = InnerEdges::of(faces);
+        let mut numbers = Numbers::default();
+        let mut all: Vec<SharedEdge> = Vec::new();
+        for face in (0..faces.len() as u32).filter(|&face| primitives.opacity(face) > 0.0) {
+            let range = faces.corner_range(face);
+            for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
+                watch.work(CUT)?;
+                let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
+                let [a, b] = [point(range.start + k), point(next)];
+                let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
+                let mut known: SmallVec<[FaceEdge; 2]> = SmallVec::from_slice(&[(face, k)]);
+                let number = if faces.outline_edge(face, k).is_some() {
+                    *by_points.entry(points).or_insert(new)
+                } else {
+                    // Each once, with the second of its faces.
+                    let before = inner.across((face, k)).filter(|other| {
+                        *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
+                    });
+                    let Some(other) = before.filter(|other| side(other.0) != side(face)) else {
+                        continue;
+                    };
+                    known.insert(0, other);
+                    new
+                };
+                if number == new {
+                    let (first, k) = known[0];
+                    let segment = ProjectedSegment::new(&primitives.lines, faces.ends(first, k));
+                    all.push(SharedEdge { faces: SmallVec::new(), segment, visible: vec![] });
+                }
+                all[number as usize].faces.extend_from_slice(&known);
+                numbers.extend(known.into_iter().map(|name| (name, number)));
+            }
+        }
+        Ok((all, numbers))
+    }
 }
 
+/// To look at the sides of a cell takes as long as a build takes to examine so many pieces.
+const SIDES: usize = 16;
+
 /// The number of an edge, by a face and which of its edges it is.
-pub(super) type Numbers = Table<FaceEdge, u32>;
+type Numbers = Table<FaceEdge, u32>;
 
 /// An edge of at least one face.
 #[derive(Debug)]
-pub(super) struct SharedEdge {
+struct SharedEdge {
     /// Faces, and which of their edges it is.
-    pub(super) faces: SmallVec<[FaceEdge; 2]>,
-    /// Where the edge of the first of the faces is in the picture; `None` if that does not show it as a line.
-    pub(super) course: Option<ImageLine>,
-    /// The side of that edge's line on which the picture lies, if it runs along a border of it; else `Equal`.
-    picture: Ordering,
+    faces: SmallVec<[FaceEdge; 2]>,
+    /// The edge of the first of the faces in the picture; `None` if that does not show it as a line.
+    segment: Option<ProjectedSegment>,
     /// Where it shows: places along it.
-    pub(super) visible: Vec<[f64; 2]>,
-}
-
-/// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
-/// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
-/// without them.
-pub(super) fn shared_edges(
-    lines: &LineTable<'_>,
-    is_drawn: impl Fn(u32) -> bool,
-    mut side: impl FnMut(u32) -> Ordering,
-    watch: &Watch<'_>,
-) -> Result<(Vec<SharedEdge>, Numbers), Error> {
-    let faces = lines.frame.faces;
-    let mut points: Table<[u64; 3], u32> = Table::default();
-    let mut point = |corner: usize| -> Result<u32, Error> {
-        let place = faces.given_corner(corner as u32).map(|c| (c + 0.0).to_bits());
-        points.reserve(1);
-        let next = points.len() as u32;
-        Ok(*points.entry(place).or_insert(next))
-    };
-    let mut by_points: Table<[u32; 2], u32> = Table::default();
-    let inner = InnerEdges::of(faces, watch)?;
-    let mut numbers = Numbers::default();
-    let mut all: Vec<SharedEdge> = Vec::new();
-    for face in each(watch, VISITED, 0..faces.len() as u32) {
-        let face = face?;
-        if !is_drawn(face) {
-            continue;
-        }
-        let range = faces.corner_range(face);
-        for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
-            watch.work(CUT / 2)?;
-            let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
-            let [a, b] = [point(range.start + k)?, point(next)?];
-            let (points, k, new) = ([a.min(b), a.max(b)], k as u32, all.len() as u32);
-            let mut known: SmallVec<[FaceEdge; 2]> = SmallVec::from_slice(&[(face, k)]);
-            let number = if faces.outline_edge(face, k).is_some() {
-                by_points.reserve(1);
-                *by_points.entry(points).or_insert(new)
-            } else {
-                // Each once, with the second of its faces.
-                let before = inner.across((face, k)).filter(|other| {
-                    *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
-                });
-                let Some(other) = before.filter(|other| side(other.0) != side(face)) else {
-                    continue;
-                };
-                known.insert(0, other);
-                new
-            };
-            if number == new {
-                let (first, k) = known[0];
-                let sight = ProjectedSegment::new(lines, faces.ends(first, k));
-                let (course, picture) = match sight {
-                    Some(ProjectedSegment { course, picture, .. }) => (Some(course), picture),
-                    None => (None, Ordering::Equal),
-                };
-                // Lists of edges that grow by an eighth are moved too often.
-                all.reserve(1);
-                let faces = SmallVec::new();
-                all.push(SharedEdge { faces, course, picture, visible: vec![] });
-            }
-            for name in known {
-                all[number as usize].faces.push(name);
-                numbers.insert(name, number);
-            }
-        }
-    }
-    Ok((all, numbers))
+    visible: Vec<[f64; 2]>,
 }
 
 impl Faces {
@@ -272,21 +244,21 @@ impl Faces {
 
 impl SharedEdge {
     /// Whether two of the faces run along it in opposite ways.
-    pub(super) fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
+    fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
         let [a, b] = [one, other].map(|i| faces.given_start(self.faces[i].0, self.faces[i].1));
         a != b
     }
 
     /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture. (A face whose
     /// front is seen is where its edges are negative.)
-    pub(super) fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
+    fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
         let is_turned = self.is_turned(faces, 0, number);
         let inside = if is_turned { side } else { side.reverse() };
-        self.picture.is_eq() || self.picture == inside
+        self.segment.is_some_and(|segment| segment.picture.is_eq() || segment.picture == inside)
     }
 
     /// What it is, by the sides that its faces show.
-    pub(super) fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
+    fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
         // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
         let is_folded = !self.is_turned(faces, 0, 1);
@@ -344,180 +316,3 @@ pub struct EdgeRun {
 
 /// Runs and gaps shorter than this, in pixels, are what rounding has left.
 pub(super) const SHORTEST: f64 = 1e-6;
-
-/// The place of what has no hidden runs.
-const NONE: u32 = u32::MAX;
-
-/// Both ends of a run.
-type Ends = [[f64; 2]; 2];
-
-/// From a place of a segment on, so many polygons are in front of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Depth {
-    from: f64,
-    layers: u32,
-}
-
-/// The depths of several segments, and where those of each begin: before its first, nothing is in front.
-#[derive(Default)]
-pub(super) struct Depths {
-    depths: Vec<Depth>,
-    begins: Vec<usize>,
-}
-
-impl Depths {
-    pub(super) fn of(&self, segment: usize) -> &[Depth] {
-        &self.depths[self.begins[segment]..self.begins[segment + 1]]
-    }
-}
-
-impl VisibilityMap<'_> {
-    /// The runs of all edges with the numbers of polygons in front of them: four phases.
-    fn edges_in_layers(&self) -> Result<Vec<EdgeRun>, Error> {
-        self.reporter.watch(4, |watch| {
-            let faces = self.primitives.lines.frame.faces;
-            let Runs { edges, list } = self.edge_runs(watch)?;
-            // The edges with hidden runs, and the number of each among these.
-            let (mut hidden, mut sights) = (Vec::new(), Vec::new());
-            let mut places: Vec<u32> = edges.iter().map(|_| NONE).collect();
-            for run in each(watch, CUT, &list) {
-                let (run, number) = run?;
-                let (edge, place) = (&edges[*number as usize], &mut places[*number as usize]);
-                if run.is_visible || *place != NONE {
-                    continue;
-                }
-                let (face, k) = edge.faces[0];
-                if let Some(sight) =
-                    ProjectedSegment::new(&self.primitives.lines, faces.ends(face, k))
-                {
-                    *place = hidden.len() as u32;
-                    hidden.push(*number);
-                    sights.push(sight);
-                }
-            }
-            let is_own = |sight: u32, face: u32| {
-                let edge = &edges[hidden[sight as usize] as usize];
-                edge.faces.iter().any(|&(own, _)| own == face)
-            };
-            let depths = self.depths(&sights, is_own, watch)?;
-            let mut layered = Vec::new();
-            for run in each(watch, VISITED, &list) {
-                let (run, number) = run?;
-                let place = places[*number as usize] as usize;
-                let known = sights.get(place).map(|sight| (sight, depths.of(place)));
-                for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
-                    layered.push(EdgeRun { ends, layers: Some(layers), ..*run });
-                }
-            }
-            Ok(layered)
-        })
-    }
-
-    /// How many polygons are in front of segments: two phases. A face that is a segment's own does not count.
-    pub(super) fn depths(
-        &self,
-        sights: &[ProjectedSegment],
-        is_own: impl Fn(u32, u32) -> bool,
-        watch: &Watch<'_>,
-    ) -> Result<Depths, Error> {
-        if sights.is_empty() {
-            return Ok(Depths { begins: vec![0], ..Depths::default() });
-        }
-        let (primitives, faces) = (&self.primitives, self.primitives.lines.frame.faces);
-        let mut reaches = Reaches::default();
-        // Hidden polygons hide edges too.
-        for face in 0..faces.len() {
-            let number = face as u32;
-            watch.work(VISITED + primitives.edges_work(number))?;
-            if primitives.sees(number) {
-                reaches.push(number, primitives.outline(number))?;
-            }
-            finish_item(watch, face, faces.len());
-        }
-        let around = |face: u32| primitives.views[face as usize].around;
-        let pieces =
-            Pieces { lines: &primitives.lines, reaches, face: &|face| face, around: &around };
-        let passing = Passing { sights, spots: &[] };
-        let found = passes(pieces, passing, |is_behind| is_behind, watch)?;
-        let mut passes = found.sights;
-        let polygon = |face: u32| faces.polygon(face);
-        sort_by(&mut passes, watch, |a, b| {
-            let keys = [a, b].map(|pass| (pass.sight, polygon(pass.piece)));
-            keys[0].cmp(&keys[1]).then(a.places[0].total_cmp(&b.places[0]))
-        })?;
-        let (mut depths, mut changes) = (Depths::default(), Vec::new());
-        let mut rest = &passes[..];
-        for number in each(watch, VISITED, 0..sights.len() as u32) {
-            let number = number?;
-            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
-            rest = others;
-            changes.clear();
-            watch.work(own.len() * VISITED)?;
-            for same in own.chunk_by(|a, b| polygon(a.piece) == polygon(b.piece)) {
-                // Each polygon counts once, however many parts of it there are.
-                let counts = |pass: &&Pass| !is_own(number, pass.piece);
-                for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
-                    changes.push((from, 1));
-                    changes.push((to, -1));
-                }
-            }
-            sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
-            depths.begins.push(depths.depths.len());
-            let mut layers = 0i64;
-            for &(from, change) in &changes {
-                layers += change;
-                depths.depths.push(Depth { from, layers: layers as u32 });
-            }
-        }
-        depths.begins.push(depths.depths.len());
-        Ok(depths)
-    }
-}
-
-/// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
-/// rounding has left are not told from those before them.
-pub(super) fn in_layers(
-    ends: Ends,
-    is_visible: bool,
-    depths: Option<(&ProjectedSegment, &[Depth])>,
-    watch: &Watch<'_>,
-) -> Result<Vec<(Ends, u32)>, Error> {
-    let Some((sight, depths)) = depths.filter(|_| !is_visible) else {
-        return Ok(vec![(ends, u32::from(!is_visible))]);
-    };
-    let [a, b] = ends.map(|end| sight.course.place(end));
-    let (low, high) = (a.min(b), a.max(b));
-    // Where each part begins, as a share of the run.
-    let mut parts: Vec<(f64, u32)> = Vec::new();
-    let first = depths.partition_point(|depth| depth.from <= low);
-    let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);
-    let inside = depths[first..].iter().take_while(|depth| depth.from < high);
-    let begins = inside.map(|depth| (depth.from, depth.layers));
-    let mut begins = [(low, before)].into_iter().chain(begins).peekable();
-    while let Some((from, layers)) = begins.next() {
-        watch.work(1)?;
-        let to = begins.peek().map_or(high, |next| next.0);
-        let layers = layers.max(1);
-        let goes_on = parts.last().is_some_and(|last| last.1 == layers);
-        if to - from >= SHORTEST && !goes_on {
-            let start = if parts.is_empty() { low } else { from };
-            parts.push((start, layers));
-        }
-    }
-    if parts.is_empty() {
-        return Ok(vec![(ends, before.max(1))]);
-    }
-    let at = |place: f64| {
-        let share = (place - a) / (b - a);
-        [0, 1].map(|i: usize| ends[0][i] + (ends[1][i] - ends[0][i]) * share)
-    };
-    let count = parts.len();
-    let cut = |i: usize| if i == 0 || i == count { None } else { Some(at(parts[i].0)) };
-    let end = |i: usize| cut(i).unwrap_or(ends[usize::from((i == 0) != (a < b))]);
-    let mut all: Vec<_> = (0..count).map(|i| ([end(i), end(i + 1)], parts[i].1)).collect();
-    if a > b {
-        all.reverse();
-        all.iter_mut().for_each(|(ends, _)| ends.swap(0, 1));
-    }
-    Ok(all)
-}

@@ -2,8 +2,7 @@
 //!
 //! A tile has a list of the pieces that may show in it, front to back. The list ends with the first piece that
 //! covers the tile. Where it is short, the tile is a leaf, and what is visible of each piece is
-//! subtracted from what is left open; otherwise the tile is halved (J. E. Warnock, "A hidden surface
-//! algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
+//! subtracted from what is left open; otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -11,9 +10,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use super::cell::Cell;
-use super::leaf::{Leaf, SHORT, Visible};
 use super::primitives::Primitives;
-use super::tile::{Growth, List, TINY, Tile, found_in};
+use super::quadtree::{Candidates, Leaf, SHORT, TINY, TileList, Visible, found_in};
 use crate::error::{Error, Kind};
 use crate::progress::Progress;
 use crate::progress::{Watch, one_at_a_time};
@@ -47,8 +45,8 @@ use crate::view::Camera;
 /// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the number
 /// of its parts; it does not change during the operation. `done` begins with 0, never decreases, and is `total` in
 /// the last call, when the result is ready. Parts do not take equally long. The callback is called about once a
-/// millisecond, by any thread, one call at a time; only the sorting of a long list takes longer (a tenth of a
-/// second for a million items). If it returns `Break`, the operation ends with an error whose
+/// millisecond, by any thread, one call at a time; only sorting a long list and passing over it take longer (a tenth
+/// of a second for a million items). If it returns `Break`, the operation ends with an error whose
 /// [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
 /// several threads use one map at once, the callback is called for each of them in turn, and the last call of an
 /// operation may be missing.
@@ -281,59 +279,25 @@ impl MapCell<'_> {
     }
 }
 
-/// A tile with the pieces that may show in it.
-#[derive(Debug)]
-struct TileList {
-    tile: Tile,
-    list: List,
-    growth: Growth,
-}
-
 /// The visible parts of all items, in the order of the tiles: a phase.
-pub(super) fn visible(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Leaf>, Error> {
-    let halves = |part: &TileList, _: &mut Vec<Leaf>| part.halves(primitives, watch);
-    let leaf = |TileList { tile, list, .. }: &TileList, found: &mut Vec<Leaf>| {
-        if !list.items.is_empty() {
-            found.push(Leaf::new(*tile, &list.items, primitives, watch)?);
+pub(super) fn visible<'p>(
+    primitives: &'p Primitives<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<Leaf>, Error> {
+    let halves = |list: &TileList<'p>| {
+        let is_leaf = list.candidates.list.len() <= SHORT || list.is_small(TINY);
+        (!is_leaf).then(|| list.halves(watch)).transpose()
+    };
+    let leaf = |list: &TileList<'p>, found: &mut Vec<Leaf>| {
+        if !list.candidates.list.is_empty() {
+            found.push(Leaf::new(list, watch)?);
         }
         Ok(())
     };
-    let tile = Tile::picture(primitives.lines.frame.rays.size());
-    let list = List::of_all(primitives, tile, watch)?;
-    let all = TileList { tile, list, growth: Growth::NONE };
-    let mut leaves = Vec::new();
-    for mut found in found_in(all, Vec::new, halves, leaf, watch)? {
-        leaves.append(&mut found);
-    }
-    Ok(leaves)
-}
-
-impl TileList {
-    /// Both halves of the tile, each with what may show in it; `None` of a leaf.
-    fn halves(
-        &self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
-        if self.is_leaf() {
-            return Ok(None);
-        }
-        let tiles = self.tile.halves();
-        let first = self.list.narrowed(primitives, tiles[0], watch)?;
-        let second = self.list.narrowed(primitives, tiles[1], watch)?;
-        let counts = [&first, &second].map(|list| list.items.len());
-        let growth = self.growth.after(self.list.items.len(), counts);
-        Ok(Some([
-            Self { tile: tiles[0], list: first, growth },
-            Self { tile: tiles[1], list: second, growth },
-        ]))
-    }
-
-    /// Whether the tile need not be halved.
-    fn is_leaf(&self) -> bool {
-        let items = &self.list.items;
-        items.len() <= SHORT || self.growth.is_too_much() || self.tile.is_within(TINY)
-    }
+    let items = Candidates::items(primitives, |_| true)?.ending_at_covers();
+    let all = TileList::picture(&items, watch)?;
+    let parts = found_in(all, halves, leaf, watch)?;
+    Ok(parts.into_iter().flatten().collect())
 }
 
 /// Each phase of an operation has so many parts.

@@ -39,28 +39,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod batches;
 mod cell;
 mod crossings;
 mod edges;
-mod exact_lines;
-mod join;
-mod leaf;
+mod graph;
 mod lines;
 mod map;
-mod order;
 mod overlaid;
+mod pairs;
 mod paths;
 #[cfg(feature = "pdf")]
 mod pdf;
 mod pen;
 mod picture;
+mod prepress;
 mod primitives;
+mod quadtree;
 mod regions;
-mod seams;
-mod sight;
+mod segments;
 mod svg;
-mod tile;
 mod translucent;
 
 pub use edges::{EdgeKind, EdgeRun};

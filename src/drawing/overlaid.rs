@@ -2,15 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use super::cell::are_apart;
-use super::edges::{SHORTEST, in_layers};
-use super::leaf::{Leaf, Visible};
+use super::edges::SHORTEST;
+use super::graph::Pair;
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
-use super::order::{Found, Pair, add, around};
+use super::pairs::{Found, add};
 use super::primitives::Primitives;
-use super::sight::{Pass, Passes, Passing, Pieces, ProjectedSegment, Spot, kept, parts, passes};
-use super::tile::{CUT, Reaches, VISITED, found_in};
+use super::quadtree::{CUT, Candidates, VISITED};
+use super::segments::{
+    Depths, Pass, Passes, Passing, ProjectedPoint, ProjectedSegment, in_layers, parts, passes,
+    take_own,
+};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
@@ -69,7 +71,8 @@ impl VisibilityMap<'_> {
     /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells, plus the number of pairs that have points in common.
+    /// O(n log n) for n segments and faces in most scenes, plus the number of segments and faces that have points in
+    /// common; hidden faces are among these only with [`Hidden::Count`].
     ///
     /// # Errors
     ///
@@ -77,64 +80,41 @@ impl VisibilityMap<'_> {
     /// which is [`Error::polygon`]; or if it was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay, hidden: Hidden) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
-        let counts = hidden == Hidden::Count;
-        self.reporter.watch(if counts { 3 } else { 1 }, |watch| {
-            let (segments, sights) = sights(&self.primitives.lines, overlay, watch)?;
-            let mut runs = self.line_runs(&segments, &sights, watch)?;
-            match hidden {
-                Hidden::Skip => runs.retain(|run| run.is_visible),
-                Hidden::Keep => {}
-                Hidden::Count => runs = self.lines_in_layers(&segments, &sights, &runs, watch)?,
+        let (primitives, counts) = (&self.primitives, hidden == Hidden::Count);
+        let faces = primitives.lines.frame.faces;
+        self.reporter.watch(1, |watch| {
+            let (segments, projected) = segments(&primitives.lines, overlay, watch)?;
+            let passes = self.in_front(Passing::new(&projected, &[]), counts, watch)?.segments;
+            let depths = match counts {
+                true => Some(Depths::new(projected.len(), &passes, faces, |_, _| false, watch)?),
+                false => None,
+            };
+            let (mut runs, mut rest) = (Vec::new(), &passes[..]);
+            for (number, (segment, projected)) in segments.iter().zip(&projected).enumerate() {
+                let own = take_own(&mut rest, number as u32).iter();
+                watch.work(own.len() * VISITED)?;
+                let is_opaque = |pass: &&Pass| primitives.views[pass.piece as usize].is_opaque;
+                let mut covered: Vec<_> = own.filter(is_opaque).map(|pass| pass.places).collect();
+                covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                for (ends, is_hidden) in parts(&projected.course, covered.into_iter()) {
+                    let run = LineRun::new(segment, ends, !is_hidden);
+                    match &depths {
+                        Some(depths) => {
+                            let known = Some((projected, depths.of(number)));
+                            let layered = in_layers(ends, !is_hidden, known, watch)?.into_iter();
+                            runs.extend(layered.map(|(ends, layers)| LineRun {
+                                ends,
+                                layers: Some(layers),
+                                ..run
+                            }));
+                        }
+                        None if is_hidden && hidden == Hidden::Skip => {}
+                        None => runs.push(run),
+                    }
+                }
             }
             Ok(runs)
         })
-    }
-
-    /// Runs, cut where the number of polygons in front of them changes: two phases.
-    fn lines_in_layers(
-        &self,
-        segments: &[GivenSegment],
-        sights: &[ProjectedSegment],
-        runs: &[LineRun],
-        watch: &Watch<'_>,
-    ) -> Result<Vec<LineRun>, Error> {
-        let depths = self.depths(sights, |_, _| false, watch)?;
-        let mut layered = Vec::new();
-        let mut runs = runs.iter().peekable();
-        for numbered in each(watch, VISITED, segments.iter().enumerate()) {
-            let (number, segment) = numbered?;
-            let name = (segment.line, segment.number);
-            while let Some(run) = runs.next_if(|run| (run.line, run.segment) == name) {
-                let known = Some((&sights[number], depths.of(number)));
-                for (ends, layers) in in_layers(run.ends, run.is_visible, known, watch)? {
-                    layered.push(LineRun { ends, layers: Some(layers), ..*run });
-                }
-            }
-        }
-        Ok(layered)
-    }
-
-    /// The runs of segments that the picture shows: a phase.
-    pub(super) fn line_runs(
-        &self,
-        segments: &[GivenSegment],
-        sights: &[ProjectedSegment],
-        watch: &Watch<'_>,
-    ) -> Result<Vec<LineRun>, Error> {
-        let mut hidden = self.covered(Passing { sights, spots: &[] }, watch)?.hidden;
-        sort_by(&mut hidden, watch, |(a, p), (b, q)| a.cmp(b).then(p[0].total_cmp(&q[0])))?;
-        let mut rest = &hidden[..];
-        let mut runs = Vec::new();
-        for segment in each(watch, VISITED, (0..).zip(segments.iter().zip(sights))) {
-            let (number, (segment, sight)) = segment?;
-            let (own, others) = rest.split_at(rest.partition_point(|&(of, _)| of == number));
-            rest = others;
-            watch.work(own.len())?;
-            for (ends, is_hidden) in parts(&sight.course, own.iter().map(|(_, part)| *part)) {
-                runs.push(LineRun::new(segment, ends, !is_hidden));
-            }
-        }
-        Ok(runs)
     }
 
     /// The points of an overlay of the same tree that are in the picture, in input order.
@@ -147,148 +127,47 @@ impl VisibilityMap<'_> {
     pub fn markers(&self, overlay: &Overlay) -> Result<Vec<MarkerView>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         self.reporter.watch(1, |watch| {
-            let (mut views, spots) = spots(&self.primitives.lines, overlay, watch)?;
-            let hidden = self.covered(Passing { sights: &[], spots: &spots }, watch)?.hidden_spots;
-            for number in each(watch, 1, hidden) {
-                views[number? as usize].is_visible = false;
+            let (mut views, points) = points(&self.primitives.lines, overlay, watch)?;
+            for pass in self.in_front(Passing::new(&[], &points), false, watch)?.points {
+                views[pass.point as usize].is_visible = false;
             }
             Ok(views)
         })
     }
-
-    /// What is hidden of segments and points, in no particular order: a phase.
-    fn covered<'m>(&'m self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Covered, Error> {
-        let sights: Vec<_> = (0..passing.sights.len() as u32).collect();
-        let spots: Vec<_> = (0..passing.spots.len() as u32).collect();
-        let all = LeafPasses { leaves: &self.leaves, sights, spots };
-        let halves = |part: &LeafPasses<'m>, _: &mut Covered| part.halves(passing, watch);
-        let leaf =
-            |part: &LeafPasses<'_>, found: &mut Covered| part.leaf(self, passing, found, watch);
-        let mut all_found = Covered::default();
-        for mut found in found_in(all, Covered::default, halves, leaf, watch)? {
-            watch.work(found.hidden.len() + found.hidden_spots.len())?;
-            all_found.hidden.reserve(found.hidden.len());
-            all_found.hidden.append(&mut found.hidden);
-            all_found.hidden_spots.reserve(found.hidden_spots.len());
-            all_found.hidden_spots.append(&mut found.hidden_spots);
-        }
-        Ok(all_found)
-    }
 }
 
 /// The segments of an overlay that the picture shows as lines.
-pub(super) fn sights(
+fn segments(
     lines: &LineTable<'_>,
     overlay: &Overlay,
     watch: &Watch<'_>,
 ) -> Result<(Vec<GivenSegment>, Vec<ProjectedSegment>), Error> {
-    let (mut segments, mut sights) = (Vec::new(), Vec::new());
+    let (mut segments, mut projected) = (Vec::new(), Vec::new());
     for segment in each(watch, CUT, overlay.given_segments()) {
         let segment = segment?;
-        if let Some(sight) = ProjectedSegment::new(lines, segment.ends) {
+        if let Some(shown) = ProjectedSegment::new(lines, segment.ends) {
             segments.push(segment);
-            sights.push(sight);
+            projected.push(shown);
         }
     }
-    Ok((segments, sights))
+    Ok((segments, projected))
 }
 
 /// The points of an overlay that are in the picture, not hidden so far.
-pub(super) fn spots(
+fn points(
     lines: &LineTable<'_>,
     overlay: &Overlay,
     watch: &Watch<'_>,
-) -> Result<(Vec<MarkerView>, Vec<Spot>), Error> {
-    let (mut views, mut spots) = (Vec::new(), Vec::new());
+) -> Result<(Vec<MarkerView>, Vec<ProjectedPoint>), Error> {
+    let (mut views, mut projected) = (Vec::new(), Vec::new());
     for numbered in each(watch, CUT, overlay.given_points().enumerate()) {
         let (point, given) = numbered?;
-        if let Some(spot) = Spot::new(lines, given) {
-            views.push(MarkerView { point, at: spot.at, is_visible: true });
-            spots.push(spot);
+        if let Some(shown) = ProjectedPoint::new(lines, given) {
+            views.push(MarkerView { point, at: shown.at, is_visible: true });
+            projected.push(shown);
         }
     }
-    Ok((views, spots))
-}
-
-/// What is hidden.
-#[derive(Default)]
-struct Covered {
-    /// Of segments, by their numbers: from one place to another.
-    hidden: Vec<(u32, [f64; 2])>,
-    hidden_spots: Vec<u32>,
-}
-
-/// Leaves, with the segments and points that may be in them.
-struct LeafPasses<'l> {
-    leaves: &'l [Leaf],
-    sights: Vec<u32>,
-    spots: Vec<u32>,
-}
-
-impl<'l> LeafPasses<'l> {
-    /// The first and the second half of the leaves; `None` of a single one, or where nothing is.
-    fn halves(&self, passing: Passing<'_>, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
-        let Self { leaves, sights, spots } = self;
-        if leaves.len() < 2 || sights.is_empty() && spots.is_empty() {
-            return Ok(None);
-        }
-        let (first, second) = leaves.split_at(leaves.len() / 2);
-        let part = |leaves: &'l [Leaf]| {
-            let around = around(leaves);
-            let may_meet = |number: u32| passing.sights[number as usize].may_meet(&around);
-            let sights = kept(sights, may_meet, watch)?;
-            let is_near =
-                |number: u32| !are_apart(&around, &passing.spots[number as usize].around());
-            Ok(Self { leaves, sights, spots: kept(spots, is_near, watch)? })
-        };
-        Ok(Some([part(first)?, part(second)?]))
-    }
-
-    /// Adds what the cells of the leaves hide.
-    fn leaf(
-        &self,
-        map: &VisibilityMap<'_>,
-        passing: Passing<'_>,
-        found: &mut Covered,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error> {
-        let (primitives, lines) = (&map.primitives, &map.primitives.lines);
-        for Visible { item, cell } in self.leaves.iter().flat_map(|leaf| &leaf.cells) {
-            watch.work(CUT)?;
-            // What is behind something translucent shows through.
-            if !primitives.is_opaque(*item) {
-                continue;
-            }
-            let around = cell.around();
-            let face = primitives.face(*item);
-            let mut side = None;
-            let mut seen = || *side.get_or_insert_with(|| lines.frame.seen_side(face));
-            for number in each(watch, CUT, &self.sights) {
-                let number = *number?;
-                let sight = &passing.sights[number as usize];
-                if !sight.may_meet(&around) {
-                    continue;
-                }
-                let Some([from, to]) = sight.chord(lines, cell) else { continue };
-                let Some([first, last]) = sight.behind(lines, face, seen()) else { continue };
-                let (from, to) = (from.max(first), to.min(last));
-                if from < to {
-                    found.hidden.push((number, [from, to]));
-                }
-            }
-            for number in each(watch, CUT, &self.spots) {
-                let number = *number?;
-                let spot = &passing.spots[number as usize];
-                if !are_apart(&around, &spot.around())
-                    && spot.is_in(lines, cell)
-                    && spot.is_behind(lines, face, seen())
-                {
-                    found.hidden_spots.push(number);
-                }
-            }
-        }
-        Ok(())
-    }
+    Ok((views, projected))
 }
 
 /// An overlay's lines and points, each with how many parts of the drawing come before it: in input order, lines
@@ -298,7 +177,7 @@ pub(super) type Placed = Vec<(u32, Overlaid)>;
 /// The lines and points of an overlay, with the items that they pass.
 pub(super) struct Between {
     segments: Vec<GivenSegment>,
-    sights: Vec<ProjectedSegment>,
+    projected: Vec<ProjectedSegment>,
     markers: Vec<MarkerView>,
     /// Sorted by the lines and points.
     passes: Passes,
@@ -310,21 +189,13 @@ impl Between {
         overlay: &Overlay,
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let (segments, sights) = sights(&primitives.lines, overlay, watch)?;
-        let (markers, spots) = spots(&primitives.lines, overlay, watch)?;
-        let mut reaches = Reaches::default();
-        for item in each(watch, VISITED, 0..primitives.items.len() as u32) {
-            let item = item?;
-            reaches.push(item, primitives.halves(item))?;
-        }
-        let face = |item: u32| primitives.face(item);
-        let around = |item: u32| primitives.items[item as usize].around;
-        let pieces = Pieces { lines: &primitives.lines, reaches, face: &face, around: &around };
-        let passing = Passing { sights: &sights, spots: &spots };
-        let mut passes = passes(pieces, passing, |_| true, watch)?;
-        sort_by(&mut passes.sights, watch, |a, b| a.sight.cmp(&b.sight))?;
-        sort_by(&mut passes.spots, watch, |a, b| a.spot.cmp(&b.spot))?;
-        Ok(Self { segments, sights, markers, passes })
+        let (segments, projected) = segments(&primitives.lines, overlay, watch)?;
+        let (markers, points) = points(&primitives.lines, overlay, watch)?;
+        let items = Candidates::items(primitives, |_| true)?;
+        let mut passes = passes(&items, Passing::new(&projected, &points), false, watch)?;
+        sort_by(&mut passes.segments, watch, |a, b| a.segment.cmp(&b.segment))?;
+        sort_by(&mut passes.points, watch, |a, b| a.point.cmp(&b.point))?;
+        Ok(Self { segments, projected, markers, passes })
     }
 
     /// What comes where in an order of so many parts, by the place of each item in it; and pairs of items that
@@ -336,27 +207,25 @@ impl Between {
         watch: &Watch<'_>,
     ) -> Result<(Placed, Found), Error> {
         let count = count as u32;
-        let mut rest = &self.passes.sights[..];
+        let mut rest = &self.passes.segments[..];
         let (mut placed, mut missed) = (Vec::new(), Found::default());
-        for (number, (segment, sight)) in (0..).zip(self.segments.iter().zip(&self.sights)) {
-            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.sight == number));
-            rest = others;
-            let parts = in_order(sight.course.places, own, places, count, &mut missed, watch)?;
+        for (number, (segment, projected)) in (0..).zip(self.segments.iter().zip(&self.projected)) {
+            let own = take_own(&mut rest, number);
+            let parts = in_order(projected.course.places, own, places, count, &mut missed, watch)?;
             for (below, ends) in parts {
-                let run = LineRun::new(segment, ends.map(|end| sight.course.at(end)), true);
+                let run = LineRun::new(segment, ends.map(|end| projected.course.at(end)), true);
                 placed.push((below, Overlaid::Line(run)));
             }
         }
-        let mut rest = &self.passes.spots[..];
+        let mut rest = &self.passes.points[..];
         for (number, marker) in (0..).zip(&self.markers) {
-            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.spot == number));
+            let (own, others) = rest.split_at(rest.partition_point(|pass| pass.point == number));
             rest = others;
             let mut passed = Passed::new();
-            for pass in each(watch, VISITED, own) {
-                let pass = pass?;
+            for pass in own {
                 passed.insert((pass.is_behind, places[pass.piece as usize], pass.piece), 1);
             }
-            add_missed(&passed, &mut missed, watch)?;
+            add_missed(&passed, &mut missed);
             let below = Room::between(&passed, count).most;
             placed.push((below, Overlaid::Marker(*marker)));
         }
@@ -407,18 +276,17 @@ fn outermost(passed: &Passed) -> [Option<Key>; 2] {
 /// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
 /// and does not; and of what is first of all that has to come after, and all that has to come before and does
 /// not.
-fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
-    let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
+fn add_missed(passed: &Passed, missed: &mut Found) {
+    let [Some(below), Some(above)] = outermost(passed) else { return };
     if above.1 >= below.1 {
-        return Ok(());
+        return;
     }
-    for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
-        add(missed, Pair { below: below.2, above: early?.0.2 });
+    for early in passed.range((true, 0, 0)..(true, below.1, 0)) {
+        add(missed, Pair { below: below.2, above: early.0.2 });
     }
-    for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
-        add(missed, Pair { below: late?.0.2, above: above.2 });
+    for late in passed.range((false, above.1 + 1, 0)..(true, 0, 0)) {
+        add(missed, Pair { below: late.0.2, above: above.2 });
     }
-    Ok(())
 }
 
 /// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
@@ -433,8 +301,7 @@ fn in_order(
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
     // Where each pass begins and ends.
     let mut events = Vec::new();
-    for pass in each(watch, VISITED, passes) {
-        let pass = pass?;
+    for pass in passes {
         let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
         for (at, change) in [(pass.places[0], 1), (pass.places[1], -1)] {
             events.push((at, key, change));
@@ -448,7 +315,7 @@ fn in_order(
     for numbered in each(watch, 2 * VISITED, stops.chain([ends[1]]).enumerate()) {
         let (i, to) = numbered?;
         if to - done >= SHORTEST {
-            add_missed(&passed, missed, watch)?;
+            add_missed(&passed, missed);
             let next = Room::between(&passed, count);
             if let Some(common) = room.common(next) {
                 room = common;

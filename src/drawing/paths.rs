@@ -10,14 +10,13 @@ use std::ops::Range;
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, Side};
-use super::exact_lines::{Frame, ROUNDING, Rounded};
-use super::leaf::{Leaf, Visible};
-use super::lines::{HalfPlane, LineTable};
-use super::map::{VisibilityMap, each, finish_item, sort_by};
-use super::order::{Ordered, Ranks, Wanted, order_by_rank, pairs};
+use super::graph::{Ordered, Ranks, Wanted, order_by_rank};
+use super::lines::{HalfPlane, LineTable, ROUNDING, Rounded, ViewFrame};
+use super::map::{VisibilityMap, finish_item, sort_by};
 use super::overlaid::{LineRun, MarkerView, Overlaid};
+use super::pairs::pairs;
 use super::primitives::Primitives;
-use super::tile::{CUT, VISITED};
+use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use super::translucent::mixed;
 use crate::memory::place;
 use crate::progress::Watch;
@@ -199,7 +198,7 @@ impl<'s, 't> PolygonEdges<'s, 't> {
 
     /// How far a point on the line of an edge is beyond the ends of the edge, in pixels, rounded.
     fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
-        let Frame { rays, faces } = &self.primitives.lines.frame;
+        let ViewFrame { rays, faces } = &self.primitives.lines.frame;
         let arms = faces.ends(face, k).map(|end| {
             let ([x, y, weight], _) = rays.project(end);
             // An end behind the eye is beyond the picture.
@@ -310,8 +309,7 @@ impl Area {
         let pieces = sides.pieces(&mut points, watch)?;
         // The first of the pieces that begin at each point, and the one after each.
         let (mut begin, mut others) = (vec![NONE; self.sides.len()], vec![NONE; pieces.len()]);
-        for numbered in each(watch, VISITED, pieces.iter().enumerate().rev()) {
-            let (i, piece) = numbered?;
+        for (i, piece) in pieces.iter().enumerate().rev() {
             let point = points.root(piece.from) as usize;
             others[i] = std::mem::replace(&mut begin[point], i as u32);
         }
@@ -486,11 +484,11 @@ impl VisibilityMap<'_> {
             return mixed(primitives, leaves, &self.left_out(), watch);
         }
         let size = self.size();
-        let shown = Nodes::of(primitives, leaves, watch)?;
+        let shown = Nodes::of(primitives, leaves);
         let place = |face: u32| shown.places[face as usize];
         let pairs = |wanted: Wanted<'_>| pairs(primitives, leaves, &place, wanted, watch);
         let Ordered { order, is_clipped } = order_by_rank(&shown.ranks, pairs, watch)?;
-        let cells = shown.cells(primitives, leaves, &is_clipped, watch)?;
+        let cells = shown.cells(primitives, leaves, &is_clipped);
         let left_out = self.left_out();
         let is_drawn =
             |node: &u32| left_out.binary_search(&shown.polygons[*node as usize]).is_err();
@@ -504,12 +502,12 @@ impl VisibilityMap<'_> {
                 let index = node as usize;
                 area.clear();
                 if is_clipped[index] {
-                    for cell in each(watch, VISITED, &cells[index]) {
-                        area.push(&cell?.sides)?;
+                    for cell in &cells[index] {
+                        area.push(&cell.sides)?;
                     }
                 } else {
-                    for face in each(watch, CUT, &shown.faces[index]) {
-                        let face = *face?;
+                    for &face in &shown.faces[index] {
+                        watch.work(CUT)?;
                         add_piece(&primitives.lines, primitives.outline(face), &mut area, watch)?;
                     }
                 }
@@ -540,46 +538,37 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn of(primitives: &Primitives<'_>, leaves: &[Leaf], watch: &Watch<'_>) -> Result<Self, Error> {
+    fn of(primitives: &Primitives<'_>, leaves: &[Leaf]) -> Self {
         let faces = primitives.lines.frame.faces;
         let none = Ranks { all: [u32::MAX, 0], shown: [u32::MAX, 0] };
-        let mut ranks = vec![none; primitives.polygons_end(watch)?];
+        let mut ranks = vec![none; primitives.polygon_count()];
         let rank = |item: u32| primitives.items.len() as u32 - item;
         let extend = |[first, last]: [u32; 2], rank: u32| [first.min(rank), last.max(rank)];
-        for item in each(watch, 1, 0..primitives.items.len() as u32) {
-            let item = item?;
+        for item in 0..primitives.items.len() as u32 {
             let Ranks { all, .. } = &mut ranks[primitives.polygon(item)];
             *all = extend(*all, rank(item));
         }
-        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
-            let item = visible?.item;
+        for &Visible { item, .. } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let Ranks { shown, .. } = &mut ranks[primitives.polygon(item)];
             *shown = extend(*shown, rank(item));
         }
-        let mut shown = Self { polygons: vec![], places: vec![], faces: vec![], ranks: vec![] };
+        let mut polygons: Vec<usize> = (0..ranks.len()).collect();
+        polygons.retain(|&polygon| ranks[polygon].shown[1] > 0);
         let mut numbers: Vec<u32> = vec![u32::MAX; ranks.len()];
-        for named in each(watch, 1, ranks.iter().enumerate()) {
-            let (polygon, ranks) = named?;
-            if ranks.shown[1] == 0 {
-                continue;
-            }
-            numbers[polygon] = shown.polygons.len() as u32;
-            shown.polygons.push(polygon);
-            shown.faces.push(vec![]);
-            shown.ranks.push(*ranks);
+        for (number, &polygon) in (0..).zip(&polygons) {
+            numbers[polygon] = number;
         }
-        for face in each(watch, 1, 0..faces.len() as u32) {
-            let face = face?;
-            let number = match primitives.sees(face) {
-                true => numbers[faces.polygon(face)],
-                false => u32::MAX,
-            };
-            shown.places.push(number);
-            if number != u32::MAX {
-                shown.faces[number as usize].push(face);
-            }
+        let place = |face: u32| match primitives.sees(face) {
+            true => numbers[faces.polygon(face)],
+            false => u32::MAX,
+        };
+        let places: Vec<u32> = (0..faces.len() as u32).map(place).collect();
+        let mut of_polygons = vec![vec![]; polygons.len()];
+        for (face, &place) in (0..).zip(&places).filter(|&(_, &place)| place != u32::MAX) {
+            of_polygons[place as usize].push(face);
         }
-        Ok(shown)
+        let ranks = polygons.iter().map(|&polygon| ranks[polygon]).collect();
+        Self { polygons, places, faces: of_polygons, ranks }
     }
 
     /// The cells of the polygons that are clipped.
@@ -588,17 +577,15 @@ impl Nodes {
         primitives: &Primitives<'_>,
         leaves: &'l [Leaf],
         is_clipped: &[bool],
-        watch: &Watch<'_>,
-    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
-        let mut cells: Vec<Vec<&Cell>> = self.polygons.iter().map(|_| vec![]).collect();
-        for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
-            let Visible { item, cell } = visible?;
+    ) -> Vec<Vec<&'l Cell>> {
+        let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.polygons.len()];
+        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             let place = self.places[primitives.face(*item) as usize] as usize;
             if is_clipped[place] {
                 cells[place].push(cell);
             }
         }
-        Ok(cells)
+        cells
     }
 }
 

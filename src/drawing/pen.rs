@@ -269,33 +269,10 @@ pub(super) struct Ends {
     /// The numbers of the points, place by place, and the place of each.
     numbers: Vec<u32>,
     places: Vec<u32>,
-    /// Of the range whose middle is a place, how many points are left, and the box around all.
+    /// Of the range whose middle is a place, how many points are left.
     counts: Vec<u32>,
-    boxes: Vec<Extent>,
     /// Which places have a point that is left.
     is_left: Vec<bool>,
-}
-
-/// The least and the greatest coordinates of points.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    low: [f64; 2],
-    high: [f64; 2],
-}
-
-impl Extent {
-    fn around(points: impl Iterator<Item = [f64; 2]>) -> Self {
-        let none = Self { low: [f64::MAX; 2], high: [f64::MIN; 2] };
-        points.fold(none, |Self { low, high }, point| Self {
-            low: [0, 1].map(|i: usize| low[i].min(point[i])),
-            high: [0, 1].map(|i: usize| high[i].max(point[i])),
-        })
-    }
-
-    fn distance(&self, from: [f64; 2]) -> f64 {
-        let away = |i: usize| (self.low[i] - from[i]).max(from[i] - self.high[i]).max(0.0);
-        away(0).hypot(away(1))
-    }
 }
 
 /// A range of places, and the axis (0, 1 for x, y) along which its middle divides it.
@@ -322,18 +299,8 @@ impl Node {
 impl Ends {
     pub(super) fn new(points: Vec<[f64; 2]>) -> Ends {
         let n = points.len();
-        let (mut numbers, mut places, mut counts) = (Vec::new(), Vec::new(), Vec::new());
-        for list in [&mut numbers, &mut places, &mut counts] {
-            list.reserve(n);
-        }
-        let (mut is_left, mut boxes) = (Vec::new(), Vec::new());
-        is_left.reserve(n);
-        boxes.reserve(n);
-        boxes.resize(n, Extent { low: [0.0; 2], high: [0.0; 2] });
-        is_left.resize(n, true);
-        numbers.extend(0..n as u32);
-        places.resize(n, 0);
-        counts.resize(n, 0);
+        let mut numbers: Vec<u32> = (0..n as u32).collect();
+        let (mut places, mut counts) = (vec![0; n], vec![0; n]);
         let mut stack: Vec<Node> = Vec::new();
         stack.extend((n > 0).then_some(Node { low: 0, high: n, axis: 0 }));
         while let Some(node) = stack.pop() {
@@ -342,14 +309,12 @@ impl Ends {
             numbers[low..high]
                 .select_nth_unstable_by(node.middle() - low, |a, b| along(a).total_cmp(&along(b)));
             counts[node.middle()] = (high - low) as u32;
-            boxes[node.middle()] =
-                Extent::around(numbers[low..high].iter().map(|&number| points[number as usize]));
             stack.extend(node.parts().into_iter().flatten());
         }
         for (place, &number) in (0..).zip(&numbers) {
             places[number as usize] = place;
         }
-        Self { points, numbers, places, counts, boxes, is_left }
+        Self { points, numbers, places, counts, is_left: vec![true; n] }
     }
 
     fn root(&self) -> Option<Node> {
@@ -360,7 +325,7 @@ impl Ends {
     /// The number of the nearest point that is left; the first one found of several.
     pub(super) fn nearest(&self, from: [f64; 2]) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
-        // Ranges, and how far away their boxes are: the tree is never deeper than 32.
+        // Ranges, and how far away they are at least: the tree is never deeper than 32.
         let mut stack: Vec<(Node, f64)> = self.root().map(|root| (root, 0.0)).into_iter().collect();
         while let Some((node, least)) = stack.pop() {
             let middle = node.middle();
@@ -373,14 +338,12 @@ impl Ends {
             if self.is_left[middle] && best.is_none_or(|(found, _)| distance < found) {
                 best = Some((distance, number));
             }
-            let parts = node
-                .parts()
-                .map(|part| part.map(|part| (part, self.boxes[part.middle()].distance(from))));
+            let across = from[node.axis] - point[node.axis];
+            let [before, after] = node.parts();
+            let [near, far] = if across < 0.0 { [before, after] } else { [after, before] };
             // The nearer one is looked at first.
-            let is_first_nearer =
-                parts[0].map_or(f64::MAX, |part| part.1) < parts[1].map_or(f64::MAX, |part| part.1);
-            let [near, far] = if is_first_nearer { [0, 1] } else { [1, 0] };
-            stack.extend(parts[far].into_iter().chain(parts[near]));
+            stack.extend(far.map(|far| (far, least.max(across.abs()))));
+            stack.extend(near.map(|near| (near, least)));
         }
         best.map(|(_, number)| number)
     }

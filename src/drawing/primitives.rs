@@ -1,18 +1,19 @@
 //! What a picture is made of: pieces of faces, front to back, and the lines that bound them.
 
+use std::cmp::Ordering;
+
 use smallvec::SmallVec;
 
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
-use super::exact_lines::Frame;
-use super::lines::{HalfPlane, LineTable};
-use super::map::{each, finish_item};
-use super::tile::{Across, LINES, Tile};
+use super::lines::{HalfPlane, LineTable, ViewFrame};
+use super::map::finish_item;
+use super::quadtree::{LINES, Tile};
 use crate::error::{Error, Kind};
-use crate::exact::{Faces, PlaneId, PlaneKind, VertexId, VertexKind};
+use crate::exact::PlaneId;
 use crate::memory::place;
 use crate::parallel_map;
 use crate::progress::Watch;
-use crate::raster::{RayOrigin, Rays, Sheet, VERTEX_ERROR, normal_of};
+use crate::raster::{RayOrigin, Rays, Sheet, normal_of};
 use crate::tree::{BspTree, Fragment};
 
 /// A piece of a face that may show.
@@ -32,14 +33,14 @@ pub(super) struct Item {
 pub(super) struct View {
     /// A box around what of it is in the picture; an empty one if the picture shows nothing of it.
     pub(super) around: Rect,
-    /// Whether the κ of its plane is positive.
-    pub(super) is_positive: bool,
+    /// The side of its plane that the rays come from: `Greater` is its front, `Equal` if they run along it.
+    pub(super) side: Ordering,
     /// Whether it hides what is behind it.
     pub(super) is_opaque: bool,
     /// Whether its edges in the picture go through its corners as given.
     pub(super) is_as_given: bool,
-    /// The last of its items, if it has some.
-    pub(super) last: u32,
+    /// The first and the last of its items; `u32::MAX` if it has none.
+    pub(super) items: [u32; 2],
     /// Where the half-planes that bound it begin and end.
     halves: [u32; 2],
 }
@@ -81,11 +82,9 @@ impl<'t> Primitives<'t> {
             return Err(Kind::OfCell.error());
         }
         let faces = tree.faces();
-        let frame = Frame { rays, faces };
-        let mut order = Vec::with_capacity(tree.len());
-        for fragment in each(watch, 1, tree.order(frame.rays.viewpoint()).front_to_back()) {
-            order.push(fragment?.index());
-        }
+        let frame = ViewFrame { rays, faces };
+        let order = tree.order(frame.rays.viewpoint()).front_to_back();
+        let order: Vec<u32> = order.into_iter().map(|fragment| fragment.index()).collect();
         let lines = LineTable::new(frame);
         let mut primitives =
             Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
@@ -94,9 +93,9 @@ impl<'t> Primitives<'t> {
         primitives.views = shared(&all, view, watch)?;
         let item = |index: u32| primitives.item(&tree.fragment(index));
         primitives.items = shared(&order, item, watch)?;
-        for numbered in each(watch, 1, (0..).zip(&primitives.items)) {
-            let (number, item) = numbered?;
-            primitives.views[item.face as usize].last = number;
+        for (number, item) in (0..).zip(&primitives.items) {
+            let View { items: [first, last], .. } = &mut primitives.views[item.face as usize];
+            (*first, *last) = (number.min(*first), number);
         }
         primitives.add_halves(watch)?;
         Ok(primitives)
@@ -106,7 +105,8 @@ impl<'t> Primitives<'t> {
     fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
         let faces = self.lines.frame.faces;
         for face in 0..faces.len() {
-            let View { is_positive, is_as_given, .. } = self.views[face];
+            let is_as_given = self.views[face].is_as_given;
+            let is_positive = self.is_positive(face as u32);
             let start = place(self.halves.len())?;
             if self.sees(face as u32) {
                 let corners = faces.corners(face as u32).len() as u32;
@@ -120,7 +120,7 @@ impl<'t> Primitives<'t> {
         }
         for item in 0..self.items.len() {
             let Item { face, fragment, .. } = self.items[item];
-            let View { is_positive, halves, .. } = self.views[face as usize];
+            let (halves, is_positive) = (self.views[face as usize].halves, self.is_positive(face));
             let fragment = self.tree.fragment(fragment);
             self.items[item].halves = halves;
             if fragment.is_whole() {
@@ -159,39 +159,13 @@ impl<'t> Primitives<'t> {
         &self.halves[start as usize..end as usize]
     }
 
-    /// Where a box lies against an item: inside, the item covers it.
-    pub(super) fn across(&self, halves: &[HalfPlane], sides: &Rect) -> Across {
-        let mut all = Across::Inside;
-        for &half in halves {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return Across::Outside,
-                Across::Maybe => all = Across::Maybe,
-            }
-        }
-        all
-    }
-
-    /// The half-planes of an item whose lines may cross a box; `None` if the item certainly lies beside it.
-    pub(super) fn crossing(&self, item: u32, sides: &Rect) -> Option<SmallVec<[HalfPlane; 8]>> {
-        if is_within(&self.items[item as usize].around, sides) {
-            return Some(SmallVec::from_slice(self.halves(item)));
-        }
-        let mut crossing = SmallVec::new();
-        for &half in self.halves(item) {
-            match self.lines.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return None,
-                Across::Maybe => crossing.push(half),
-            }
-        }
-        Some(crossing)
-    }
-
     /// Whether a face certainly covers a box.
     pub(super) fn covers(&self, face: u32, sides: &Rect) -> bool {
         is_within(sides, &self.views[face as usize].around)
-            && self.across(self.outline(face), sides) == Across::Inside
+            && self
+                .lines
+                .crossing(self.outline(face), sides)
+                .is_some_and(|halves| halves.is_empty())
     }
 
     /// A fragment, unless the picture shows nothing of it.
@@ -206,29 +180,33 @@ impl<'t> Primitives<'t> {
         if fragment.is_whole() || self.lines.frame.faces.moved_axis(face).is_some() {
             return Some(item(around));
         }
-        self.around(&self.lines.frame.near_vertices(fragment), NEAR_VERTEX).map(item)
+        let vertices: SmallVec<[[f64; 3]; 8]> = fragment.lattice_vertices().collect();
+        self.around(&vertices).map(item)
     }
 
-    /// A box around the part of a convex hull that is in the picture, of points that may be off by so much; `None` if
-    /// there is none.
-    fn around(&self, points: &[[f64; 3]], off: f64) -> Option<Rect> {
+    /// A box around the part of the convex hull of vertices that is in the picture; `None` if there is none.
+    fn around(&self, vertices: &[[f64; 3]]) -> Option<Rect> {
         let rays = &self.lines.frame.rays;
-        let around = common(&rays.region(points, off)?, &Tile::picture(rays.size()).sides());
+        let around = common(&rays.region(vertices)?, &Tile::picture(rays.size()).sides());
         (!is_empty(&around)).then_some(around)
     }
 
     fn view(&self, face: u32) -> View {
-        let Frame { rays, faces } = &self.lines.frame;
+        let ViewFrame { rays, faces } = &self.lines.frame;
+        let plane = PlaneId::face(face);
+        let certain = Sheet::new(rays, faces, plane).certain_side();
+        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
+        let side = if rays.is_perspective() { side } else { side.reverse() };
         let unseen = View {
             around: NOWHERE,
-            is_positive: false,
+            side,
             is_opaque: false,
             is_as_given: false,
-            last: 0,
+            items: [u32::MAX; 2],
             halves: [0; 2],
         };
         let opacity = self.opacity(face);
-        if opacity == 0.0 {
+        if opacity == 0.0 || side.is_eq() || side.is_lt() && rays.is_front_only() {
             return unseen;
         }
         let moved = match faces.moved_axis(face) {
@@ -237,18 +215,14 @@ impl<'t> Primitives<'t> {
         };
         let corners: SmallVec<[[f64; 3]; 8]> =
             faces.corners(face).iter().chain(&moved).copied().collect();
-        let Some(around) = self.around(&corners, VERTEX_ERROR) else {
-            return unseen;
-        };
-        let plane = PlaneId::face(face);
-        let certain = Sheet::new(rays, faces, plane).certain_side();
-        let side = certain.unwrap_or_else(|| self.lines.frame.sheet(plane).side());
-        let is_positive = side.is_gt();
-        if side.is_eq() || rays.is_front_only() && is_positive != rays.is_perspective() {
-            return unseen;
-        }
-        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, is_positive);
-        View { around, is_positive, is_opaque: opacity == 1.0, is_as_given, ..unseen }
+        let Some(around) = self.around(&corners) else { return unseen };
+        let is_as_given = self.lines.frame.is_convex_as_given(face, &moved, side);
+        View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }
+    }
+
+    /// Whether the κ of a face's plane is positive, of a face that the picture may show.
+    fn is_positive(&self, face: u32) -> bool {
+        self.views[face as usize].side.is_gt() == self.lines.frame.rays.is_perspective()
     }
 
     /// Whether the picture may show some of a face.
@@ -256,16 +230,9 @@ impl<'t> Primitives<'t> {
         !is_empty(&self.views[face as usize].around)
     }
 
-    /// A number above those of all polygons that the picture may show.
-    pub(super) fn polygons_end(&self, watch: &Watch<'_>) -> Result<usize, Error> {
-        let mut end = 0;
-        for face in each(watch, 1, 0..self.views.len() as u32) {
-            let face = face?;
-            if self.sees(face) {
-                end = end.max(self.lines.frame.faces.polygon(face) + 1);
-            }
-        }
-        Ok(end)
+    /// How many polygons the tree was built of.
+    pub(super) fn polygon_count(&self) -> usize {
+        self.tree.preparation().polygons
     }
 
     /// To look at all edges of a face takes as long as a build takes to examine so many pieces; 0 for faces of few
@@ -315,35 +282,28 @@ fn shared<T: Send>(
         part.extend(numbers.iter().filter_map(|&number| function(number)));
         Ok(part)
     };
-    let mut all = Vec::new();
-    for mut part in parallel_map::map(numbers.chunks(SHARE).collect(), part)? {
-        all.reserve(part.len());
-        all.append(&mut part);
-    }
-    Ok(all)
+    let parts = parallel_map::map(numbers.chunks(SHARE).collect(), part)?;
+    Ok(parts.into_iter().flatten().collect())
 }
 
-/// Vertices are at most so far off along each axis, in lattice units: 2⁻³³ of the lattice. Smaller: more are
-/// computed by integers; larger: boxes are larger than they need be.
-pub(super) const NEAR_VERTEX: f64 = (1u64 << 20) as f64;
-/// What is rounded at the end, and the error of vertices from integers.
-const ROUNDING: f64 = 8.0;
+/// Edges do not go through the corners as given where one of these was moved further along an axis, in lattice units:
+/// 2⁻³³ of the lattice. Too small: cracks between faces that share an edge; too large: the picture differs from that
+/// of the faces as moved, which decide what is in front.
+const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
-impl Frame<'_> {
+impl ViewFrame<'_> {
     /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in the
-    /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if
-    /// they were moved by more than [`NEAR_VERTEX`]: the picture would differ from that of the faces as moved, which decide
-    /// what is in front.
-    fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], is_positive: bool) -> bool {
-        let Frame { rays, faces } = self;
+    /// picture, of which the same side is seen as of the face's plane, and are where rays meet that ahead. Not if one was
+    /// moved by more than [`FURTHEST_MOVE`].
+    fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
+        let ViewFrame { rays, faces } = self;
         let n = given.len();
         let is_far = |(given, at): (&[f64; 3], &[f64; 3])| {
-            difference(*given, *at).iter().any(|off| off.abs() > NEAR_VERTEX)
+            (0..3).any(|axis| (given[axis] - at[axis]).abs() > FURTHEST_MOVE)
         };
         if n > FEW_CORNERS_AS_GIVEN || given.iter().zip(faces.corners(face)).any(is_far) {
             return false;
         }
-        let is_front = is_positive == rays.is_perspective();
         let from_eye = |point: [f64; 3]| match rays.pencil {
             RayOrigin::From { .. } => rays.origin_from(point).map(|c| -c),
             RayOrigin::Along { direction } => direction.map(|c| c as f64),
@@ -356,113 +316,14 @@ impl Frame<'_> {
         let at = |k: usize| given[if k < n { k } else { k - n }];
         (0..n).all(|k| {
             let (a, ray) = (at(k), from_eye(at(k)));
-            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, is_front))
+            (k + 2..k + n).all(|i| is_certain(normal_of([a, at(k + 1), at(i)]), ray, side.is_gt()))
         }) && (!rays.is_perspective() || {
             let normal = normal_of(faces.triangle(face));
-            given.iter().all(|&corner| is_certain(normal, from_eye(corner), is_positive))
+            given.iter().all(|&corner| is_certain(normal, from_eye(corner), side.is_gt()))
         })
     }
-
-    /// The vertices of a fragment, each to within [`NEAR_VERTEX`]: by floats where they can tell, else by integers.
-    pub(super) fn near_vertices(&self, fragment: &Fragment<'_>) -> SmallVec<[[f64; 3]; 8]> {
-        let (faces, face) = (self.faces, fragment.face());
-        let near: Option<_> =
-            fragment.vertex_ids().map(|vertex_id| near_vertex(faces, face, vertex_id)).collect();
-        near.unwrap_or_else(|| fragment.lattice_vertices().collect())
-    }
-}
-
-/// A vertex of a face to within [`NEAR_VERTEX`]; `None` if floats cannot tell.
-fn near_vertex(faces: &Faces, face: u32, vertex: VertexId) -> Option<[f64; 3]> {
-    match vertex.kind() {
-        VertexKind::Corner(k) => Some(faces.corners(face)[k as usize]),
-        // Edges of faces of which corners were moved are not straight through these.
-        VertexKind::OnEdge(..) if faces.moved_axis(face).is_some() => None,
-        VertexKind::OnEdge(k, plane) => on_edge(faces, faces.ends(face, k), plane),
-        VertexKind::Inside(g, h) => meeting(faces, faces.triangle(face), [g, h]),
-    }
-}
-
-/// Where a plane meets the edge between two points.
-fn on_edge(faces: &Faces, [a, b]: [[f64; 3]; 2], plane: PlaneId) -> Option<[f64; 3]> {
-    let ([at_a, at_b], off) = values(faces, plane, [a, b]);
-    let fall = at_a - at_b;
-    // The fall is off by both values, and by a rounding of its own.
-    let least = fall.abs() * (1.0 - f64::EPSILON) - 2.0 * off;
-    if least.is_nan() || least <= 0.0 {
-        return None;
-    }
-    let share = at_a / fall;
-    let arm = difference(b, a);
-    // Where s is the exact share, this one is wrong by off · (|s| + |1 − s|) / least at most, and by the roundings:
-    // between the ends, where vertices are, by off / least. A forged tree may have others.
-    let spread = (off + 2.0 * off * share.abs()) / least + 4.0 * f64::EPSILON * share.abs();
-    near(a, arm.map(|c| share * c), arm.map(|c| spread * c.abs()))
-}
-
-/// Where two planes meet that of a triangle. The weights of its corners there are the vector product of the
-/// values of the one plane at the three corners and those of the other.
-fn meeting(faces: &Faces, triangle: [[f64; 3]; 3], planes: [PlaneId; 2]) -> Option<[f64; 3]> {
-    let [(g, g_off), (h, h_off)] = planes.map(|plane| values(faces, plane, triangle));
-    let [g_most, h_most] = [g, h].map(|v| v.iter().fold(0.0f64, |most, c| most.max(c.abs())));
-    let weights: [f64; 3] = std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        g[j] * h[k] - g[k] * h[j]
-    });
-    let total = weights[0] + weights[1] + weights[2];
-    // A weight g h − g′ h′ is off by 2 (|g| δh + |h| δg + δg δh), and by the roundings of the two products, of their
-    // difference and, in part, of the sum.
-    let off = 2.0 * (g_most * h_off + h_most * g_off + g_off * h_off)
-        + 16.0 * f64::EPSILON * g_most * h_most;
-    let least = total.abs() - 3.0 * off;
-    if least.is_nan() || least <= 0.0 {
-        return None;
-    }
-    let arms = [difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0])];
-    let from = std::array::from_fn(|i| (weights[1] * arms[0][i] + weights[2] * arms[1][i]) / total);
-    let spread = std::array::from_fn(|i| {
-        let sizes = arms.map(|arm: [f64; 3]| arm[i].abs());
-        let terms = weights[1].abs() * sizes[0] + weights[2].abs() * sizes[1];
-        let from: [f64; 3] = from;
-        (off * (sizes[0] + sizes[1] + 3.0 * from[i].abs()) + 2.0 * f64::EPSILON * terms) / least
-    });
-    near(triangle[0], from, spread)
-}
-
-/// `point` + `from`, where `from` is off by up to `spread`, if that is near enough.
-fn near(point: [f64; 3], from: [f64; 3], spread: [f64; 3]) -> Option<[f64; 3]> {
-    let is_near = spread.iter().all(|off| *off <= NEAR_VERTEX - ROUNDING);
-    is_near.then(|| std::array::from_fn(|i| point[i] + from[i]))
-}
-
-/// The values of a plane at points, and a bound on what each is off by.
-///
-/// Differences of lattice points are exact. The normal is off by 2.01 roundings of its size, each product by one,
-/// and the sum by two.
-fn values<const K: usize>(faces: &Faces, plane: PlaneId, points: [[f64; 3]; K]) -> ([f64; K], f64) {
-    match plane.kind() {
-        PlaneKind::Axis(axis, corner) => {
-            let at = faces.corner(corner)[axis];
-            (points.map(|point| point[axis] - at), 0.0)
-        }
-        PlaneKind::Face(face) => {
-            let triangle = faces.triangle(face);
-            let (normal, size) = normal_of(triangle);
-            let arms = points.map(|point| difference(point, triangle[0]));
-            let sizes = arms.map(|arm| sum(size, arm.map(f64::abs)));
-            let most = sizes.iter().fold(0.0f64, |most, size| most.max(*size));
-            (arms.map(|arm| sum(normal, arm)), 8.0 * f64::EPSILON * most)
-        }
-    }
-}
-
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
 }
 
 fn sum(factors: [f64; 3], numbers: [f64; 3]) -> f64 {
     factors[0] * numbers[0] + factors[1] * numbers[1] + factors[2] * numbers[2]
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,12 +3,11 @@
 use smallvec::SmallVec;
 
 use super::cell::{Cell, Rect, are_apart};
-use super::leaf::{Leaf, Visible};
 use super::lines::{HalfPlane, LineTable, Table};
 use super::map::{VisibilityMap, each, finish_item, sort_by};
 use super::paths::Area;
 use super::primitives::Primitives;
-use super::tile::{CUT, VISITED};
+use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
@@ -50,7 +49,7 @@ impl VisibilityMap<'_> {
         for leaves in self.leaves.chunks(TILES_AT_ONCE) {
             let divided = |leaf| Divided::new(leaf, &self.primitives, watch);
             for divided in parallel_map::map(leaves.iter().collect(), divided)? {
-                stacks.add(&divided, |item| self.primitives.polygon(item), watch)?;
+                stacks.add(&divided, |item| self.primitives.polygon(item))?;
                 finish_item(watch, done, count);
                 done += 1;
             }
@@ -78,17 +77,11 @@ struct Stacks {
 
 impl Stacks {
     /// Adds the parts of a tile.
-    fn add(
-        &mut self,
-        divided: &Divided,
-        polygon: impl Fn(u32) -> usize,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error> {
+    fn add(&mut self, divided: &Divided, polygon: impl Fn(u32) -> usize) -> Result<(), Error> {
         // The layers of all tiles that those of this one are.
         let mut own: Vec<u32> = Vec::with_capacity(divided.layers.len());
         own.push(0);
-        for layer in each(watch, VISITED, &divided.layers[1..]) {
-            let layer = layer?;
+        for layer in &divided.layers[1..] {
             let (before, polygon) = (own[layer.before as usize], polygon(layer.item));
             let number = match self.numbers.get(&(before, polygon)) {
                 Some(&number) => number,
@@ -101,8 +94,7 @@ impl Stacks {
             };
             own.push(number);
         }
-        for part in each(watch, VISITED, &divided.cells) {
-            let part = part?;
+        for part in &divided.cells {
             self.parts.push(&part.cell.sides)?;
             self.of_parts.push(own[part.layer as usize]);
         }
@@ -117,15 +109,15 @@ impl Stacks {
         sort_by(&mut by_layer, watch, |&a, &b| layer(a).cmp(&layer(b)))?;
         let mut all: Vec<(Vec<usize>, &[u32])> = Vec::new();
         for own in by_layer.chunk_by(|&a, &b| layer(a) == layer(b)) {
-            let polygons = stack(&layers, layer(own[0]), watch)?;
-            all.push((polygons, own));
+            watch.work(own.len())?;
+            all.push((stack(&layers, layer(own[0])), own));
         }
         sort_by(&mut all, watch, |(a, _), (b, _)| a.cmp(b))?;
         let count = all.len();
         let region = |(i, (polygons, own)): (usize, (Vec<usize>, &[u32]))| {
             let mut area = Area::default();
-            for part in each(watch, VISITED, own) {
-                area.push(parts.part(*part? as usize))?;
+            for &part in own {
+                area.push(parts.part(part as usize))?;
             }
             let outlines = area.outlines(lines, watch)?.into_iter();
             let outlines = outlines.map(|o| o.iter().map(|side| side.start.at).collect()).collect();
@@ -137,15 +129,12 @@ impl Stacks {
 }
 
 /// The polygons of a layer and of those before it, front to back.
-fn stack(layers: &[PolygonLayer], last: u32, watch: &Watch<'_>) -> Result<Vec<usize>, Error> {
+fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
     let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
-    let all = || std::iter::successors(at(last), |layer| at(layer.before));
-    let mut polygons = Vec::with_capacity(all().count());
-    for layer in each(watch, 1, all()) {
-        polygons.push(layer?.polygon);
-    }
+    let all = std::iter::successors(at(last), |layer| at(layer.before));
+    let mut polygons: Vec<usize> = all.map(|layer| layer.polygon).collect();
     polygons.reverse();
-    Ok(polygons)
+    polygons
 }
 
 impl Region {
@@ -212,8 +201,8 @@ impl Divided {
         let none = ItemLayer { item: u32::MAX, before: 0, newest: 0 };
         let mut divided = Self { cells: vec![], layers: vec![none] };
         if is_opaque(leaf, primitives) {
-            for visible in each(watch, CUT, &leaf.cells) {
-                let Visible { item, cell } = visible?;
+            watch.work(leaf.cells.len() * CUT)?;
+            for Visible { item, cell } in &leaf.cells {
                 let layer = divided.behind(0, *item);
                 divided.cells.push(LayeredCell::new(cell.clone(), layer));
             }
@@ -286,10 +275,8 @@ impl VisibilityMap<'_> {
         let count = self.leaves.len();
         for (i, leaf) in self.leaves.iter().enumerate() {
             if is_opaque(leaf, &self.primitives) {
-                for visible in each(watch, CUT, &leaf.cells) {
-                    let Visible { item, cell } = visible?;
-                    see(*item, cell)?;
-                }
+                watch.work(leaf.cells.len() * CUT)?;
+                leaf.cells.iter().try_for_each(|Visible { item, cell }| see(*item, cell))?;
             } else {
                 let divided = Divided::new(leaf, &self.primitives, watch)?;
                 for part in &divided.cells {

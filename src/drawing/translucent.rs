@@ -3,16 +3,13 @@
 use std::cmp::Reverse;
 
 use super::cell::Cell;
-use super::join::Groups;
-use super::leaf::{Leaf, Visible};
-use super::map::{
-    Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by, sort_unique,
-};
-use super::order::{Found, Ordered, Pair, Wanted, add, cycles, order, pairs, sorted};
-use super::overlaid::{Between, Overlaid};
+use super::graph::{Groups, Ordered, Pair, Wanted, contracted, cycles, order};
+use super::map::{Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by};
+use super::overlaid::Between;
+use super::pairs::{Found, add, overlaps, pairs, sorted};
 use super::paths::{Area, Drawing, add_piece};
 use super::primitives::Primitives;
-use super::tile::{CUT, Growth, Reaches, TINIEST, Tile, VISITED, found_in};
+use super::quadtree::{CUT, Leaf, Visible};
 use crate::Error;
 use crate::overlay::Overlay;
 use crate::progress::Watch;
@@ -81,7 +78,7 @@ impl Drawing {
                 let parts = Parts::new(&primitives, &overlaps, &touching, watch)?;
                 let ordered = parts.order(&primitives, &overlaps, None, watch)?;
                 let Some(between) = &between else { break (parts, ordered, vec![]) };
-                let places = parts.places(&ordered, watch)?;
+                let places = parts.places(&ordered);
                 let (placed, missed) = between.placed(&places, ordered.order.len(), watch)?;
                 // Again with all that was missed so far, until that is nothing new. What was kept stays so: new
                 // pairs come last.
@@ -91,17 +88,14 @@ impl Drawing {
                 if new.is_empty() || rounds == ROUNDS {
                     break (parts, ordered, placed);
                 }
-                for pair in each(watch, VISITED, new) {
-                    let pair = pair?;
+                for pair in new {
                     add(&mut known, pair);
                     touching.push(pair);
                 }
             };
             let (mut drawing, paths) = parts.drawing(&primitives, &ordered, None, &[], watch)?;
-            for placed in each(watch, 1, placed) {
-                let (parts, what): (u32, Overlaid) = placed?;
-                drawing.overlaid.push((paths[parts as usize], what));
-            }
+            let placed = placed.into_iter();
+            drawing.overlaid.extend(placed.map(|(parts, what)| (paths[parts as usize], what)));
             sort_by(&mut drawing.overlaid, watch, |(a, _), (b, _)| a.cmp(b))?;
             Ok(drawing)
         })
@@ -118,142 +112,21 @@ pub(super) fn mixed(
 ) -> Result<Drawing, Error> {
     // Polygons that show are known by their first items.
     let polygon = |item: u32| primitives.polygon(item);
-    let count = (0..primitives.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-    let (mut shows, mut first): (Vec<bool>, Vec<u32>) = (vec![false; count], vec![u32::MAX; count]);
-    for visible in each(watch, 1, leaves.iter().flat_map(|leaf| &leaf.cells)) {
-        shows[polygon(visible?.item)] = true;
+    let mut shows = vec![false; primitives.polygon_count()];
+    for visible in leaves.iter().flat_map(|leaf| &leaf.cells) {
+        shows[polygon(visible.item)] = true;
     }
-    for item in each(watch, 1, (0..primitives.items.len() as u32).rev()) {
-        let item = item?;
-        if shows[polygon(item)] {
-            first[polygon(item)] = item;
-        }
-    }
-    let faces = primitives.lines.frame.faces;
-    let place = |face: u32| {
-        let polygon = faces.polygon(face);
-        first.get(polygon).copied().unwrap_or(u32::MAX)
-    };
+    let mut first = vec![u32::MAX; primitives.polygon_count()];
+    let items = (0..primitives.items.len() as u32).rev();
+    items.filter(|&item| shows[polygon(item)]).for_each(|item| first[polygon(item)] = item);
+    let place = |face: u32| first[primitives.lines.frame.faces.polygon(face)];
     let pairs = pairs(primitives, leaves, &place, Wanted::ALL, watch)?;
-    let mut blended: Vec<Pair> = Vec::new();
-    for pair in each(watch, 1, &pairs) {
-        let pair = *pair?;
-        if !primitives.is_opaque(pair.above) {
-            blended.push(pair);
-        }
-    }
+    let mut blended = pairs.clone();
+    blended.retain(|pair| !primitives.is_opaque(pair.above));
     let parts = Parts::new(primitives, &blended, &[], watch)?;
     let ordered = parts.order(primitives, &pairs, Some(leaves), watch)?;
     let (drawing, _) = parts.drawing(primitives, &ordered, Some(leaves), left_out, watch)?;
     Ok(drawing)
-}
-
-/// A tile with the items that may be in it, front to back.
-struct TileStack {
-    tile: Tile,
-    reaches: Reaches,
-    growth: Growth,
-}
-
-/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
-/// pairs are compared; smaller: more tiles.
-const FEW: usize = 8;
-
-/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
-/// an item covers a tile, pairs with it stand for those of what is behind and in front of it.
-pub(super) fn overlaps(primitives: &Primitives<'_>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
-    let tile = Tile::picture(primitives.lines.frame.rays.size());
-    let mut reaches = Reaches::default();
-    for item in each(watch, 2, 0..primitives.items.len() as u32) {
-        let item = item?;
-        reaches.push(item, primitives.halves(item))?;
-    }
-    let all = TileStack { tile, reaches, growth: Growth::NONE };
-    let halves = |part: &TileStack, _: &mut Found| part.halves(primitives, watch);
-    let leaf = |part: &TileStack, found: &mut Found| part.leaf(primitives, found, watch);
-    let all = all.narrowed(primitives, tile, watch)?;
-    sorted(found_in(all, Found::default, halves, leaf, watch)?, watch)
-}
-
-impl TileStack {
-    fn is_leaf(&self) -> bool {
-        let between = self.reaches.list.split(|reach| reach.covers());
-        let most = between.map(<[_]>::len).max().unwrap_or(0);
-        most <= FEW || self.growth.is_too_much() || self.tile.is_within(TINIEST)
-    }
-
-    /// Both halves of the tile; `None` of a leaf.
-    fn halves(
-        &self,
-        primitives: &Primitives<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
-        if self.is_leaf() {
-            return Ok(None);
-        }
-        let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(primitives, tile, watch);
-        let mut parts = [narrowed(first)?, narrowed(second)?];
-        let open = |part: &Self| part.reaches.list.iter().filter(|reach| !reach.covers()).count();
-        let counts = [open(&parts[0]), open(&parts[1])];
-        let growth = self.growth.after(open(self), counts);
-        parts.iter_mut().for_each(|part| part.growth = growth);
-        Ok(Some(parts))
-    }
-
-    fn narrowed(
-        &self,
-        primitives: &Primitives<'_>,
-        tile: Tile,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let around = |item: u32| primitives.items[item as usize].around;
-        let reaches = self.reaches.narrowed(&primitives.lines, &tile.sides(), around, watch)?;
-        Ok(Self { tile, reaches, growth: Growth::NONE })
-    }
-
-    /// Adds the pairs of the tile.
-    fn leaf(
-        &self,
-        primitives: &Primitives<'_>,
-        found: &mut Found,
-        watch: &Watch<'_>,
-    ) -> Result<(), Error> {
-        let mut add = |below: u32, above: u32| add(found, Pair { below, above });
-        let lines = &primitives.lines;
-        // The last item that covers the tile, and those behind it so far, with what they cover.
-        let mut cover: Option<u32> = None;
-        let mut behind: Vec<(u32, Cell)> = Vec::new();
-        for reach in &self.reaches.list {
-            watch.work(CUT)?;
-            let item = reach.number;
-            if reach.covers() {
-                if let (Some(cover), true) = (cover, behind.is_empty()) {
-                    add(item, cover);
-                }
-                for (above, _) in behind.drain(..) {
-                    add(item, above);
-                }
-                cover = Some(item);
-                continue;
-            }
-            let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
-            let halves = self.reaches.halves_of(reach);
-            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
-            if let Some(cover) = cover {
-                add(item, cover);
-            }
-            let face = |item: u32| primitives.face(item);
-            for part in each(watch, CUT, &behind) {
-                let (above, other) = part?;
-                if face(*above) != face(item) && other.meets(lines, halves, watch)? {
-                    add(item, *above);
-                }
-            }
-            behind.push((item, cell));
-        }
-        Ok(())
-    }
 }
 
 /// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
@@ -277,20 +150,16 @@ impl Parts {
         touching: &[Pair],
         watch: &Watch<'_>,
     ) -> Result<Self, Error> {
-        let units = units(primitives, overlaps, watch)?;
+        let units = units(primitives, overlaps);
         let count = units.iter().max().map_or(0, |&most| most as usize + 1);
         let all = overlaps.iter().chain(touching);
-        let cycles = cycles(count, &contracted(all, &units, watch)?, watch)?;
-        // Units in no cycle are whole. The pieces of the others start by themselves.
-        let mut nodes: Vec<u32> = Vec::new();
-        for item in each(watch, 1, 0..units.len() as u32) {
-            let item = item?;
-            if cycles[units[item as usize] as usize].is_some() {
-                nodes.push(item);
-            }
-        }
-        // What is further back has a higher number as an item, and a lower one as a node.
+        let all = contracted(all, |item| units[item as usize], watch)?;
+        let cycles = cycles(count, &all, watch)?;
         let cycle = |item: u32| cycles[units[item as usize] as usize];
+        // Units in no cycle are whole. The pieces of the others start by themselves.
+        let items = 0..units.len() as u32;
+        let mut nodes: Vec<u32> = items.filter(|&item| cycle(item).is_some()).collect();
+        // What is further back has a higher number as an item, and a lower one as a node.
         let key = |item: u32| (cycle(item), Reverse(item));
         sort_by(&mut nodes, watch, |&a, &b| key(a).cmp(&key(b)))?;
         let mut node_of: Vec<u32> = vec![u32::MAX; units.len()];
@@ -301,16 +170,9 @@ impl Parts {
             let [a, b] = [pair.below, pair.above].map(cycle);
             (a.is_some() && a == b).then(|| pair.map(|item| node_of[item as usize]))
         };
-        let mut pairs = Vec::new();
-        for pair in each(watch, VISITED, overlaps) {
-            if let Some(pair) = in_nodes(pair?) {
-                pairs.push(pair);
-            }
-        }
-        let mut groups = Groups::new(nodes.len(), &pairs, watch)?;
+        let mut groups = Groups::new(nodes.len(), overlaps.iter().filter_map(in_nodes));
         let mut kept = Vec::new();
-        for pair in each(watch, VISITED, touching) {
-            let pair = pair?;
+        for pair in touching {
             let is_kept = match in_nodes(pair) {
                 Some(pair) => groups.add(pair, watch)?,
                 None => true,
@@ -328,8 +190,7 @@ impl Parts {
             of_item[item as usize] = count as u32 + groups.group(node);
         }
         let mut items: Vec<Vec<u32>> = vec![vec![]; count + nodes.len()];
-        for placed in each(watch, VISITED, (0..).zip(&of_item)) {
-            let (item, &part) = placed?;
+        for (item, &part) in (0..).zip(&of_item) {
             items[part as usize].push(item);
         }
         for items in &mut items {
@@ -354,19 +215,18 @@ impl Parts {
             let first = self.items[part as usize].first();
             leaves.is_some() && first.is_some_and(|&item| primitives.is_opaque(item))
         };
-        let pairs = contracted(pairs.iter().chain(&self.touching), &self.of_item, watch)?;
+        let pairs = pairs.iter().chain(&self.touching);
+        let pairs = contracted(pairs, |item| self.of_item[item as usize], watch)?;
         order(self.items.len(), &pairs, &ranks, &is_opaque, watch)
     }
 
     /// The place of each item's part in an order.
-    pub(super) fn places(&self, ordered: &Ordered, watch: &Watch<'_>) -> Result<Vec<u32>, Error> {
+    pub(super) fn places(&self, ordered: &Ordered) -> Vec<u32> {
         let mut places = vec![0; self.items.len()];
-        for placed in each(watch, 1, (0..).zip(&ordered.order)) {
-            let (place, &part) = placed?;
+        for (place, &part) in (0..).zip(&ordered.order) {
             places[part as usize] = place;
         }
-        watch.work(self.of_item.len())?;
-        Ok(self.of_item.iter().map(|&part| places[part as usize]).collect())
+        self.of_item.iter().map(|&part| places[part as usize]).collect()
     }
 
     /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each number
@@ -379,7 +239,7 @@ impl Parts {
         left_out: &[usize],
         watch: &Watch<'_>,
     ) -> Result<(Drawing, Vec<u32>), Error> {
-        let cells = leaves.map(|leaves| self.cells(leaves, watch)).transpose()?;
+        let cells = leaves.map(|leaves| self.cells(leaves));
         let mut drawing = Drawing::empty(primitives.lines.frame.rays.size());
         let count = ordered.order.len();
         drawing.paths.reserve(count);
@@ -396,8 +256,8 @@ impl Parts {
             match shown {
                 Some(cells) if cells.is_empty() => {}
                 Some(cells) if is_clipped => {
-                    for cell in each(watch, VISITED, cells) {
-                        area.push(&cell?.sides)?;
+                    for cell in cells {
+                        area.push(&cell.sides)?;
                     }
                 }
                 _ => counts.add_pieces(primitives, items, &mut area, watch)?,
@@ -420,17 +280,12 @@ impl Parts {
     }
 
     /// What shows of each.
-    fn cells<'l>(
-        &self,
-        leaves: &'l [Leaf],
-        watch: &Watch<'_>,
-    ) -> Result<Vec<Vec<&'l Cell>>, Error> {
+    fn cells<'l>(&self, leaves: &'l [Leaf]) -> Vec<Vec<&'l Cell>> {
         let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.items.len()];
-        for visible in each(watch, VISITED, leaves.iter().flat_map(|leaf| &leaf.cells)) {
-            let Visible { item, cell } = visible?;
+        for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
             cells[self.of_item[*item as usize] as usize].push(cell);
         }
-        Ok(cells)
+        cells
     }
 }
 
@@ -444,9 +299,7 @@ impl Counts {
     fn of(primitives: &Primitives<'_>) -> Counts {
         let mut of_face: Vec<u32> = vec![0; primitives.views.len()];
         primitives.items.iter().for_each(|item| of_face[item.face as usize] += 1);
-        let count =
-            (0..primitives.items.len() as u32).map(|item| primitives.polygon(item) + 1).max();
-        let mut of_polygon: Vec<u32> = vec![0; count.unwrap_or(0)];
+        let mut of_polygon: Vec<u32> = vec![0; primitives.polygon_count()];
         (0..primitives.items.len() as u32)
             .for_each(|item| of_polygon[primitives.polygon(item)] += 1);
         Self { of_face, of_polygon }
@@ -476,54 +329,25 @@ impl Counts {
 }
 
 /// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
-fn units(
-    primitives: &Primitives<'_>,
-    overlaps: &[Pair],
-    watch: &Watch<'_>,
-) -> Result<Vec<u32>, Error> {
+fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     let polygon = |item: u32| primitives.polygon(item);
-    let count = (0..primitives.items.len() as u32).map(polygon).max().map_or(0, |most| most + 1);
-    let mut is_folded: Vec<bool> = vec![false; count];
-    for pair in each(watch, VISITED, overlaps) {
-        let Pair { below, above } = *pair?;
-        let [below, above] = [below, above].map(polygon);
-        is_folded[below] |= below == above;
+    let mut is_folded = vec![false; primitives.polygon_count()];
+    for &Pair { below, above } in overlaps {
+        is_folded[polygon(below)] |= polygon(below) == polygon(above);
     }
-    let (mut of_polygon, mut of_face): (Vec<Option<u32>>, Vec<Option<u32>>) = (
-        ((0..count).map(|_| None)).collect::<Vec<_>>(),
-        primitives.views.iter().map(|_| None).collect::<Vec<_>>(),
-    );
-    let (mut units, mut next) = (Vec::new(), 0);
-    units.reserve(primitives.items.len());
-    for item in each(watch, 1, 0..primitives.items.len() as u32) {
-        let item = item?;
-        let polygon = polygon(item);
-        let unit = match is_folded[polygon] {
+    let mut of_polygon: Vec<Option<u32>> = vec![None; is_folded.len()];
+    let mut of_face: Vec<Option<u32>> = vec![None; primitives.views.len()];
+    let mut next = 0;
+    let unit = |item: u32| {
+        let unit = match is_folded[polygon(item)] {
             true => &mut of_face[primitives.face(item) as usize],
-            false => &mut of_polygon[polygon],
+            false => &mut of_polygon[polygon(item)],
         };
         let number = *unit.get_or_insert(next);
         next += u32::from(number == next);
-        units.push(number);
-    }
-    Ok(units)
-}
-
-/// The pairs between what items belong to.
-fn contracted<'p>(
-    of_items: impl Iterator<Item = &'p Pair>,
-    of_item: &[u32],
-    watch: &Watch<'_>,
-) -> Result<Vec<Pair>, Error> {
-    let mut pairs = Vec::new();
-    for pair in each(watch, 1, of_items) {
-        let pair = pair?.map(|item| of_item[item as usize]);
-        if pair.below != pair.above {
-            pairs.push(pair);
-        }
-    }
-    sort_unique(&mut pairs, watch)?;
-    Ok(pairs)
+        number
+    };
+    (0..primitives.items.len() as u32).map(unit).collect()
 }
 
 /// Nodes of one unit, two at a time, those first that are nearest in the order: they have the fewest
@@ -534,11 +358,9 @@ fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u3
     sort_by(&mut by_unit, watch, |&a, &b| unit(a).cmp(&unit(b)))?;
     let mut pairs = Vec::new();
     for same in by_unit.chunk_by(|&a, &b| unit(a) == unit(b)) {
-        for numbered in each(watch, NEXT, same.iter().enumerate()) {
-            let (i, &a) = numbered?;
-            for &b in same[i + 1..].iter().take(NEXT) {
-                pairs.push((a, b));
-            }
+        watch.work(same.len() * NEXT)?;
+        for (i, &a) in same.iter().enumerate() {
+            pairs.extend(same[i + 1..].iter().take(NEXT).map(|&b| (a, b)));
         }
     }
     let key = |&(a, b): &(u32, u32)| (b - a, a);

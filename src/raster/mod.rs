@@ -27,10 +27,10 @@ pub(crate) use judge::{Layers, compare_by, is_open, zbuffer_layers};
 pub(crate) use line::{Sheet, edge, normal_of};
 pub use painter::{Image, NONE, blend, brightness, colour_of, depth_map, difference, picture};
 pub(crate) use painter::{covers, for_each_shaded};
+#[cfg(feature = "drawing")]
+pub(crate) use rays::RayOrigin;
 pub use rays::Rays;
 pub(crate) use rays::Window;
-#[cfg(feature = "drawing")]
-pub(crate) use rays::{RayOrigin, VERTEX_ERROR};
 
 /// For painters of other orders, which `crates/evidence` compares with the tree's. They name faces on the
 /// lattice, which users do not see.

@@ -331,7 +331,7 @@ pub(crate) struct Window {
 
 /// The largest error of a vertex's coordinate, in lattice units: 2, and a margin for the rounding of
 /// coordinates beyond 2⁵³.
-pub(crate) const VERTEX_ERROR: f64 = 2.5;
+const VERTEX_ERROR: f64 = 2.5;
 /// Margin around a polygon's projection, in pixels, for the rounding of the projection.
 const MARGIN: f64 = 1.0 / 256.0;
 
@@ -342,7 +342,7 @@ impl Rays {
     /// A polygon that reaches behind the eye may be anywhere in the picture, unless it lies entirely beyond
     /// one of the picture's sides.
     pub(crate) fn window(&self, points: &[[f64; 3]]) -> Option<Window> {
-        let [[left, top], [right, bottom]] = self.region(points, VERTEX_ERROR)?;
+        let [[left, top], [right, bottom]] = self.region(points)?;
         let range = |axis: usize, low: f64, high: f64| {
             let first = low.ceil().max(0.0) as u32;
             let last = high.floor().min(f64::from(self.size[axis]) - 1.0);
@@ -352,11 +352,11 @@ impl Rays {
         if window.columns.is_empty() || window.rows.is_empty() { None } else { Some(window) }
     }
 
-    /// A box in the picture that contains the convex hull of these points, each given to within `off`
-    /// lattice units along each axis: its least and largest coordinates, in pixels, where the first pixel's
-    /// centre is at `first`. `None` if the hull is outside the picture. The box is infinite for a polygon
-    /// that reaches behind the eye.
-    pub(crate) fn region(&self, points: &[[f64; 3]], off: f64) -> Option<[[f64; 2]; 2]> {
+    /// A box in the picture that contains the convex hull of these points, each given to within
+    /// `VERTEX_ERROR`: its least and largest coordinates, in pixels, where the first pixel's centre is at
+    /// `first`. `None` if the hull is outside the picture. The box is infinite for a polygon that reaches
+    /// behind the eye.
+    pub(crate) fn region(&self, points: &[[f64; 3]]) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
         // The picture's sides, in pixels from the middle of the whole picture.
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
@@ -366,7 +366,7 @@ impl Rays {
         // Whether all points so far are beyond the left, right, upper, lower side.
         let mut beyond = [true; 4];
         for &point in points {
-            let (at, error) = self.in_picture(point, off);
+            let (at, error) = self.in_picture(point);
             let (z, slack) = (at.z, error.z);
             ahead &= z > 4.0 * slack;
             behind &= z < -slack;
@@ -396,7 +396,7 @@ impl Rays {
     /// errors.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
-        let (at, error) = self.in_picture(point, VERTEX_ERROR);
+        let (at, error) = self.in_picture(point);
         let ([x, y, z], [ex, ey, ez]) = (at.to_array(), error.to_array());
         let top = f64::from(self.above) - 0.5 * f64::from(self.whole_height);
         let shift = [0.5 * f64::from(self.size[0]), -top].map(|from| from + self.first - 0.5);
@@ -408,15 +408,15 @@ impl Rays {
         ([x + shift[0] * z, y + shift[1] * z, z], errors)
     }
 
-    /// A point, given to within `off`, in multiples of right, down and the direction through the middle
-    /// (the last is 1 for parallel rays), with bounds on their errors.
+    /// A point, given to within `VERTEX_ERROR`, in multiples of right, down and the direction through the
+    /// middle (the last is 1 for parallel rays), with bounds on their errors.
     #[inline]
-    fn in_picture(&self, point: [f64; 3], off: f64) -> (DVec3, DVec3) {
+    fn in_picture(&self, point: [f64; 3]) -> (DVec3, DVec3) {
         let (arm, parallel) = match self.pencil {
             RayOrigin::From { .. } => (-DVec3::from_array(self.origin_from(point)), false),
             RayOrigin::Along { .. } => (DVec3::from_array(point) - float(self.middle), true),
         };
-        let slack = off + arm.abs().max_element() * self.rounding;
+        let slack = VERTEX_ERROR + arm.abs().max_element() * self.rounding;
         let [a, b, c] = self.to_picture;
         let norm = |row: DVec3| row.abs().element_sum() * slack;
         let mut at = DVec3::new(a.dot(arm), b.dot(arm), c.dot(arm));

@@ -1,4 +1,7 @@
 //! Segments and points of the scene in the picture, and where they pass in front of pieces or behind them.
+//!
+//! The number of polygons in front of a segment is its quantitative invisibility (A. Appel, "The notion of
+//! quantitative invisibility and the machine rendering of solids", 1967).
 
 use std::cmp::Ordering;
 
@@ -6,12 +9,13 @@ use smallvec::SmallVec;
 
 use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
 use super::edges::SHORTEST;
-use super::exact_lines::{ExactLine, Image, Rounded, meeting, side_at};
-use super::lines::LineTable;
-use super::map::each;
-use super::tile::{CUT, Growth, NARROWED, Reaches, TINIEST, Tile, found_in};
+use super::lines::{ExactLine, Image, LineTable, Rounded, meeting, side_at};
+use super::map::{VisibilityMap, sort_by};
+use super::quadtree::{
+    CUT, Candidates, NARROWED, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
+};
 use crate::Error;
-use crate::exact::{Int, PlaneId, PreparedPlane};
+use crate::exact::{Faces, Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
 
 /// A segment of the scene, as far as the picture has it.
@@ -57,38 +61,50 @@ pub(super) const MARGIN: f64 = 1e-3;
 impl ProjectedSegment {
     /// `None` if it is not in the picture, or a point there.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
-        let tile = Tile::picture(lines.frame.rays.size());
-        let certain = certain_ends(lines, ends, &tile.sides());
-        if certain == Certain::Outside {
+        let [low, high] = Tile::picture(lines.frame.rays.size()).sides();
+        let images = ends.map(|end| lines.frame.image(end));
+        let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
+        let at = images.map(|image| point_of(&image));
+        // Rounding moves points by far less than a margin.
+        let is_beyond = |axis: usize| {
+            at.iter().all(|at| at[axis] < low[axis] - MARGIN)
+                || at.iter().all(|at| at[axis] > high[axis] + MARGIN)
+        };
+        if is_ahead == [false; 2] || is_ahead == [true; 2] && (is_beyond(0) || is_beyond(1)) {
             return None;
         }
-        let mut sight = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
-        let [from, to] = match certain {
-            Certain::Inside(ends) => ends.map(|end| sight.course.place(end)),
-            _ => {
-                let all = Cell::picture(lines);
-                sight.picture = beside(&sight.signs(lines, &all));
-                sight.in_cell(lines, &all, ends)?
+        let is_inside = |at: &[f64; 2]| {
+            (0..2).all(|axis| low[axis] + MARGIN < at[axis] && at[axis] < high[axis] - MARGIN)
+        };
+        let mut segment = Self::along(lines.rounded_edge(ends), Source::Points(ends))?;
+        let [from, to] = if is_ahead == [true; 2] && at.iter().all(is_inside) {
+            at.map(|end| segment.course.place(end))
+        } else {
+            let all = Cell::picture(lines);
+            segment.picture = beside(&segment.signs(lines, &all));
+            let [mut from, mut to] = segment.chord(lines, &all)?;
+            if is_ahead[0] {
+                from = from.max(segment.course.place(at[0]));
             }
+            if is_ahead[1] {
+                to = to.min(segment.course.place(at[1]));
+            }
+            [from, to]
         };
         if (to - from).is_nan() || to - from < SHORTEST {
             return None;
         }
-        sight.limit([from, to]);
-        Some(sight)
+        segment.limit([from, to]);
+        Some(segment)
     }
 
-    /// The line in which two faces go through one another, between these points of the picture.
-    pub(super) fn crossing(
-        lines: &LineTable<'_>,
-        faces: [u32; 2],
-        ends: [[f64; 2]; 2],
-    ) -> Option<Self> {
+    /// The line in which two faces go through one another, as far as it divides a cell.
+    pub(super) fn crossing(lines: &LineTable<'_>, faces: [u32; 2], cell: &Cell) -> Option<Self> {
         let rounded = lines.rounded_other(&cut(lines, faces));
-        let mut sight = Self::along(rounded, Source::Crossing(faces))?;
-        let [a, b] = ends.map(|end| sight.course.place(end));
-        sight.limit([a.min(b), a.max(b)]);
-        ((a - b).abs() >= SHORTEST).then_some(sight)
+        let mut segment = Self::along(rounded, Source::Crossing(faces))?;
+        segment.course.places = ALL;
+        let is_divided = beside(&segment.signs(lines, cell)).is_eq();
+        segment.within(segment.chord(lines, cell).filter(|_| is_divided)?)
     }
 
     /// As much of it as lies between two places.
@@ -110,20 +126,6 @@ impl ProjectedSegment {
         (slope > 0.0).then_some(Self { source, rounded, course, picture, around: NOWHERE })
     }
 
-    /// From where to where it is in a cell, by its ends.
-    fn in_cell(&self, lines: &LineTable<'_>, cell: &Cell, ends: [[f64; 3]; 2]) -> Option<[f64; 2]> {
-        let [mut from, mut to] = self.chord(lines, cell)?;
-        let images = ends.map(|end| lines.frame.image(end));
-        let is_ahead = images.map(|[weight, ..]| weight.sign().is_gt());
-        if is_ahead[0] {
-            from = from.max(self.place_of(&images[0]));
-        }
-        if is_ahead[1] {
-            to = to.min(self.place_of(&images[1]));
-        }
-        (is_ahead != [false; 2]).then_some([from, to])
-    }
-
     fn limit(&mut self, places: [f64; 2]) {
         self.course.places = places;
         let [a, b] = places.map(|place| self.course.at(place));
@@ -132,11 +134,6 @@ impl ProjectedSegment {
             axes.map(|i: usize| a[i].min(b[i]) - MARGIN),
             axes.map(|i: usize| a[i].max(b[i]) + MARGIN),
         ];
-    }
-
-    fn place_of<const N: usize>(&self, image: &[Int<N>; 3]) -> f64 {
-        let [weight, x, y] = image.map(Int::to_f64);
-        self.course.place([x / weight, y / weight])
     }
 
     fn exact(&self, lines: &LineTable<'_>) -> ExactLine {
@@ -157,6 +154,12 @@ impl ProjectedSegment {
         let [_, kx, ky] = self.rounded.k;
         let reach = kx.abs() * half(0) + ky.abs() * half(1);
         self.rounded.at(middle).abs() <= reach
+    }
+
+    /// Whether the line goes through a cell or along one of its sides: exact.
+    fn meets(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
+        let signs = self.signs(lines, cell);
+        beside(&signs).is_eq() || side_on_line(&signs).is_some()
     }
 
     /// From where to where the line goes through a cell or along one of its sides: which of these it does is
@@ -274,7 +277,7 @@ impl ProjectedSegment {
             parts[0] + parts[1]
         });
         if mean[0].sign().is_gt() {
-            let place = self.place_of(&mean);
+            let place = self.course.place(point_of(&mean));
             return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
         // Behind the eye: what is ahead is all on the side of the end that is.
@@ -300,6 +303,12 @@ impl ImageLine {
     }
 }
 
+/// Where in the picture a point of the scene is, rounded.
+fn point_of<const N: usize>(image: &[Int<N>; 3]) -> [f64; 2] {
+    let [weight, x, y] = image.map(Int::to_f64);
+    [x / weight, y / weight]
+}
+
 /// On which side of a line a cell is whose corners are on these sides of it; `Equal` if it is on both.
 fn beside(signs: &[Ordering]) -> Ordering {
     let sides = [Ordering::Greater, Ordering::Less].map(|side| signs.contains(&side));
@@ -314,21 +323,20 @@ fn cut(lines: &LineTable<'_>, faces: [u32; 2]) -> ExactLine {
 
 /// A point of the scene as the picture shows it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct ProjectedPoint {
     point: [f64; 3],
     pub(super) at: [f64; 2],
 }
 
-impl Spot {
+impl ProjectedPoint {
     /// `None` if it is not in the picture.
     pub(super) fn new(lines: &LineTable<'_>, point: [f64; 3]) -> Option<Self> {
         let image = lines.frame.image(point);
         if !image[0].sign().is_gt() {
             return None;
         }
-        let [weight, x, y] = image.map(Int::to_f64);
-        let spot = Self { point, at: [x / weight, y / weight] };
-        spot.is_in(lines, &Cell::picture(lines)).then_some(spot)
+        let projected = Self { point, at: point_of(&image) };
+        projected.is_in(lines, &Cell::picture(lines)).then_some(projected)
     }
 
     /// A box around it.
@@ -361,11 +369,11 @@ impl Spot {
     }
 }
 
-/// A part of a segment that passes a piece in the picture, over its inside or along its border.
+/// A part of a segment that passes an item or a face in the picture, over its inside or along its border.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
-    /// The segment and the piece, by their numbers.
-    pub(super) sight: u32,
+    /// The segment and the item or face, by their numbers.
+    pub(super) segment: u32,
     pub(super) piece: u32,
     /// Whether the piece is in front of it.
     pub(super) is_behind: bool,
@@ -373,37 +381,66 @@ pub(super) struct Pass {
     pub(super) places: [f64; 2],
 }
 
-/// A point that is in a piece in the picture, or on its border.
+/// A point that is in an item or a face in the picture, or on its border.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SpotPass {
-    pub(super) spot: u32,
+pub(super) struct PointPass {
+    pub(super) point: u32,
     pub(super) piece: u32,
     /// Whether the piece is in front of it.
     pub(super) is_behind: bool,
 }
 
-/// What passes pieces.
-#[derive(Clone, Copy)]
+/// Segments and points, and the numbers of those that may be in a part of the picture.
+#[derive(Clone)]
 pub(super) struct Passing<'a> {
-    pub(super) sights: &'a [ProjectedSegment],
-    pub(super) spots: &'a [Spot],
+    segments: &'a [ProjectedSegment],
+    points: &'a [ProjectedPoint],
+    near_segments: Vec<u32>,
+    near_points: Vec<u32>,
+}
+
+impl<'a> Passing<'a> {
+    pub(super) const NOTHING: Self =
+        Self { segments: &[], points: &[], near_segments: vec![], near_points: vec![] };
+
+    pub(super) fn new(segments: &'a [ProjectedSegment], points: &'a [ProjectedPoint]) -> Self {
+        let near_segments = (0..segments.len() as u32).collect();
+        let near_points = (0..points.len() as u32).collect();
+        Self { segments, points, near_segments, near_points }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.near_segments.is_empty() && self.near_points.is_empty()
+    }
+
+    /// What may be in a box.
+    fn near(&self, sides: &Rect) -> Self {
+        self.filtered(|segment| segment.may_meet(sides), |point| !are_apart(sides, &point.around()))
+    }
+
+    /// What is in a cell.
+    pub(super) fn over(&self, lines: &LineTable<'_>, cell: &Cell) -> Self {
+        self.filtered(|segment| segment.meets(lines, cell), |point| point.is_in(lines, cell))
+    }
+
+    fn filtered(
+        &self,
+        has_segment: impl Fn(&ProjectedSegment) -> bool,
+        has_point: impl Fn(&ProjectedPoint) -> bool,
+    ) -> Self {
+        let (segments, points) = (self.near_segments.iter(), self.near_points.iter());
+        let segments = segments.filter(|&&number| has_segment(&self.segments[number as usize]));
+        let points = points.filter(|&&number| has_point(&self.points[number as usize]));
+        let near_segments = segments.copied().collect();
+        Self { near_segments, near_points: points.copied().collect(), ..*self }
+    }
 }
 
 /// What was found: one segment may pass a piece in several parts, and one point be found twice.
 #[derive(Default)]
 pub(super) struct Passes {
-    pub(super) sights: Vec<Pass>,
-    pub(super) spots: Vec<SpotPass>,
-}
-
-/// Convex pieces of faces, all by their numbers.
-pub(super) struct Pieces<'a> {
-    pub(super) lines: &'a LineTable<'a>,
-    pub(super) reaches: Reaches,
-    /// The face of a piece.
-    pub(super) face: &'a (dyn Fn(u32) -> u32 + Sync),
-    /// A box around a piece.
-    pub(super) around: &'a (dyn Fn(u32) -> Rect + Sync),
+    pub(super) segments: Vec<Pass>,
+    pub(super) points: Vec<PointPass>,
 }
 
 /// Tiles are not halved where at most so many pieces reach into them without covering them. Larger: more
@@ -411,137 +448,86 @@ pub(super) struct Pieces<'a> {
 /// time, of crossing triangles five times; 128: up to a sixth less).
 const FEW: usize = 64;
 
-/// A tile with the pieces, segments and points that may be in it.
-struct TilePasses {
-    tile: Tile,
-    reaches: Reaches,
-    sights: Vec<u32>,
-    spots: Vec<u32>,
-    growth: Growth,
-}
-
-/// All passes that are wanted, by whether the piece is in front: a phase.
-pub(super) fn passes(
-    mut pieces: Pieces<'_>,
-    passing: Passing<'_>,
-    is_wanted: impl Fn(bool) -> bool + Sync,
+/// All passes of segments and points that candidates are in front of, or of all if the others are wanted too: a phase.
+pub(super) fn passes<'p>(
+    candidates: &Candidates<'p>,
+    passing: Passing<'p>,
+    wants_behind_only: bool,
     watch: &Watch<'_>,
 ) -> Result<Passes, Error> {
-    let tile = Tile::picture(pieces.lines.frame.rays.size());
-    let reaches = std::mem::take(&mut pieces.reaches);
-    let sights: Vec<_> = (0..passing.sights.len() as u32).collect();
-    let spots: Vec<_> = (0..passing.spots.len() as u32).collect();
-    let all = TilePasses { tile, reaches, sights, spots, growth: Growth::NONE };
-    let halves = |part: &TilePasses, _: &mut Passes| part.halves(&pieces, passing, watch);
-    let leaf = |part: &TilePasses, found: &mut Passes| {
-        part.leaf(&pieces, passing, &is_wanted, found, watch)
+    type Part<'p> = (TileList<'p>, Passing<'p>);
+    let halves = |(list, passing): &Part<'p>| {
+        if passing.is_empty() || list.open() <= FEW || list.is_small(TINIEST) {
+            return Ok(None);
+        }
+        watch.work((passing.near_segments.len() + passing.near_points.len()) * NARROWED)?;
+        let halves = list.halves(watch)?;
+        Ok(Some(halves.map(|half| {
+            let passing = passing.near(&half.tile.sides());
+            (half, passing)
+        })))
     };
-    let (all, mut passes) = (all.narrowed(&pieces, passing, tile, watch)?, Passes::default());
-    for mut found in found_in(all, Passes::default, halves, leaf, watch)? {
-        watch.work(found.sights.len() + found.spots.len())?;
-        passes.sights.reserve(found.sights.len());
-        passes.sights.append(&mut found.sights);
-        passes.spots.reserve(found.spots.len());
-        passes.spots.append(&mut found.spots);
+    let leaf = |(list, passing): &Part<'p>, found: &mut Passes| {
+        if passing.is_empty() {
+            return Ok(());
+        }
+        let whole = SubTile::new(list, passing.clone(), watch)?;
+        whole.for_each_part(|part| found.add(&part, wants_behind_only, watch), watch)
+    };
+    let all = (TileList::picture(candidates, watch)?, passing);
+    let mut passes = Passes::default();
+    for mut found in found_in(all, halves, leaf, watch)? {
+        passes.segments.append(&mut found.segments);
+        passes.points.append(&mut found.points);
     }
     Ok(passes)
 }
 
-impl TilePasses {
-    /// How many pieces do not cover the tile.
-    fn open(&self) -> usize {
-        self.reaches.list.iter().filter(|reach| !reach.covers()).count()
-    }
-
-    fn is_leaf(&self) -> bool {
-        let is_done = self.sights.is_empty() && self.spots.is_empty() || self.open() <= FEW;
-        is_done || self.growth.is_too_much() || self.tile.is_within(TINIEST)
-    }
-
-    /// Both halves of the tile; `None` of a leaf.
-    fn halves(
-        &self,
-        pieces: &Pieces<'_>,
-        passing: Passing<'_>,
-        watch: &Watch<'_>,
-    ) -> Result<Option<[Self; 2]>, Error> {
-        if self.is_leaf() {
-            return Ok(None);
-        }
-        let [first, second] = self.tile.halves();
-        let narrowed = |tile| self.narrowed(pieces, passing, tile, watch);
-        let mut parts = [narrowed(first)?, narrowed(second)?];
-        let counts = [parts[0].open(), parts[1].open()];
-        let growth = self.growth.after(self.open(), counts);
-        parts.iter_mut().for_each(|part| part.growth = growth);
-        Ok(Some(parts))
-    }
-
-    fn narrowed(
-        &self,
-        pieces: &Pieces<'_>,
-        passing: Passing<'_>,
-        tile: Tile,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        let sides = tile.sides();
-        let reaches = self.reaches.narrowed(pieces.lines, &sides, pieces.around, watch)?;
-        let may_meet = |number: u32| passing.sights[number as usize].may_meet(&sides);
-        let sights = kept(&self.sights, may_meet, watch)?;
-        let is_near = |number: u32| !are_apart(&sides, &passing.spots[number as usize].around());
-        let spots = kept(&self.spots, is_near, watch)?;
-        Ok(Self { tile, reaches, sights, spots, growth: Growth::NONE })
-    }
-
-    /// Adds the passes in the tile.
-    fn leaf(
-        &self,
-        pieces: &Pieces<'_>,
-        passing: Passing<'_>,
-        is_wanted: &impl Fn(bool) -> bool,
-        found: &mut Passes,
+impl Passes {
+    /// Adds the passes in a part of the picture.
+    fn add(
+        &mut self,
+        part: &SubTile<'_, '_>,
+        wants_behind_only: bool,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        if self.sights.is_empty() && self.spots.is_empty() {
-            return Ok(());
-        }
-        let lines = pieces.lines;
-        let whole = Cell::rectangle(lines, self.tile.low, self.tile.high);
-        for reach in &self.reaches.list {
-            watch.work(CUT)?;
-            let halves = self.reaches.halves_of(reach);
-            let Some(cell) = whole.within(lines, halves, None, watch)? else { continue };
-            let (around, piece) = (cell.around(), reach.number);
-            let face = (pieces.face)(piece);
-            let side = lines.frame.seen_side(face);
-            for number in each(watch, CUT, &self.sights) {
-                let number = *number?;
-                let sight = &passing.sights[number as usize];
-                if !sight.may_meet(&around) {
+        let Passing { segments, points, near_segments, near_points } = &part.passing;
+        let primitives = part.candidates.primitives;
+        let lines = &primitives.lines;
+        for Visible { item: piece, cell } in &part.pieces {
+            watch.work((near_segments.len() + near_points.len()) * CUT)?;
+            let (around, face) = (cell.around(), part.candidates.face(*piece));
+            let side = primitives.views[face as usize].side;
+            for &number in near_segments {
+                let segment = &segments[number as usize];
+                if !segment.may_meet(&around) {
                     continue;
                 }
-                let Some(chord) = sight.chord(lines, &cell) else { continue };
+                let Some(chord) = segment.chord(lines, cell) else { continue };
                 let mut add = |is_behind: bool, [from, to]: [f64; 2]| {
                     let places = [from.max(chord[0]), to.min(chord[1])];
-                    let pass = Pass { sight: number, piece, is_behind, places };
-                    let is_any = is_wanted(is_behind) && places[0] < places[1];
-                    if is_any {
-                        found.sights.push(pass);
+                    if places[0] < places[1] && (is_behind || !wants_behind_only) {
+                        self.segments.push(Pass {
+                            segment: number,
+                            piece: *piece,
+                            is_behind,
+                            places,
+                        });
                     }
                 };
-                let [from, to] = sight.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
+                let [from, to] = segment.behind(lines, face, side).unwrap_or([f64::INFINITY; 2]);
                 add(true, [from, to]);
                 add(false, [f64::NEG_INFINITY, from]);
                 add(false, [to, f64::INFINITY]);
             }
-            for number in each(watch, CUT, &self.spots) {
-                let number = *number?;
-                let spot = &passing.spots[number as usize];
-                if !are_apart(&around, &spot.around()) && spot.is_in(lines, &cell) {
-                    let is_behind = spot.is_behind(lines, face, side);
-                    if is_wanted(is_behind) {
-                        found.spots.push(SpotPass { spot: number, piece, is_behind });
-                    }
+            for &number in near_points {
+                let point = &points[number as usize];
+                if are_apart(&around, &point.around()) || !point.is_in(lines, cell) {
+                    continue;
+                }
+                let is_behind = point.is_behind(lines, face, side);
+                if is_behind || !wants_behind_only {
+                    self.points.push(PointPass { point: number, piece: *piece, is_behind });
                 }
             }
         }
@@ -549,63 +535,85 @@ impl TilePasses {
     }
 }
 
-/// Those of some numbers that a function keeps.
-pub(super) fn kept(
-    numbers: &[u32],
-    keep: impl Fn(u32) -> bool,
-    watch: &Watch<'_>,
-) -> Result<Vec<u32>, Error> {
-    let mut kept = Vec::with_capacity(numbers.len());
-    for number in each(watch, NARROWED, numbers) {
-        let number = *number?;
-        if keep(number) {
-            kept.push(number);
+/// From a place of a segment on, so many polygons are in front of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Depth {
+    from: f64,
+    layers: u32,
+}
+
+/// The quantitative invisibility of segments, and where that of each begins: before its first place, nothing is in front.
+pub(super) struct Depths {
+    depths: Vec<Depth>,
+    begins: Vec<usize>,
+}
+
+impl Depths {
+    /// Those of so many segments, by sorted passes. A face that is a segment's own does not count.
+    pub(super) fn new(
+        count: usize,
+        passes: &[Pass],
+        faces: &Faces,
+        is_own: impl Fn(u32, u32) -> bool,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let mut all = Self { depths: vec![], begins: vec![0] };
+        let (mut changes, mut rest) = (Vec::new(), passes);
+        let polygon = |pass: &Pass| faces.polygon(pass.piece);
+        for number in 0..count as u32 {
+            let own = take_own(&mut rest, number);
+            changes.clear();
+            watch.work(own.len() * VISITED)?;
+            for same in own.chunk_by(|a, b| polygon(a) == polygon(b)) {
+                // Each polygon counts once, however many parts of it there are.
+                let counts = |pass: &&Pass| !is_own(number, pass.piece);
+                for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
+                    changes.push((from, 1));
+                    changes.push((to, -1));
+                }
+            }
+            sort_by(&mut changes, watch, |a, b| a.0.total_cmp(&b.0))?;
+            let mut layers = 0i64;
+            for &(from, change) in &changes {
+                layers += change;
+                all.depths.push(Depth { from, layers: layers as u32 });
+            }
+            all.begins.push(all.depths.len());
         }
+        Ok(all)
     }
-    Ok(kept)
+
+    pub(super) fn of(&self, segment: usize) -> &[Depth] {
+        &self.depths[self.begins[segment]..self.begins[segment + 1]]
+    }
 }
 
-/// What floats tell of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Certain {
-    /// Both ends are in the picture, here.
-    Inside([[f64; 2]; 2]),
-    /// No point is in the picture.
-    Outside,
-    Unknown,
+/// Takes the passes of a segment from the beginning of a list that is sorted by segments.
+pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] {
+    let (own, rest) = passes.split_at(passes.partition_point(|pass| pass.segment == segment));
+    *passes = rest;
+    own
 }
 
-/// One over the largest error of a projected point, in pixels, that counts as none.
-const FAR: f64 = (1u64 << 30) as f64;
-
-/// What floats tell of the segment between two lattice points. (Most are inside or outside.)
-pub(super) fn certain_ends(
-    lines: &LineTable<'_>,
-    ends: [[f64; 3]; 2],
-    [low, high]: &Rect,
-) -> Certain {
-    let projected = ends.map(|end| lines.frame.rays.project(end));
-    // What is positive in the picture and ahead of the eye, and how far off that may be.
-    let inside = |([x, y, z], [ex, ey, ez]): ([f64; 3], [f64; 3])| {
-        let side = |at: f64, error: f64, border: f64, sign: f64| {
-            let off = error + border.abs() * ez;
-            (sign * (at - border * z), off + 4.0 * f64::EPSILON * (at.abs() + (border * z).abs()))
-        };
-        let beyond = |at, error, axis: usize| side(at, error, low[axis], 1.0);
-        let before = |at, error, axis: usize| side(at, error, high[axis], -1.0);
-        [(z, ez), beyond(x, ex, 0), before(x, ex, 0), beyond(y, ey, 1), before(y, ey, 1)]
-    };
-    let [a, b] = projected.map(inside);
-    let is_out = |&(value, off): &(f64, f64)| value < -off;
-    if a.iter().zip(&b).any(|(a, b)| is_out(a) && is_out(b)) {
-        return Certain::Outside;
-    }
-    let is_in = |&(value, off): &(f64, f64)| value > off;
-    // Near the eye, errors that are small for the scene are large in the picture.
-    let is_fine = |([_, _, z], errors): &([f64; 3], [f64; 3])| errors.iter().all(|e| e * FAR < *z);
-    match a.iter().chain(&b).all(is_in) && projected.iter().all(is_fine) {
-        true => Certain::Inside(projected.map(|([x, y, z], _)| [x / z, y / z])),
-        false => Certain::Unknown,
+impl VisibilityMap<'_> {
+    /// Where faces are in front of segments, sorted by segments, polygons and places, and in front of points: a phase.
+    /// Hidden and translucent faces are among them only if all are wanted.
+    pub(super) fn in_front(
+        &self,
+        passing: Passing<'_>,
+        wants_all: bool,
+        watch: &Watch<'_>,
+    ) -> Result<Passes, Error> {
+        let primitives = &self.primitives;
+        let is_wanted = |face: u32| wants_all || primitives.views[face as usize].is_opaque;
+        let faces = Candidates::faces(primitives, is_wanted)?;
+        let faces = if wants_all { faces } else { faces.ending_at_covers() };
+        let mut passes = passes(&faces, passing, true, watch)?;
+        let key = |pass: &Pass| (pass.segment, primitives.lines.frame.faces.polygon(pass.piece));
+        sort_by(&mut passes.segments, watch, |a, b| {
+            key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
+        })?;
+        Ok(passes)
     }
 }
 
@@ -646,4 +654,55 @@ pub(super) fn parts(
     }
     add(done, end, false);
     found
+}
+
+/// Both ends of a run.
+type Ends = [[f64; 2]; 2];
+
+/// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
+/// rounding has left are not told from those before them.
+pub(super) fn in_layers(
+    ends: Ends,
+    is_visible: bool,
+    depths: Option<(&ProjectedSegment, &[Depth])>,
+    watch: &Watch<'_>,
+) -> Result<Vec<(Ends, u32)>, Error> {
+    let Some((segment, depths)) = depths.filter(|_| !is_visible) else {
+        return Ok(vec![(ends, u32::from(!is_visible))]);
+    };
+    let [a, b] = ends.map(|end| segment.course.place(end));
+    let (low, high) = (a.min(b), a.max(b));
+    // Where each part begins, as a share of the run.
+    let mut parts: Vec<(f64, u32)> = Vec::new();
+    let first = depths.partition_point(|depth| depth.from <= low);
+    let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);
+    let inside = depths[first..].iter().take_while(|depth| depth.from < high);
+    let begins = inside.map(|depth| (depth.from, depth.layers));
+    let mut begins = [(low, before)].into_iter().chain(begins).peekable();
+    while let Some((from, layers)) = begins.next() {
+        watch.work(1)?;
+        let to = begins.peek().map_or(high, |next| next.0);
+        let layers = layers.max(1);
+        let goes_on = parts.last().is_some_and(|last| last.1 == layers);
+        if to - from >= SHORTEST && !goes_on {
+            let start = if parts.is_empty() { low } else { from };
+            parts.push((start, layers));
+        }
+    }
+    if parts.is_empty() {
+        return Ok(vec![(ends, before.max(1))]);
+    }
+    let at = |place: f64| {
+        let share = (place - a) / (b - a);
+        [0, 1].map(|i: usize| ends[0][i] + (ends[1][i] - ends[0][i]) * share)
+    };
+    let count = parts.len();
+    let cut = |i: usize| if i == 0 || i == count { None } else { Some(at(parts[i].0)) };
+    let end = |i: usize| cut(i).unwrap_or(ends[usize::from((i == 0) != (a < b))]);
+    let mut all: Vec<_> = (0..count).map(|i| ([end(i), end(i + 1)], parts[i].1)).collect();
+    if a > b {
+        all.reverse();
+        all.iter_mut().for_each(|(ends, _)| ends.swap(0, 1));
+    }
+    Ok(all)
 }

@@ -1,6 +1,191 @@
-//! Seams between neighbours, and trapping, which closes them.
+//! What makes a drawing fit for printers and viewers: paths of one look follow one another, and trapping closes the
+//! seams between neighbours.
+
+use std::collections::{BTreeMap, BinaryHeap};
 
 use super::paths::{Drawing, Path};
+
+type Point = [f64; 2];
+
+/// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: corners that were
+/// rounded apart keep neighbours in order; too large: overlaps of this width may show.
+const THIN: f64 = 1e-3;
+/// Outlines with more corners than this are taken for the boxes around them. Too large: time; too small: fewer paths
+/// move.
+const MOST_COMPARED_CORNERS: usize = 64;
+/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too large: time and
+/// memory where many large polygons lie over one another; too small: longer files.
+const MOST_PAIRS: usize = 400;
+
+impl Drawing {
+    /// Moves paths with equal keys next to one another where that does not change the picture.
+    ///
+    /// Paths that overlap keep their order; so does everything before and after a line or a point of an
+    /// [overlay](Self::display_list). `key` is called with numbers of polygons: files are shorter if paths of one
+    /// colour share it, and a plotter changes its pen less often.
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself.
+    ///
+    /// A greedy topological order: of the paths below which nothing is left, it takes those with the key of the path
+    /// before, or else with the most frequent key. O(n log n) for n paths, plus the number of overlaps. If there are
+    /// too many overlaps (400 n pairs of boxes), nothing moves.
+    #[must_use]
+    pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
+        let paths: Vec<Path<'_>> = self.paths().collect();
+        let keys: Vec<K> = paths.iter().map(|path| key(path.polygon())).collect();
+        let mut batched = self.clone();
+        batched.paths.clear();
+        let mut start = 0;
+        let ends = self.overlaid.iter().map(|&(below, _)| below as usize).chain([paths.len()]);
+        for end in ends.map(|end| end.min(paths.len())) {
+            let here = &paths[start.min(end)..end];
+            let order = match overlaps(here, self.size) {
+                Some(pairs) => ordered(&keys[start.min(end)..end], &pairs),
+                None => (0..here.len()).collect(),
+            };
+            batched.paths.extend(order.into_iter().map(|path| here[path].record.clone()));
+            start = start.max(end);
+        }
+        batched
+    }
+}
+
+/// An order of paths, given their keys and the pairs of a lower and an upper one that have to keep their order.
+fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
+    let mut numbers: BTreeMap<&K, usize> = BTreeMap::new();
+    let numbered = keys.iter().map(|key| {
+        let next = numbers.len();
+        *numbers.entry(key).or_insert(next)
+    });
+    let kinds: Vec<usize> = numbered.collect();
+    let n = keys.len();
+    // The number of paths below each that are not in the order yet, and the paths above it.
+    let mut below = vec![0u32; n];
+    let mut above = vec![vec![]; n];
+    for &[first, second] in pairs {
+        below[second as usize] += 1;
+        above[first as usize].push(second);
+    }
+    let mut ready = vec![vec![]; numbers.len()];
+    for path in (0..n).rev().filter(|&path| below[path] == 0) {
+        ready[kinds[path]].push(path);
+    }
+    // The number of paths of each kind that can come next. Entries may be out of date.
+    let mut counts: BinaryHeap<(usize, usize)> =
+        ready.iter().enumerate().map(|(kind, paths)| (paths.len(), kind)).collect();
+    let mut order = Vec::with_capacity(n);
+    while let Some((count, current)) = counts.pop() {
+        if ready[current].is_empty() {
+            continue;
+        }
+        if ready[current].len() != count {
+            counts.push((ready[current].len(), current));
+            continue;
+        }
+        while let Some(path) = ready[current].pop() {
+            order.push(path);
+            for &next in &above[path] {
+                let next = next as usize;
+                below[next] -= 1;
+                if below[next] == 0 {
+                    ready[kinds[next]].push(next);
+                    if kinds[next] != current {
+                        counts.push((ready[kinds[next]].len(), kinds[next]));
+                    }
+                }
+            }
+        }
+    }
+    order
+}
+
+/// A path: the outlines that it is compared by, and the box around them.
+struct BoxedPath {
+    low: Point,
+    high: Point,
+    outlines: Vec<Vec<Point>>,
+}
+
+/// Pairs of paths that overlap, the lower one first; `None` if there are too many to compare.
+fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
+    let areas: Vec<BoxedPath> = paths.iter().map(area).collect();
+    let [width, height] = size.map(f64::from);
+    let cell = (width * height / areas.len().max(1) as f64).sqrt().max(1.0);
+    let [columns, rows] = [width, height].map(|side| (side / cell) as usize + 1);
+    let place = |c: f64, most: usize| ((c / cell).max(0.0) as usize).min(most - 1);
+    let mut cells: Vec<Vec<u32>> = vec![vec![]; columns * rows];
+    let (mut entries, most) = (0, MOST_PAIRS * areas.len());
+    for (number, area) in areas.iter().enumerate() {
+        let [left, right] = [area.low, area.high].map(|corner| place(corner[0], columns));
+        for row in place(area.low[1], rows)..=place(area.high[1], rows) {
+            entries += right - left + 1;
+            if entries > most {
+                return None;
+            }
+            (left..=right).for_each(|column| cells[row * columns + column].push(number as u32));
+        }
+    }
+    let (mut pairs, mut looked_at) = (Vec::new(), 0);
+    for (here, cell) in cells.iter().enumerate() {
+        looked_at += cell.len() * cell.len() / 2;
+        if looked_at > most {
+            return None;
+        }
+        for (i, &second) in cell.iter().enumerate() {
+            for &first in &cell[..i] {
+                let [a, b] = [first, second].map(|number| &areas[number as usize]);
+                // The same pair is in other cells too: this is the first one.
+                let corner = [0, 1].map(|axis: usize| a.low[axis].max(b.low[axis]));
+                let is_first = here == place(corner[1], rows) * columns + place(corner[0], columns);
+                if is_first && overlap(a, b) {
+                    pairs.push([first, second]);
+                }
+            }
+        }
+    }
+    Some(pairs)
+}
+
+fn area(path: &Path<'_>) -> BoxedPath {
+    let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+    for (axis, c) in path.outlines().flatten().flat_map(|point| point.iter().enumerate()) {
+        low[axis] = low[axis].min(*c);
+        high[axis] = high[axis].max(*c);
+    }
+    let outlines = path.outlines().map(|outline| {
+        if outline.len() <= MOST_COMPARED_CORNERS {
+            outline.to_vec()
+        } else {
+            vec![low, [high[0], low[1]], high, [low[0], high[1]]]
+        }
+    });
+    BoxedPath { low, high, outlines: outlines.collect() }
+}
+
+fn overlap(a: &BoxedPath, b: &BoxedPath) -> bool {
+    let boxes = (0..2).all(|i| a.low[i] + THIN < b.high[i] && b.low[i] + THIN < a.high[i]);
+    let apart = |p: &[Point], q: &[Point]| separates(p, q) || separates(q, p);
+    boxes && a.outlines.iter().any(|p| b.outlines.iter().any(|q| !apart(p, q)))
+}
+
+/// Whether a side of the first outline separates both (for convex outlines: the separating axis theorem).
+fn separates(sides: &[Point], other: &[Point]) -> bool {
+    (0..sides.len()).any(|i| {
+        let [from, to] = [sides[i], sides[(i + 1) % sides.len()]];
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = way[0].hypot(way[1]);
+        let across = |point: &Point| {
+            (way[0] * (point[1] - from[1]) - way[1] * (point[0] - from[0])) / length
+        };
+        let span = |outline: &[Point]| {
+            outline
+                .iter()
+                .map(across)
+                .fold((f64::MAX, f64::MIN), |(low, high), c| (low.min(c), high.max(c)))
+        };
+        let (own, others) = (span(sides), span(other));
+        length > 0.0 && (own.1 <= others.0 + THIN || others.1 <= own.0 + THIN)
+    })
+}
 
 /// How far a path reaches under a neighbour, in pixels. Too small: the background shows where a viewer's pixels
 /// and the edge meet obliquely; too large: the neighbour's ends cut more corners.
@@ -24,7 +209,6 @@ const MOST_CORNERS: usize = 24;
 /// millions.
 const MOST_CELLS: usize = 1 << 20;
 
-type Point = [f64; 2];
 type Outline = Vec<Point>;
 type Segment = [Point; 2];
 
@@ -366,7 +550,43 @@ fn inside(outline: &[Point], a: Point, b: Point, turn: f64) -> Outline {
 }
 
 #[cfg(test)]
-mod tests {
+mod batch_tests {
+    use super::*;
+
+    #[test]
+    fn paths_that_overlap_stay_in_order_and_others_go_by_keys() {
+        // 0 below 2, 3 below 4.
+        let keys = ["a", "b", "b", "a", "b"];
+        assert_eq!(ordered(&keys, &[[0, 2], [3, 4]]), [0, 3, 4, 2, 1]);
+        assert_eq!(ordered(&keys, &[[0, 1], [1, 3]]), [2, 4, 0, 1, 3]);
+        assert_eq!(ordered(&keys[..0], &[]), [0usize; 0]);
+    }
+
+    #[test]
+    fn outlines_that_touch_do_not_overlap() {
+        let area = |outline: &[Point]| {
+            let fold = |f: fn(f64, f64) -> f64| {
+                [0, 1].map(|i: usize| outline.iter().map(|p| p[i]).reduce(f).unwrap())
+            };
+            BoxedPath {
+                low: fold(f64::min),
+                high: fold(f64::max),
+                outlines: vec![outline.to_vec()],
+            }
+        };
+        let left = area(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]);
+        let right = area(&[[2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+        let both = area(&[[0.0, 1.0], [2.0, 1.0], [1.0, 3.0]]);
+        assert!(!overlap(&left, &right) && !overlap(&right, &left));
+        assert!(overlap(&left, &both) && overlap(&both, &right));
+        // One inside of the other.
+        let small = area(&[[0.2, 0.2], [0.4, 0.2], [0.2, 0.4]]);
+        assert!(overlap(&left, &small) && overlap(&small, &left) && !overlap(&right, &small));
+    }
+}
+
+#[cfg(test)]
+mod trap_tests {
     use super::*;
 
     #[test]

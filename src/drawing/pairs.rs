@@ -1,0 +1,267 @@
+//! Pairs of polygons that are painted over one another, of which an order has to keep the depths.
+
+use std::collections::HashSet;
+use std::hash::BuildHasherDefault;
+
+use smallvec::SmallVec;
+
+use super::cell::{NOWHERE, Rect, are_apart};
+use super::graph::{Pair, Wanted};
+use super::lines::{HalfPlane, Mixer};
+use super::map::{each, sort_unique};
+use super::primitives::{FEW_CORNERS, Primitives};
+use super::quadtree::{
+    CUT, Candidate, Candidates, Leaf, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
+};
+use super::segments::Passing;
+use crate::Error;
+use crate::progress::Watch;
+
+/// Pairs that were found so far, each once.
+pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
+
+/// Adds a pair.
+pub(super) fn add(found: &mut Found, pair: Pair) {
+    found.reserve(1);
+    found.insert(pair);
+}
+
+/// All pairs of several sets, sorted, each once.
+pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
+    let mut pairs: Vec<Pair> = parts.into_iter().flatten().collect();
+    sort_unique(&mut pairs, watch)?;
+    Ok(pairs)
+}
+
+/// Leaves with the opaque faces that may reach into them, and the translucent items.
+struct LeafLists<'l, 'p> {
+    leaves: &'l [Leaf],
+    opaque: Candidates<'p>,
+    translucent: Candidates<'p>,
+}
+
+/// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
+/// not show; in pairs, opaque polygons have that, translucent items their own.
+pub(super) fn pairs<'l, 'p>(
+    primitives: &'p Primitives<'_>,
+    leaves: &'l [Leaf],
+    place: &(dyn Fn(u32) -> u32 + Sync),
+    wanted: Wanted<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let shows = |face: u32| place(face) != u32::MAX;
+    let is_opaque = |face: u32| primitives.views[face as usize].is_opaque;
+    let is_seen_through = |item: u32| {
+        let face = primitives.face(item);
+        !is_opaque(face) && shows(face)
+    };
+    let all = LeafLists {
+        leaves,
+        opaque: Candidates::faces(primitives, |face| is_opaque(face) && shows(face))?,
+        translucent: Candidates::items(primitives, is_seen_through)?,
+    };
+    let halves = |part: &LeafLists<'l, 'p>| part.halves(watch);
+    let leaf = |part: &LeafLists<'l, 'p>, found: &mut Found| {
+        part.leaf(primitives, place, wanted, found, watch)
+    };
+    sorted(found_in(all, halves, leaf, watch)?, watch)
+}
+
+impl LeafLists<'_, '_> {
+    /// The first and the second half of the leaves; `None` of a single one.
+    fn halves(&self, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
+        if self.leaves.len() < 2 {
+            return Ok(None);
+        }
+        let (first, second) = self.leaves.split_at(self.leaves.len() / 2);
+        let part = |leaves| {
+            let around = around(leaves);
+            let opaque = self.opaque.narrowed(&around, watch)?;
+            let translucent = self.translucent.narrowed(&around, watch)?;
+            Ok(Self { leaves, opaque, translucent })
+        };
+        Ok(Some([part(first)?, part(second)?]))
+    }
+
+    /// Adds the pairs of a single leaf.
+    fn leaf(
+        &self,
+        primitives: &Primitives<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        wanted: Wanted<'_>,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let Self { leaves, opaque, .. } = self;
+        // Nothing opaque shows above a face of which all shows that is in the tile.
+        let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
+        let mut whole: Vec<u32> = Vec::new();
+        for Leaf { tile, cells } in *leaves {
+            for visible in cells {
+                let face = primitives.face(visible.item);
+                watch.work(primitives.edges_work(face))?;
+                if is_whole(primitives, tile, visible) {
+                    whole.push(face);
+                }
+            }
+        }
+        whole.sort_unstable();
+        let mut below: Vec<Candidate> = Vec::with_capacity(opaque.list.len());
+        let is_below = |face: &&Candidate| whole.binary_search(&face.number).is_err();
+        below.extend(opaque.list.iter().filter(is_below));
+        let is_marked = |face: &&Candidate| (wanted.is_marked)(place(face.number));
+        let marked: Vec<Candidate> = below.iter().filter(is_marked).copied().collect();
+        for visible in cells() {
+            let Visible { item, cell } = visible;
+            if !self.translucent.list.is_empty() {
+                self.add_blended(primitives, place, visible, found, watch)?;
+            }
+            if !primitives.is_opaque(*item) {
+                continue;
+            }
+            let above = place(primitives.face(*item));
+            let around = cell.around();
+            let below = match ((wanted.is_marked)(above), wanted.needs_both) {
+                (true, false) => &below,
+                (true, true) | (false, false) => &marked,
+                (false, true) => continue,
+            };
+            for face in each(watch, VISITED, below) {
+                let face = face?;
+                let pair = Pair { below: place(face.number), above };
+                let is_apart = are_apart(&around, opaque.around(face.number));
+                if is_apart
+                    || pair.below == above
+                    || !(wanted.is_wanted)(pair)
+                    || found.contains(&pair)
+                {
+                    continue;
+                }
+                watch.work(CUT)?;
+                if cell.meets(&primitives.lines, opaque.halves_of(face), watch)? {
+                    add(found, pair);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the pairs of what is visible with translucent items. What is visible of two of these needs one
+    /// pair, that of the one behind.
+    fn add_blended(
+        &self,
+        primitives: &Primitives<'_>,
+        place: &(dyn Fn(u32) -> u32 + Sync),
+        &Visible { item, ref cell }: &Visible,
+        found: &mut Found,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let (face, is_opaque) = (primitives.face(item), primitives.is_opaque(item));
+        let own = if is_opaque { place(face) } else { item };
+        let around = cell.around();
+        for candidate in each(watch, CUT, &self.translucent.list) {
+            let candidate = candidate?;
+            let other = candidate.number;
+            let pair = match other < item {
+                true => Pair { below: own, above: other },
+                false if is_opaque => Pair { below: other, above: own },
+                false => break,
+            };
+            let is_apart = are_apart(&around, self.translucent.around(other));
+            if is_apart || primitives.face(other) == face || found.contains(&pair) {
+                continue;
+            }
+            if cell.meets(&primitives.lines, self.translucent.halves_of(candidate), watch)? {
+                add(found, pair);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
+fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool {
+    let outline = primitives.outline(primitives.face(visible.item));
+    let sides = visible.cell.sides.iter().map(|side| side.half);
+    // Edges of others may lie where tiles elsewhere have borders.
+    let mut sides = sides.filter(|half| !tile.has_border(*half));
+    // Of most faces, to look at all edges is quicker.
+    if outline.len() <= FEW_CORNERS {
+        return sides.all(|side| outline.iter().any(|half| half.line() == side.line()));
+    }
+    let mut own: Vec<_> = outline.iter().map(|half| half.line()).collect();
+    own.sort_unstable();
+    sides.all(|side| own.binary_search(&side.line()).is_ok())
+}
+
+/// The box around leaves.
+fn around(leaves: &[Leaf]) -> Rect {
+    leaves.iter().fold(NOWHERE, |[low, high], leaf| {
+        let [from, to] = leaf.tile.sides();
+        let axes = [0, 1];
+        [axes.map(|i: usize| low[i].min(from[i])), axes.map(|i: usize| high[i].max(to[i]))]
+    })
+}
+
+/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
+/// pairs are compared; smaller: more tiles.
+const FEW: usize = 8;
+
+/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
+/// an item covers a part of the picture, pairs with it stand for those of what is behind and in front of it.
+pub(super) fn overlaps<'p>(
+    primitives: &'p Primitives<'_>,
+    watch: &Watch<'_>,
+) -> Result<Vec<Pair>, Error> {
+    let halves = |list: &TileList<'p>| {
+        let between = list.candidates.list.split(Candidate::covers);
+        let most = between.map(<[_]>::len).max().unwrap_or(0);
+        let is_leaf = most <= FEW || list.is_small(TINIEST);
+        (!is_leaf).then(|| list.halves(watch)).transpose()
+    };
+    let leaf = |list: &TileList<'p>, found: &mut Found| {
+        let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+        whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
+    };
+    let all = TileList::picture(&Candidates::items(primitives, |_| true)?, watch)?;
+    sorted(found_in(all, halves, leaf, watch)?, watch)
+}
+
+/// Adds the pairs of a part of the picture.
+fn add_overlaps(
+    part: &SubTile<'_, '_>,
+    primitives: &Primitives<'_>,
+    found: &mut Found,
+    watch: &Watch<'_>,
+) -> Result<(), Error> {
+    let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+    // The last item that covers the part, and those behind it so far.
+    let mut cover: Option<u32> = None;
+    let mut behind: Vec<&Visible> = Vec::new();
+    for piece in &part.pieces {
+        let (item, face) = (piece.item, primitives.face(piece.item));
+        watch.work(behind.len() * CUT)?;
+        if part.is_covered_by(piece) {
+            if let (Some(cover), true) = (cover, behind.is_empty()) {
+                add(item, cover);
+            }
+            behind.drain(..).for_each(|above| add(item, above.item));
+            cover = Some(item);
+            continue;
+        }
+        if let Some(cover) = cover {
+            add(item, cover);
+        }
+        let halves: SmallVec<[HalfPlane; 8]> =
+            piece.cell.sides.iter().map(|side| side.half).collect();
+        for above in &behind {
+            if primitives.face(above.item) != face
+                && above.cell.meets(&primitives.lines, &halves, watch)?
+            {
+                add(item, above.item);
+            }
+        }
+        behind.push(piece);
+    }
+    Ok(())
+}

@@ -1,0 +1,664 @@
+//! A quadtree of the picture: tiles that are halved until few pieces are in each, on all threads (J. E. Warnock, "A
+//! hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
+//!
+//! Halving a tile does not separate triangles around one vertex, or strips side by side, but one of their edges leaves
+//! about half of them on either side. Tiles where long lists remain are divided along edges of their pieces: a binary
+//! space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible surface generation by a priori
+//! tree structures", 1980).
+
+use std::cmp::Ordering;
+use std::ops::Range;
+
+use smallvec::SmallVec;
+
+use super::cell::{Cell, Rect, are_apart, is_within};
+use super::lines::{HalfPlane, LineTable, STEPS};
+use super::map::finish_item;
+use super::primitives::{FEW_CORNERS, Primitives, View};
+use super::segments::Passing;
+use crate::memory::place;
+use crate::progress::Watch;
+use crate::{Error, parallel_map};
+
+/// A rectangle of the picture, between borders in steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Tile {
+    pub(super) low: [i64; 2],
+    pub(super) high: [i64; 2],
+}
+
+/// Where a box lies against a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Across {
+    Inside,
+    Outside,
+    Maybe,
+}
+
+/// Tiles of this size, in steps, are not halved where long lists are divided afterwards: 2⁻⁴ of a pixel. Too small:
+/// tiles around a vertex of many faces are halved again and again; too large: many small pieces are in one tile.
+pub(super) const TINY: i64 = 1 << 20;
+/// Nor are others of this size: 2⁻¹⁸ of a pixel.
+pub(super) const TINIEST: i64 = 1 << 6;
+
+/// How many times as many pieces the parts of a tile have together as the tile had before it was halved,
+/// the same for the parts of a part, and so on: the product. Pieces that reach into both parts are in both.
+///
+/// All parts of a picture together have at most as many pieces as the picture, times the largest product among
+/// them: dividing the pieces of each part by its product, the sum does not increase where a part is halved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Growth(f64);
+
+/// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a cone, or
+/// along a line, as the columns of a terrain do that is seen along its rows: halving would go on and on around it.
+/// Too small: long lists remain; too large: many parts with the same pieces.
+const MOST: f64 = 4.0;
+
+impl Growth {
+    pub(super) const NONE: Self = Self(1.0);
+
+    /// That of parts with so many pieces of a part that had `all`.
+    pub(super) fn after(self, all: usize, parts: [usize; 2]) -> Self {
+        let growth = (parts[0] + parts[1]) as f64 / all.max(1) as f64;
+        Self((self.0 * growth).max(1.0))
+    }
+
+    pub(super) fn is_too_much(self) -> bool {
+        self.0 >= MOST
+    }
+}
+
+impl Tile {
+    /// All of a picture.
+    pub(super) fn picture(size: [u32; 2]) -> Self {
+        Self { low: [0; 2], high: size.map(|side| STEPS as i64 * i64::from(side)) }
+    }
+
+    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. What a camera looks
+    /// at is often right in the middle of the picture, and what lies on a border by chance is told by integers.
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let size = [0, 1].map(|axis: usize| self.high[axis] - self.low[axis]);
+        let axis = usize::from(size[1] > size[0]);
+        let middle = (self.low[axis] + size[axis] / 32 * 17) | 1;
+        let mut parts = [*self; 2];
+        parts[0].high[axis] = middle;
+        parts[1].low[axis] = middle;
+        parts
+    }
+
+    /// Whether a half's line is one of its borders.
+    pub(super) fn has_border(&self, half: HalfPlane) -> bool {
+        half.number().is_none() && {
+            let (axis, steps) = half.border();
+            steps == self.low[axis] || steps == self.high[axis]
+        }
+    }
+
+    /// Whether it is at most so many steps wide and high.
+    pub(super) fn is_within(&self, size: i64) -> bool {
+        (0..2).all(|axis| self.high[axis] - self.low[axis] <= size)
+    }
+
+    /// It as a cell.
+    pub(super) fn cell(&self, lines: &LineTable<'_>) -> Cell {
+        Cell::rectangle(lines, self.low, self.high)
+    }
+
+    /// Its sides in pixels: exact.
+    pub(super) fn sides(&self) -> Rect {
+        [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
+    }
+}
+
+impl LineTable<'_> {
+    /// The half-planes whose lines may cross a box; `None` if the box certainly lies outside of one.
+    pub(super) fn crossing(
+        &self,
+        halves: &[HalfPlane],
+        sides: &Rect,
+    ) -> Option<SmallVec<[HalfPlane; 8]>> {
+        let mut crossing = SmallVec::new();
+        for &half in halves {
+            match self.across(half, sides) {
+                Across::Inside => {}
+                Across::Outside => return None,
+                Across::Maybe => crossing.push(half),
+            }
+        }
+        Some(crossing)
+    }
+
+    /// Where a box lies against a half.
+    fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
+        let line = self.rounded(half);
+        let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
+        let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));
+        let reach = line.k[1].abs() * w + line.k[2].abs() * h + 2.0 * line.error;
+        let value = line.at([x, y]);
+        if value.abs() <= reach {
+            Across::Maybe
+        } else if (value > 0.0) != half.is_negative() {
+            Across::Inside
+        } else {
+            Across::Outside
+        }
+    }
+}
+
+/// So often both halves of a part are offered to all threads; deeper, one goes on alone.
+const SHARED: usize = 6;
+/// To compare an item with a tile takes as long as a build takes to examine so many pieces.
+pub(super) const NARROWED: usize = 8;
+/// So does cutting a cell with an item.
+pub(super) const CUT: usize = 64;
+/// And making the lines of a piece.
+pub(super) const LINES: usize = 64;
+/// And visiting a node of a graph.
+pub(super) const VISITED: usize = 4;
+
+/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one thing for
+/// each of the parts that are shared out to threads. What is found, and in which order, does not depend on how many
+/// threads there are. It is one phase of the operation that is watched.
+pub(super) fn found_in<P: Send, F: Send + Default>(
+    all: P,
+    halves: impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync,
+    leaf: impl Fn(&P, &mut F) -> Result<(), Error> + Sync,
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    shared(all, 0..1 << SHARED, &halves, &leaf, watch)
+}
+
+/// What is found in a part that stands for these of the shares. Both halves of it are for whichever threads are
+/// free: none waits until all parts of a size are halved.
+fn shared<P: Send, F: Send + Default>(
+    part: P,
+    shares: Range<usize>,
+    halves: &(impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync),
+    leaf: &(impl Fn(&P, &mut F) -> Result<(), Error> + Sync),
+    watch: &Watch<'_>,
+) -> Result<Vec<F>, Error> {
+    let parts = if shares.len() == 1 { None } else { halves(&part)? };
+    let Some([first, second]) = parts else {
+        let (mut found, mut stack) = (F::default(), vec![part]);
+        while let Some(part) = stack.pop() {
+            match halves(&part)? {
+                Some([first, second]) => stack.extend([second, first]),
+                None => leaf(&part, &mut found)?,
+            }
+        }
+        shares.for_each(|i| finish_item(watch, i, 1 << SHARED));
+        return Ok(vec![found]);
+    };
+    drop(part);
+    let middle = shares.start + shares.len() / 2;
+    let parts = vec![(first, shares.start..middle), (second, middle..shares.end)];
+    let found = |(part, shares)| shared(part, shares, halves, leaf, watch);
+    Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
+}
+
+/// So many faces at most, the front ones, are compared with a tile that all their items together may cover.
+const FACES: usize = 8;
+
+/// What the candidates of a list are: numbers of items, front to back, or of whole faces, by their first items.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Of {
+    Items,
+    Faces,
+}
+
+/// An item or a face, with those of its half-planes whose lines may cross a part of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) number: u32,
+    halves: [u32; 2],
+}
+
+impl Candidate {
+    /// Whether it covers the whole part.
+    pub(super) const fn covers(&self) -> bool {
+        self.halves[0] == self.halves[1]
+    }
+}
+
+/// The items or faces that may reach into a part of the picture, front to back.
+#[derive(Debug)]
+pub(super) struct Candidates<'p> {
+    pub(super) primitives: &'p Primitives<'p>,
+    of: Of,
+    pub(super) list: Vec<Candidate>,
+    halves: Vec<HalfPlane>,
+    /// Whether the list ends where something opaque covers the part.
+    ends_at_cover: bool,
+    /// Items behind this one are missing from the list: they are hidden.
+    limit: u32,
+}
+
+impl<'p> Candidates<'p> {
+    /// Some items.
+    pub(super) fn items(
+        primitives: &'p Primitives<'p>,
+        keep: impl Fn(u32) -> bool,
+    ) -> Result<Self, Error> {
+        let mut all = Self::none(primitives, Of::Items);
+        for item in (0..primitives.items.len() as u32).filter(|&item| keep(item)) {
+            all.push(item, primitives.halves(item))?;
+        }
+        Ok(all)
+    }
+
+    /// Some faces, of those that the picture may show.
+    pub(super) fn faces(
+        primitives: &'p Primitives<'p>,
+        keep: impl Fn(u32) -> bool,
+    ) -> Result<Self, Error> {
+        let mut all = Self::none(primitives, Of::Faces);
+        let faces = 0..primitives.views.len() as u32;
+        let mut faces: Vec<u32> = faces.filter(|&f| primitives.sees(f) && keep(f)).collect();
+        faces.sort_by_key(|&face| primitives.views[face as usize].items[0]);
+        for face in faces {
+            all.push(face, primitives.outline(face))?;
+        }
+        Ok(all)
+    }
+
+    fn none(primitives: &'p Primitives<'p>, of: Of) -> Self {
+        let (list, halves) = (vec![], vec![]);
+        Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
+    }
+
+    /// The same, without what is hidden behind something opaque that covers a part of the picture.
+    pub(super) fn ending_at_covers(self) -> Self {
+        Self { ends_at_cover: true, ..self }
+    }
+
+    fn push(&mut self, number: u32, halves: &[HalfPlane]) -> Result<(), Error> {
+        let start = place(self.halves.len())?;
+        self.halves.extend_from_slice(halves);
+        self.list.push(Candidate { number, halves: [start, place(self.halves.len())?] });
+        Ok(())
+    }
+
+    pub(super) fn halves_of(&self, candidate: &Candidate) -> &[HalfPlane] {
+        let [start, end] = candidate.halves;
+        &self.halves[start as usize..end as usize]
+    }
+
+    /// The face of a candidate.
+    pub(super) fn face(&self, number: u32) -> u32 {
+        match self.of {
+            Of::Items => self.primitives.face(number),
+            Of::Faces => number,
+        }
+    }
+
+    /// A box around what of a candidate is in the picture.
+    pub(super) fn around(&self, number: u32) -> &Rect {
+        match self.of {
+            Of::Items => &self.primitives.items[number as usize].around,
+            Of::Faces => &self.primitives.views[number as usize].around,
+        }
+    }
+
+    /// The first and the last item of a candidate.
+    fn items_of(&self, number: u32) -> [u32; 2] {
+        match self.of {
+            Of::Items => [number; 2],
+            Of::Faces => self.primitives.views[number as usize].items,
+        }
+    }
+
+    /// Whether a candidate hides what is behind it, and the list is without what is hidden.
+    pub(super) fn hides(&self, number: u32) -> bool {
+        self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
+    }
+
+    /// Those that may reach into a box.
+    pub(super) fn narrowed(&self, sides: &Rect, watch: &Watch<'_>) -> Result<Self, Error> {
+        watch.work(self.list.len() * NARROWED)?;
+        let none = Self::none(self.primitives, self.of);
+        let mut part = Self { ends_at_cover: self.ends_at_cover, limit: self.limit, ..none };
+        for candidate in &self.list {
+            let (number, halves) = (candidate.number, self.halves_of(candidate));
+            let [first, last] = self.items_of(number);
+            if first > part.limit {
+                break;
+            }
+            let around = self.around(number);
+            if are_apart(sides, around) {
+                continue;
+            }
+            if is_within(around, sides) {
+                part.push(number, halves)?;
+                continue;
+            }
+            let Some(crossing) = self.primitives.lines.crossing(halves, sides) else { continue };
+            if crossing.is_empty() && self.hides(number) {
+                part.limit = part.limit.min(last);
+            }
+            part.push(number, &crossing)?;
+        }
+        if self.ends_at_cover && self.of == Of::Items {
+            part.end_at_face(sides);
+        }
+        Ok(part)
+    }
+
+    /// Ends a list of items with the last item of a face that covers the box, in however many items.
+    fn end_at_face(&mut self, sides: &Rect) {
+        let primitives = self.primitives;
+        let mut end = self.limit;
+        let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
+        for candidate in &self.list {
+            if candidate.number >= end || tried.len() == FACES {
+                break;
+            }
+            let face = primitives.face(candidate.number);
+            let View { items: [_, last], is_opaque, .. } = primitives.views[face as usize];
+            // If items of it are missing from the list, the others alone may not cover the box.
+            let is_in_list = last <= self.limit;
+            if is_opaque && is_in_list && !tried.contains(&face) && primitives.covers(face, sides) {
+                tried.push(face);
+                let mut numbers = self.list.iter().rev().map(|candidate| candidate.number);
+                let last = numbers.find(|&item| primitives.face(item) == face);
+                end = last.map_or(end, |last| end.min(last));
+            }
+        }
+        self.limit = end;
+        self.list.truncate(self.list.partition_point(|candidate| candidate.number <= end));
+    }
+}
+
+/// A tile with what may be in it.
+#[derive(Debug)]
+pub(super) struct TileList<'p> {
+    pub(super) tile: Tile,
+    pub(super) candidates: Candidates<'p>,
+    growth: Growth,
+}
+
+impl<'p> TileList<'p> {
+    /// The whole picture, with those of the candidates that may be in it.
+    pub(super) fn picture(candidates: &Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
+        let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
+        let candidates = candidates.narrowed(&tile.sides(), watch)?;
+        Ok(Self { tile, candidates, growth: Growth::NONE })
+    }
+
+    /// How many candidates do not cover the tile.
+    pub(super) fn open(&self) -> usize {
+        self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
+    }
+
+    /// Whether halving it is of no use, or it is no larger than so many steps.
+    pub(super) fn is_small(&self, least: i64) -> bool {
+        self.growth.is_too_much() || self.tile.is_within(least)
+    }
+
+    /// Both halves of the tile.
+    pub(super) fn halves(&self, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
+        let half = |tile: Tile| {
+            let candidates = self.candidates.narrowed(&tile.sides(), watch)?;
+            Ok(Self { tile, candidates, growth: Growth::NONE })
+        };
+        let [first, second] = self.tile.halves();
+        let mut halves = [half(first)?, half(second)?];
+        let growth = self.growth.after(self.open(), halves.each_ref().map(Self::open));
+        halves.iter_mut().for_each(|half| half.growth = growth);
+        Ok(halves)
+    }
+}
+
+/// A visible convex part of an item: inside the picture, and with no opaque item in front of it. If all items are
+/// opaque, these parts do not overlap.
+#[derive(Clone, Debug)]
+pub(super) struct Visible {
+    pub(super) item: u32,
+    pub(super) cell: Cell,
+}
+
+/// A tile that was not halved, and the visible parts of items in it.
+#[derive(Debug)]
+pub(super) struct Leaf {
+    pub(super) tile: Tile,
+    pub(super) cells: Vec<Visible>,
+}
+
+/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: half as
+/// much again for all of a drawing of a scan); too large: more cells compared with more items, though 128
+/// would win another 2 to 4 %.
+pub(super) const SHORT: usize = 64;
+
+impl Leaf {
+    /// Computes the visible parts of items in a tile.
+    pub(super) fn new(list: &TileList<'_>, watch: &Watch<'_>) -> Result<Self, Error> {
+        let TileList { tile, candidates, .. } = list;
+        let primitives = candidates.primitives;
+        let mut cells = Vec::new();
+        if candidates.list.len() <= SHORT {
+            let mut area = OpenArea::new(tile.cell(&primitives.lines));
+            for candidate in &candidates.list {
+                watch.work(area.open.len() * CUT)?;
+                let (item, halves) = (candidate.number, candidates.halves_of(candidate));
+                area.subtract(item, candidates.around(item), halves, primitives, watch)?;
+            }
+            cells = area.cells;
+        } else {
+            let whole = SubTile::new(list, Passing::NOTHING, watch)?;
+            whole.for_each_part(|part| Ok(cells.extend(part.visible(watch)?)), watch)?;
+        }
+        Ok(Self { tile: *tile, cells })
+    }
+}
+
+/// A convex part of a tile, with what is in it.
+pub(super) struct SubTile<'l, 'p> {
+    pub(super) candidates: &'l Candidates<'p>,
+    pub(super) cell: Cell,
+    /// The candidates, front to back and clipped to the part.
+    pub(super) pieces: Vec<Visible>,
+    pub(super) passing: Passing<'l>,
+    growth: Growth,
+}
+
+/// How many edges, each of another piece, are tried to divide a part. Too small: parts are divided unevenly, or
+/// not at all. Too large: choosing takes longer than it saves.
+const TRIED: usize = 12;
+/// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes long.
+const SAMPLE: usize = 48;
+
+impl<'l, 'p> SubTile<'l, 'p> {
+    /// All of a tile, and what passes it.
+    pub(super) fn new(
+        list: &'l TileList<'p>,
+        passing: Passing<'l>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Error> {
+        let candidates = &list.candidates;
+        let lines = &candidates.primitives.lines;
+        let cell = list.tile.cell(lines);
+        let mut whole = Self { candidates, cell, pieces: vec![], passing, growth: Growth::NONE };
+        for candidate in &candidates.list {
+            watch.work(CUT)?;
+            let cell = whole.cell.within(lines, candidates.halves_of(candidate), None, watch)?;
+            if let Some(cell) = cell
+                && whole.push(Visible { item: candidate.number, cell })
+            {
+                break;
+            }
+        }
+        Ok(whole)
+    }
+
+    /// Adds a piece behind all others, and returns whether it hides what is behind it.
+    fn push(&mut self, piece: Visible) -> bool {
+        let is_hiding = self.candidates.hides(piece.item) && self.is_covered_by(&piece);
+        self.pieces.push(piece);
+        is_hiding
+    }
+
+    /// Whether a piece covers all of the part.
+    pub(super) fn is_covered_by(&self, piece: &Visible) -> bool {
+        let (own, all) = (&piece.cell.sides, &self.cell.sides);
+        let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
+        own.len() == all.len() && own.iter().all(|side| is_side(side.half))
+    }
+
+    /// Divides the part until lists are short, and calls a function with each part of it.
+    pub(super) fn for_each_part(
+        self,
+        mut see: impl FnMut(Self) -> Result<(), Error>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        let mut parts = vec![self];
+        while let Some(part) = parts.pop() {
+            match part.divider(watch)? {
+                Some(half) => parts.extend(part.halves(half, watch)?),
+                None => see(part)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Divides the part along a line.
+    fn halves(self, half: HalfPlane, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
+        let candidates = self.candidates;
+        let lines = &candidates.primitives.lines;
+        let signs = self.cell.signs(lines, half);
+        let mut parts = [false, true].map(|is_back| {
+            let cell = self.cell.part(lines, half.flipped(is_back), &signs, sign(is_back));
+            let passing = self.passing.over(lines, &cell);
+            Self { candidates, cell, pieces: vec![], passing, growth: self.growth }
+        });
+        let (count, mut is_full) = (self.pieces.len(), [false; 2]);
+        for Visible { item, cell } in self.pieces {
+            watch.work(CUT / 4)?;
+            let signs = cell.signs(lines, half);
+            let reaches = [false, true].map(|is_back| signs.contains(&sign(is_back)));
+            for (i, is_back) in [false, true].into_iter().enumerate() {
+                if !reaches[i] || is_full[i] {
+                    continue;
+                }
+                let cell = match reaches[1 - i] {
+                    true => cell.part(lines, half.flipped(is_back), &signs, sign(is_back)),
+                    false => cell.clone(),
+                };
+                is_full[i] = parts[i].push(Visible { item, cell });
+            }
+        }
+        let growth = self.growth.after(count, parts.each_ref().map(|part| part.pieces.len()));
+        parts.iter_mut().for_each(|part| part.growth = growth);
+        Ok(parts)
+    }
+
+    /// Chooses the edge that divides the pieces best. `None` for short lists, and if no edge leaves clearly fewer
+    /// pieces on both sides.
+    fn divider(&self, watch: &Watch<'_>) -> Result<Option<HalfPlane>, Error> {
+        let lines = &self.candidates.primitives.lines;
+        if self.pieces.len() <= SHORT || self.growth.is_too_much() {
+            return Ok(None);
+        }
+        watch.work(TRIED * SAMPLE * 2)?;
+        let some = |most: usize| self.pieces.iter().step_by(self.pieces.len().div_ceil(most));
+        let is_inside =
+            |half: HalfPlane| self.cell.sides.iter().all(|side| side.half.line() != half.line());
+        let mut best: Option<(usize, HalfPlane)> = None;
+        for (i, Visible { cell, .. }) in some(TRIED).enumerate() {
+            let n = cell.sides.len();
+            let mut halves = (0..n).map(|k| cell.sides[(i + k) % n].half);
+            let Some(half) = halves.find(|&half| is_inside(half)) else { continue };
+            let (mut counts, mut all) = ([0, 0], 0);
+            for piece in some(SAMPLE) {
+                let signs = piece.cell.signs(lines, half);
+                all += 1;
+                counts[0] += usize::from(signs.contains(&sign(false)));
+                counts[1] += usize::from(signs.contains(&sign(true)));
+            }
+            // Subtracting takes up to the square of the number of pieces.
+            let cost = counts[0] * counts[0] + counts[1] * counts[1];
+            if cost * 10 < all * all * 9 && best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, half));
+            }
+        }
+        Ok(best.map(|(_, half)| half))
+    }
+
+    /// Computes the visible parts of the pieces.
+    fn visible(self, watch: &Watch<'_>) -> Result<Vec<Visible>, Error> {
+        let primitives = self.candidates.primitives;
+        let mut area = OpenArea::new(self.cell);
+        for Visible { item, cell } in self.pieces {
+            watch.work(area.open.len() * CUT)?;
+            let halves: SmallVec<[HalfPlane; 8]> =
+                cell.sides.iter().map(|side| side.half).collect();
+            area.subtract(item, &cell.around(), &halves, primitives, watch)?;
+        }
+        Ok(area.cells)
+    }
+}
+
+/// The sign of corners behind a line, or in front of it.
+const fn sign(is_back: bool) -> Ordering {
+    if is_back { Ordering::Less } else { Ordering::Greater }
+}
+
+/// A convex part of the picture while pieces are subtracted from it.
+struct OpenArea {
+    /// The cells that no opaque piece covers so far.
+    open: Vec<Cell>,
+    /// A box around each open cell.
+    boxes: Vec<Rect>,
+    /// The visible parts so far.
+    cells: Vec<Visible>,
+    // Working space: the rest of one open cell, and of all open cells that one piece was subtracted from.
+    outside: Vec<Cell>,
+    left: Vec<Cell>,
+}
+
+impl OpenArea {
+    fn new(cell: Cell) -> Self {
+        let boxes = vec![cell.around()];
+        Self { open: vec![cell], boxes, cells: vec![], outside: vec![], left: vec![] }
+    }
+
+    /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open cells.
+    fn subtract(
+        &mut self,
+        item: u32,
+        around: &Rect,
+        halves: &[HalfPlane],
+        primitives: &Primitives<'_>,
+        watch: &Watch<'_>,
+    ) -> Result<(), Error> {
+        // The caller counts the work for fewer corners.
+        if halves.len() > FEW_CORNERS {
+            watch.work(self.open.len() * halves.len())?;
+        }
+        let Self { open, boxes, cells, outside, left } = self;
+        let is_opaque = primitives.is_opaque(item);
+        let mut i = 0;
+        while let Some(cell) = open.get(i) {
+            let shown = match are_apart(&boxes[i], around) {
+                true => None,
+                false => cell.within(
+                    &primitives.lines,
+                    halves,
+                    is_opaque.then_some(&mut *outside),
+                    watch,
+                )?,
+            };
+            let is_taken = is_opaque && shown.is_some();
+            cells.extend(shown.map(|cell| Visible { item, cell }));
+            if is_taken {
+                open.swap_remove(i);
+                boxes.swap_remove(i);
+                left.append(outside);
+            } else {
+                outside.clear();
+                i += 1;
+            }
+        }
+        boxes.extend(left.iter().map(Cell::around));
+        open.append(left);
+        Ok(())
+    }
+}
