@@ -29,7 +29,7 @@ const DIGITS_OF_STRAYS: i32 = 3;
 /// the latter case numbers of different size have as many digits, which otherwise only the largest
 /// numbers have. Zeros that a program adds at the end are not of the number; zeros that it leaves
 /// off there do no harm, as the longest numbers decide. Only numbers far longer than nearly all
-/// others do not: see [`Digits::without_noise`] and [`Decimals::counted`].
+/// others do not: see `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,
