@@ -20,7 +20,7 @@ use tolerance::SnapParams;
 pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub(crate) use tolerance::{Precision, empty_faces};
 
-/// Polygons that one thread prepares as one job. Too small: overhead per job; too large: threads wait
+/// Polygons that one thread prepares as one job. Too small: overhead per job. Too large: threads wait
 /// for each other.
 const POLYGONS_A_THREAD: usize = 1024;
 /// Polygons prepared between two polls for cancellation, after which the jobs' faces are put together. Too
