@@ -295,7 +295,7 @@ pub(super) fn visible<'p>(
         Ok(())
     };
     let items = Candidates::items(primitives, |_| true)?.ending_at_covers();
-    let all = TileList::picture(&items, watch)?;
+    let all = TileList::picture(items, watch)?;
     let parts = found_in(all, halves, leaf, watch)?;
     Ok(parts.into_iter().flatten().collect())
 }

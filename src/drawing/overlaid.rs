@@ -192,7 +192,7 @@ impl Between {
         let (segments, projected) = segments(&primitives.lines, overlay, watch)?;
         let (markers, points) = points(&primitives.lines, overlay, watch)?;
         let items = Candidates::items(primitives, |_| true)?;
-        let mut passes = passes(&items, Passing::new(&projected, &points), false, watch)?;
+        let mut passes = passes(items, Passing::new(&projected, &points), false, watch)?;
         sort_by(&mut passes.segments, watch, |a, b| a.segment.cmp(&b.segment))?;
         sort_by(&mut passes.points, watch, |a, b| a.point.cmp(&b.point))?;
         Ok(Self { segments, projected, markers, passes })

@@ -223,7 +223,7 @@ pub(super) fn overlaps<'p>(
         let whole = SubTile::new(list, Passing::NOTHING, watch)?;
         whole.for_each_part(|part| add_overlaps(&part, primitives, found, watch), watch)
     };
-    let all = TileList::picture(&Candidates::items(primitives, |_| true)?, watch)?;
+    let all = TileList::picture(Candidates::items(primitives, |_| true)?, watch)?;
     sorted(found_in(all, halves, leaf, watch)?, watch)
 }
 

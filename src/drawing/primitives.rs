@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::cell::{NOWHERE, Rect, common, is_empty, is_within};
 use super::lines::{HalfPlane, LineTable, ViewFrame};
 use super::map::finish_item;
-use super::quadtree::{LINES, Tile};
+use super::quadtree::{Across, LINES, Tile};
 use crate::error::{Error, Kind};
 use crate::exact::PlaneId;
 use crate::memory::place;
@@ -163,9 +163,9 @@ impl<'t> Primitives<'t> {
     pub(super) fn covers(&self, face: u32, sides: &Rect) -> bool {
         is_within(sides, &self.views[face as usize].around)
             && self
-                .lines
-                .crossing(self.outline(face), sides)
-                .is_some_and(|halves| halves.is_empty())
+                .outline(face)
+                .iter()
+                .all(|&half| self.lines.across(half, sides) == Across::Inside)
     }
 
     /// A fragment, unless the picture shows nothing of it.

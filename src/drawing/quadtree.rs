@@ -29,7 +29,7 @@ pub(super) struct Tile {
 
 /// Where a box lies against a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Across {
+pub(super) enum Across {
     Inside,
     Outside,
     Maybe,
@@ -111,25 +111,8 @@ impl Tile {
 }
 
 impl LineTable<'_> {
-    /// The half-planes whose lines may cross a box; `None` if the box certainly lies outside of one.
-    pub(super) fn crossing(
-        &self,
-        halves: &[HalfPlane],
-        sides: &Rect,
-    ) -> Option<SmallVec<[HalfPlane; 8]>> {
-        let mut crossing = SmallVec::new();
-        for &half in halves {
-            match self.across(half, sides) {
-                Across::Inside => {}
-                Across::Outside => return None,
-                Across::Maybe => crossing.push(half),
-            }
-        }
-        Some(crossing)
-    }
-
     /// Where a box lies against a half.
-    fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
+    pub(super) fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
         let [w, h] = [0, 1].map(|axis: usize| 0.5 * (high[axis] - low[axis]));
@@ -315,10 +298,12 @@ impl<'p> Candidates<'p> {
     /// Those that may reach into a box.
     pub(super) fn narrowed(&self, sides: &Rect, watch: &Watch<'_>) -> Result<Self, Error> {
         watch.work(self.list.len() * NARROWED)?;
-        let none = Self::none(self.primitives, self.of);
-        let mut part = Self { ends_at_cover: self.ends_at_cover, limit: self.limit, ..none };
-        for candidate in &self.list {
-            let (number, halves) = (candidate.number, self.halves_of(candidate));
+        let lines = &self.primitives.lines;
+        let list = Vec::with_capacity(self.list.len());
+        let halves = Vec::with_capacity(self.halves.len());
+        let mut part = Self { list, halves, ..*self };
+        'candidates: for candidate in &self.list {
+            let number = candidate.number;
             let [first, last] = self.items_of(number);
             if first > part.limit {
                 break;
@@ -327,15 +312,22 @@ impl<'p> Candidates<'p> {
             if are_apart(sides, around) {
                 continue;
             }
-            if is_within(around, sides) {
-                part.push(number, halves)?;
-                continue;
+            let (start, is_inside) = (part.halves.len(), is_within(around, sides));
+            for &half in self.halves_of(candidate) {
+                match if is_inside { Across::Maybe } else { lines.across(half, sides) } {
+                    Across::Inside => {}
+                    Across::Maybe => part.halves.push(half),
+                    Across::Outside => {
+                        part.halves.truncate(start);
+                        continue 'candidates;
+                    }
+                }
             }
-            let Some(crossing) = self.primitives.lines.crossing(halves, sides) else { continue };
-            if crossing.is_empty() && self.hides(number) {
+            let end = part.halves.len();
+            if start == end && self.hides(number) {
                 part.limit = part.limit.min(last);
             }
-            part.push(number, &crossing)?;
+            part.list.push(Candidate { number, halves: [place(start)?, place(end)?] });
         }
         if self.ends_at_cover && self.of == Of::Items {
             part.end_at_face(sides);
@@ -378,7 +370,7 @@ pub(super) struct TileList<'p> {
 
 impl<'p> TileList<'p> {
     /// The whole picture, with those of the candidates that may be in it.
-    pub(super) fn picture(candidates: &Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
+    pub(super) fn picture(candidates: Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
         let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
         let candidates = candidates.narrowed(&tile.sides(), watch)?;
         Ok(Self { tile, candidates, growth: Growth::NONE })
@@ -444,7 +436,11 @@ impl Leaf {
             cells = area.cells;
         } else {
             let whole = SubTile::new(list, Passing::NOTHING, watch)?;
-            whole.for_each_part(|part| Ok(cells.extend(part.visible(watch)?)), watch)?;
+            let see = |part: SubTile<'_, '_>| {
+                cells.extend(part.visible(watch)?);
+                Ok(())
+            };
+            whole.for_each_part(see, watch)?;
         }
         Ok(Self { tile: *tile, cells })
     }
@@ -454,7 +450,7 @@ impl Leaf {
 pub(super) struct SubTile<'l, 'p> {
     pub(super) candidates: &'l Candidates<'p>,
     pub(super) cell: Cell,
-    /// The candidates, front to back and clipped to the part.
+    /// The candidates, front to back and clipped to the part. Faces have their numbers in place of items'.
     pub(super) pieces: Vec<Visible>,
     pub(super) passing: Passing<'l>,
     growth: Growth,

@@ -450,7 +450,7 @@ const FEW: usize = 64;
 
 /// All passes of segments and points that candidates are in front of, or of all if the others are wanted too: a phase.
 pub(super) fn passes<'p>(
-    candidates: &Candidates<'p>,
+    candidates: Candidates<'p>,
     passing: Passing<'p>,
     wants_behind_only: bool,
     watch: &Watch<'_>,
@@ -608,7 +608,7 @@ impl VisibilityMap<'_> {
         let is_wanted = |face: u32| wants_all || primitives.views[face as usize].is_opaque;
         let faces = Candidates::faces(primitives, is_wanted)?;
         let faces = if wants_all { faces } else { faces.ending_at_covers() };
-        let mut passes = passes(&faces, passing, true, watch)?;
+        let mut passes = passes(faces, passing, true, watch)?;
         let key = |pass: &Pass| (pass.segment, primitives.lines.frame.faces.polygon(pass.piece));
         sort_by(&mut passes.segments, watch, |a, b| {
             key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
