@@ -5,7 +5,7 @@ use std::{fmt, io};
 
 /// The reason why a build, read, write or other call failed: its [kind](Self::kind), and the polygon that
 /// caused it, if any. The message says what to do.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Error {
     kind: Kind,
     /// The cause and its number.
@@ -93,9 +93,10 @@ impl Error {
     /// The kind of the error, to decide how to handle it.
     pub const fn kind(&self) -> ErrorKind {
         match self.kind {
+            Kind::OffGrid => ErrorKind::OutOfBounds,
+            Kind::OpenEdge(_) => ErrorKind::OpenBody,
             Kind::NonFinite
             | Kind::Corners(_)
-            | Kind::OffGrid
             | Kind::Opacity(_)
             | Kind::Opacities { .. }
             | Kind::Argument(_)
@@ -103,7 +104,6 @@ impl Error {
             | Kind::Tolerance(_)
             | Kind::Bounds
             | Kind::Viewport
-            | Kind::OpenEdge(_)
             | Kind::Places { .. } => ErrorKind::InvalidInput,
             Kind::Polygons(_) | Kind::CornersInAll(_) | Kind::Indices => ErrorKind::TooLarge,
             Kind::PolygonsOfBudget(_) | Kind::Fragments(_) | Kind::Depth(_) => {
@@ -131,9 +131,12 @@ impl Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A number of a polygon, option or argument is out of range, or a body is open where only closed
-    /// bodies have an inside.
+    /// A number of a polygon, option or argument is out of range.
     InvalidInput,
+    /// A point lies outside the tree's grid.
+    OutOfBounds,
+    /// A body has an open edge, so it has no inside.
+    OpenBody,
     /// The input is larger than the numbers of a tree can count.
     TooLarge,
     /// A budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another heuristic
@@ -157,6 +160,13 @@ pub enum ErrorKind {
     InvalidFile,
     /// Reading failed; [`source`](std::error::Error::source) is the reason.
     Io,
+}
+
+/// Shows the message, as programs print it whose `main` returns the error.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Error").field(&self.to_string()).finish()
+    }
 }
 
 impl std::error::Error for Error {

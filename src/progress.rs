@@ -31,7 +31,7 @@ const FACE: u64 = 1 << 32;
 pub struct Progress {
     /// The number of faces in the tree; a partial face counts as that part.
     pub done: usize,
-    /// The number of faces, or of polygons while they are read.
+    /// The number of faces, or of polygons while they are read; 0 in the first call.
     pub total: usize,
 }
 

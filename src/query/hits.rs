@@ -390,6 +390,25 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
+    /// A point that you have computed, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is
+    /// rounded, so it may lie behind the surface that it was meant to be on, which then occludes it. To ask
+    /// whether such a point is visible, end the segment before the surface:
+    ///
+    /// ```
+    /// use binspace::glam::DVec3;
+    /// use binspace::{BspTree, Ray};
+    ///
+    /// let slope = [[0.0, 0.0, 0.1], [3.0, 0.0, 0.7], [3.0, 3.0, 1.9], [0.0, 3.0, 1.3]];
+    /// let tree = BspTree::build([slope])?;
+    /// let eye = DVec3::new(0.3, 1.0, 9.0);
+    /// for k in 1..30 {
+    ///     let ray = Ray::between(eye, DVec3::new(0.1 * f64::from(k), 1.7, -2.0));
+    ///     let point = tree.hits(ray).next().expect("a hit").point();
+    ///     assert!(!tree.is_occluded(Ray::between(eye, point.lerp(eye, 1e-6))));
+    /// }
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
     /// That a polygon touches the segment with an edge or a corner is enough, and so is that it has some
     /// of the segment in its plane, such as a floor along which one looks. This is exact. Where an eye
     /// along a floor should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not

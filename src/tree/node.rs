@@ -229,7 +229,7 @@ impl FusedIterator for Nodes<'_> {}
 
 impl BspTree {
     /// The node at the top, which contains all fragments. `None` in a tree without nodes: one without
-    /// fragments, or with a single fragment, which needs no plane.
+    /// fragments, or with a single fragment that no plane bounds.
     pub fn root(&self) -> Option<Node<'_>> {
         let end = self.records.len() as u32;
         (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })
