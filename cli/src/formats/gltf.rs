@@ -1,7 +1,9 @@
 //! glTF 2.0 files: triangles of meshes in a tree of nodes, with their base colours. Up is y.
 
+use std::collections::HashMap;
 use std::io;
 use std::path::{Component, Path};
+use std::rc::Rc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -56,29 +58,30 @@ pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Re
     let gltf = parsed(bytes).map_err(about)?;
     let buffers = buffers(name, &gltf, folder)?;
     let instances = instances(&gltf.document).map_err(about)?;
-    let mut triangles = 0_usize;
     let mut left_out = LeftOut::default();
-    let mut parts = Vec::new();
-    for (node, matrix) in &instances {
+    // Each once, however often it is placed.
+    let mut models: Vec<Option<Model<'_>>> = gltf.meshes().map(|_| None).collect();
+    let mut triangles = 0_usize;
+    for (node, _) in &instances {
         let Some(mesh) = node.mesh() else { continue };
-        for primitive in mesh.primitives() {
-            let place = format!("mesh {}, primitive {} (from 0)", mesh.index(), primitive.index());
-            let about = |problem| Failure::about(name, format!("{place}: {problem}"));
-            let part = Part::of(&primitive, &buffers).map_err(about)?;
-            left_out.note(&primitive, part.is_none());
-            if let Some(part) = part {
-                triangles = triangles.saturating_add(part.triangles());
-                parts.push((part, *matrix, place));
+        let model = match &mut models[mesh.index()] {
+            Some(model) => model,
+            model => {
+                let new = Model::of(&mesh, &buffers, &mut left_out).map_err(about)?;
+                model.insert(new)
             }
-        }
+        };
+        triangles = triangles.saturating_add(model.triangles);
         left_out.rest_poses += usize::from(node.skin().is_some());
     }
-    // Meshes may be in many places, so there may be far more triangles than bytes.
+    // There may be far more triangles than bytes.
     memory::check(name, triangles)?;
     let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Y), Precision::default());
-    for (part, matrix, place) in &parts {
-        part.add_to(&mut mesh, *matrix, &mut precision)
-            .map_err(|problem| Failure::about(name, format!("{place}: {problem}")))?;
+    for (node, matrix) in &instances {
+        let model = node.mesh().and_then(|mesh| models[mesh.index()].as_ref());
+        for part in model.iter().flat_map(|model| &model.parts) {
+            part.add_to(&mut mesh, *matrix, &mut precision).map_err(about)?;
+        }
     }
     if triangles == 0 {
         return Err(Failure::about(name, "no triangles in its scene"));
@@ -145,22 +148,30 @@ fn is_first_version(bytes: &[u8]) -> bool {
 }
 
 /// The bytes of all buffers.
-fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Vec<u8>>, Failure> {
+fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Rc<Vec<u8>>>, Failure> {
     let mut all = Vec::new();
+    let mut files: HashMap<&str, Rc<Vec<u8>>> = HashMap::new();
     for buffer in gltf.buffers() {
         let about = |problem: String| {
             Failure::about(name, format!("buffer {} (from 0): {problem}", buffer.index()))
         };
         let bytes = match buffer.source() {
-            Source::Bin => gltf.blob.clone().ok_or_else(|| about("it has no bytes".into()))?,
-            Source::Uri(uri) => match uri.strip_prefix("data:") {
-                Some(data) => {
+            // That of a binary file is the first, and no other.
+            Source::Bin => match &gltf.blob {
+                Some(blob) if buffer.index() == 0 => Rc::new(blob.clone()),
+                _ => return Err(about("it has no bytes".into())),
+            },
+            Source::Uri(uri) => match (uri.strip_prefix("data:"), files.get(uri)) {
+                (Some(data), _) => {
                     let text = data.split_once(";base64,").map(|(_, text)| text);
                     let bytes = text.and_then(|text| STANDARD.decode(text).ok());
-                    bytes.ok_or_else(|| about("its data are not in base64".into()))?
+                    Rc::new(bytes.ok_or_else(|| about("its data are not in base64".into()))?)
                 }
-                None => {
-                    beside(uri, folder).map_err(|problem| about(format!("{uri}: {problem}")))?
+                (_, Some(bytes)) => Rc::clone(bytes),
+                _ => {
+                    let bytes = beside(uri, folder);
+                    let bytes = bytes.map_err(|problem| about(format!("{uri}: {problem}")))?;
+                    Rc::clone(files.entry(uri).or_insert(Rc::new(bytes)))
                 }
             },
         };
@@ -238,8 +249,38 @@ fn local(transform: &Transform) -> DMat4 {
     }
 }
 
+/// The triangles of a mesh.
+struct Model<'a> {
+    /// Those that have any.
+    parts: Vec<Part<'a>>,
+    triangles: usize,
+}
+
+impl<'a> Model<'a> {
+    fn of(
+        mesh: &gltf::Mesh<'_>,
+        buffers: &'a [Rc<Vec<u8>>],
+        left_out: &mut LeftOut,
+    ) -> Result<Self, String> {
+        let mut model = Self { parts: Vec::new(), triangles: 0 };
+        for primitive in mesh.primitives() {
+            let place = format!("mesh {}, primitive {} (from 0)", mesh.index(), primitive.index());
+            let part = Part::of(&primitive, buffers, &place);
+            let part = part.map_err(|problem| format!("{place}: {problem}"))?;
+            left_out.note(&primitive, part.is_none());
+            if let Some(part) = part.filter(|part| part.triangles() > 0) {
+                model.triangles = model.triangles.saturating_add(part.triangles());
+                model.parts.push(part);
+            }
+        }
+        Ok(model)
+    }
+}
+
 /// The triangles of a primitive.
 struct Part<'a> {
+    /// What messages call it.
+    place: String,
     positions: Values<'a>,
     indices: Option<Values<'a>>,
     colours: Option<Values<'a>>,
@@ -253,7 +294,11 @@ struct Part<'a> {
 
 impl<'a> Part<'a> {
     /// `None` if it has points or lines.
-    fn of(primitive: &Primitive<'_>, buffers: &'a [Vec<u8>]) -> Result<Option<Self>, String> {
+    fn of(
+        primitive: &Primitive<'_>,
+        buffers: &'a [Rc<Vec<u8>>],
+        place: &str,
+    ) -> Result<Option<Self>, String> {
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
             return Ok(None);
@@ -268,6 +313,7 @@ impl<'a> Part<'a> {
         let is_blended = material.alpha_mode() == AlphaMode::Blend;
         colour[3] = opacity(&material, colour[3]);
         Ok(Some(Self {
+            place: place.to_owned(),
             positions: values(positions)?,
             indices: primitive.indices().map(values).transpose()?,
             colours: primitive.get(&Semantic::Colors(0)).map(values).transpose()?,
@@ -301,7 +347,7 @@ impl<'a> Part<'a> {
             if is_mirrored {
                 corners.swap(1, 2);
             }
-            let about = |problem| format!("triangle {number} (from 0): {problem}");
+            let about = |problem| format!("{}, triangle {number}: {problem}", self.place);
             let mut points = [DVec3::ZERO; 3];
             let mut colours = [None; 3];
             for (corner, (point, colour)) in
@@ -365,7 +411,7 @@ struct Values<'a> {
 }
 
 impl<'a> Values<'a> {
-    fn of(accessor: &Accessor<'_>, buffers: &'a [Vec<u8>]) -> Result<Self, String> {
+    fn of(accessor: &Accessor<'_>, buffers: &'a [Rc<Vec<u8>>]) -> Result<Self, String> {
         let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
         if accessor.sparse().is_some() {
             return Err(about("it is sparse, which is not supported".into()));

@@ -434,6 +434,22 @@ fn damaged_files_are_read_or_refused() {
     }
 }
 
+/// A file may place what it has as often as it has nodes.
+#[test]
+fn many_places_of_many_empty_primitives_take_no_time() {
+    let primitives = vec![r#"{"attributes":{"POSITION":0}}"#; 20_000].join(",");
+    let nodes = vec![r#"{"mesh":0}"#; 20_000].join(",");
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{nodes}],"meshes":[{{"primitives":[{primitives}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":24}}],
+        "buffers":[{{"uri":"data:;base64,{}","byteLength":24}}]}}"#,
+        STANDARD.encode([0; 24])
+    );
+    let message = read(MeshKind::Gltf, json.as_bytes()).unwrap_err();
+    assert!(message.contains("no triangles in its scene"), "{message}");
+}
+
 #[test]
 fn files_of_other_programs_are_named() {
     let kind = |bytes: &[u8]| Kind::of(bytes, bytes.len() as u64, Path::new("x.obj"));
