@@ -1,7 +1,7 @@
 //! Cameras, what is visible, and vector pictures.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use binspace::drawing::{
     self, DisplayItem, EdgeKind, EdgeRun, Hidden, Paint, Stroke, VectorPicture, ViewOptions,
@@ -17,7 +17,7 @@ use self_cell::self_cell;
 use crate::arrays::{Array1, Array2, Array3, array1, array2, array3};
 use crate::input::Points;
 use crate::overlay::{LineRuns, Markers, Overlay};
-use crate::task::{Watch, exception, run};
+use crate::task::{Turns, Watch, exception, run};
 use crate::tree::Tree;
 
 /// A camera of a matrix to clip coordinates.
@@ -80,9 +80,7 @@ self_cell!(
 pub(crate) struct Visibility {
     map: OwnedMap,
     opacity: Vec<f64>,
-    watch: Arc<Watch>,
-    /// The operations of a map share what is told of progress, and so do one after the other.
-    turn: Mutex<()>,
+    turns: Arc<Turns>,
 }
 
 impl Visibility {
@@ -93,7 +91,7 @@ impl Visibility {
         work: impl FnOnce(&VisibilityMap<'_>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
         let work = || self.map.with_dependent(|_, map| work(map));
-        run(py, progress, &self.watch, Some(&self.turn), work)
+        run(py, progress, &Arc::default(), Some(&self.turns), work)
     }
 }
 
@@ -124,18 +122,18 @@ impl Visibility {
         least_area: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let watch = Arc::new(Watch::default());
-        let of_map = watch.clone();
+        let turns = Arc::new(Turns::default());
+        let of_map = turns.clone();
         let report = Box::new(move |progress: Progress| of_map.report(progress));
         let owner = Owner { tree: tree.tree.clone(), report };
         let opacity = &tree.opacity;
-        let map = run(py, progress, &watch, None, || {
+        let map = run(py, progress, &Arc::default(), Some(&turns), || {
             OwnedMap::try_new(owner, |Owner { tree, report }| {
                 let options = options(front_faces_only, opacity, least_area);
                 tree.visibility(&camera.camera, &options.with_progress(&**report))
             })
         })?;
-        Ok(Self { map, opacity: tree.opacity.clone(), watch, turn: Mutex::default() })
+        Ok(Self { map, opacity: tree.opacity.clone(), turns })
     }
 
     #[getter]

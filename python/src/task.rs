@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use binspace::{Error, ErrorKind, Progress};
@@ -34,13 +34,6 @@ impl Watch {
         }
     }
 
-    /// Begins another operation.
-    fn restart(&self) {
-        self.done.store(0, Ordering::Relaxed);
-        self.total.store(0, Ordering::Relaxed);
-        self.is_cancelled.store(false, Ordering::Relaxed);
-    }
-
     /// Lets signal handlers and the callback run.
     fn pulse(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         Python::attach(|py| {
@@ -54,13 +47,33 @@ impl Watch {
     }
 }
 
-/// Runs `work` without the interpreter, in another thread, once `turn` is free. This thread handles signals and calls `progress` with what
+/// The operations of a map, one after the other, each with its own watch: the map has one callback for all.
+#[derive(Default)]
+pub(crate) struct Turns {
+    turn: Mutex<()>,
+    watch: Mutex<Arc<Watch>>,
+}
+
+impl Turns {
+    /// Waits until no other operation has its turn.
+    fn take(&self, watch: &Arc<Watch>) -> MutexGuard<'_, ()> {
+        let turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
+        *self.watch.lock().unwrap_or_else(PoisonError::into_inner) = watch.clone();
+        turn
+    }
+
+    pub(crate) fn report(&self, progress: Progress) -> ControlFlow<()> {
+        self.watch.lock().unwrap_or_else(PoisonError::into_inner).report(progress)
+    }
+}
+
+/// Runs `work` without the interpreter, in another thread, once it has its turn. This thread handles signals and calls `progress` with what
 /// is done and how much there is; an exception of either cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
     watch: &Arc<Watch>,
-    turn: Option<&Mutex<()>>,
+    turns: Option<&Turns>,
     work: impl FnOnce() -> Result<T, Error> + Send,
 ) -> PyResult<T> {
     py.detach(|| {
@@ -70,10 +83,7 @@ pub(crate) fn run<T: Send>(
             let (end, ended) = channel::<()>();
             let worker = scope.spawn(move || {
                 // Not within the pool, whose threads may begin this while they wait for parts of other work.
-                let turn = turn.map(|turn| turn.lock().unwrap_or_else(PoisonError::into_inner));
-                if turn.is_some() {
-                    watch.restart();
-                }
+                let _turn = turns.map(|turns| turns.take(watch));
                 let result = pool.install(work);
                 drop(end);
                 result

@@ -384,7 +384,7 @@ def test_ctrl_c_ends_a_build():
 
 
 def test_other_threads_run_while_a_tree_is_built():
-    polygons = random_triangles(3000) * 5
+    polygons = random_triangles(1000) * 5
     counts = itertools.count()
     done = threading.Event()
 

@@ -3,11 +3,15 @@ from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import disjoint_base
+
+__all__ = ["Tree", "Fragments", "Hits", "Overlay", "Pieces", "LineRuns", "Markers", "Camera", "Visibility", "Drawing", "VisiblePolygons", "EdgeRuns"]
 
 _Progress = Callable[[int, int], object] | None
 _Point = Sequence[float] | NDArray[np.floating[Any]] | None
 _Stroke = tuple[float, list[int]]
 
+@disjoint_base
 class Tree:
     def __new__(
         cls,
@@ -118,6 +122,7 @@ class Markers:
     @property
     def is_visible(self) -> NDArray[np.bool_]: ...
 
+@disjoint_base
 class Camera:
     def __new__(cls, matrix: list[list[float]], size: Sequence[int]) -> Camera: ...
     @property
