@@ -36,6 +36,10 @@ _IDENTITY = mtransforms.IdentityTransform()
 _NEAR = 1e-6
 # Bezier curves become as many lines.
 _CURVE = 16
+# Pictures of pixels, and of vectors, with more fragments are painted by the order of the tree. Too small: seams at cuts, and
+# large files. Too large: pictures that take a second, or many.
+_MOST_PIXELS = 10_000
+_MOST_VECTORS = 200_000
 # Ends of lines in a picture are one point if they are no further apart, in pixels.
 _JOINED = 1e-5
 
@@ -487,21 +491,16 @@ class _Built:
         self.pieces = self.overlay.pieces
         fragments = self.tree.fragments
         self.points, self.polygon = fragments.points, fragments.polygon.astype(np.int64)
-        starts, ends = fragments.offsets[:-1].astype(np.int64), fragments.offsets[1:].astype(np.int64)
-        counts = ends - starts
+        offsets_of_fragments = fragments.offsets.astype(np.int64)
+        self.starts, self.ends = offsets_of_fragments[:-1], offsets_of_fragments[1:]
         edges = fragments.edges.astype(np.int64)
-        first = np.repeat(offsets[self.polygon], counts)
-        self.own = (edges >= 0) & own[np.minimum(first + np.maximum(edges, 0), max(len(own) - 1, 0))] if len(own) else edges >= 0
-        self.starts, self.ends = starts, ends
-        self.is_whole = np.bitwise_and.reduceat(self.own, starts) if len(starts) else np.empty(0, bool)
-        # Each outline with its first corner once more, where it is closed.
-        closed = np.arange(len(edges) + len(starts)) - np.repeat(np.arange(len(starts)), counts + 1)
-        closed[ends + np.arange(len(starts))] = starts
-        self.corners = closed
-        self.codes = {}
-        self.paths = [
-            Path(np.zeros((count + 1, 2)), self.code(count)) for count in counts.tolist()
-        ]
+        self.own = edges >= 0
+        first = np.repeat(offsets[self.polygon], np.diff(offsets_of_fragments))
+        self.own[self.own] = own[(first + edges)[self.own]]
+        self.is_whole = _are_all(self.own, self.starts)
+        self.corners, codes, self.closed = _closed(offsets_of_fragments)
+        places = np.zeros((len(self.corners), 2))
+        self.paths = _paths(places, codes, self.closed)
         self.strokes = {}
 
     def is_of(self, *given):
@@ -510,19 +509,35 @@ class _Built:
             for a, b in zip(self.given, given)
         )
 
-    def code(self, count):
-        if count not in self.codes:
-            codes = np.full(count + 1, Path.LINETO, np.uint8)
-            codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
-            self.codes[count] = codes
-        return self.codes[count]
-
     def stroke(self, fragment):
         """The lines along edges of the polygon of a fragment that is cut: corners and codes."""
         if fragment not in self.strokes:
             start, end = self.starts[fragment], self.ends[fragment]
             self.strokes[fragment] = _compound([start + line for line in _own_lines(self.own[start:end])])
         return self.strokes[fragment]
+
+
+def _are_all(values, starts):
+    """Whether all values from each start to the next are true."""
+    return np.logical_and.reduceat(values, starts) if len(starts) else np.empty(0, bool)
+
+
+def _closed(offsets):
+    """Closed outlines: the corners of each, by number, the first once more at the end; codes; and where each begins."""
+    count = len(offsets) - 1
+    closed = offsets + np.arange(count + 1)
+    corners = np.arange(closed[-1]) - np.repeat(np.arange(count), np.diff(closed))
+    corners[closed[1:] - 1] = offsets[:-1]
+    codes = np.full(len(corners), Path.LINETO, np.uint8)
+    codes[closed[:-1]] = Path.MOVETO
+    codes[closed[1:] - 1] = Path.CLOSEPOLY
+    return corners, codes, closed
+
+
+def _paths(places, codes, offsets):
+    offsets = offsets.tolist()
+    make = Path._fast_from_codes_and_verts
+    return [make(places[a:b], codes[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
 
 
 def _compound(lines):
@@ -543,8 +558,12 @@ class _Shown:
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
 
-    def area(self, number):
-        """The path of an area, and of the strokes of an area that is not stroked all around."""
+    # Paths of areas, by number, and whether all of their sides are edges of their polygons.
+    fills: list
+    is_whole: np.ndarray
+
+    def stroke(self, number):
+        """The path of those sides of an area that are edges of its polygon."""
         raise NotImplementedError
 
 
@@ -576,11 +595,14 @@ class _Ordered(_Shown):
             for i in np.flatnonzero(is_near):
                 part = slice(built.starts[i], built.ends[i])
                 self.near[int(i)] = _before_eye(built.points[part], built.own[part], depth[part], near, place)
-        corners = self.places[built.corners]
-        begin = built.starts + np.arange(count)
-        end = built.ends + np.arange(count) + 1
-        for path, a, b in zip(built.paths, begin.tolist(), end.tolist()):
+        corners, offsets = self.places[built.corners], built.closed.tolist()
+        for path, a, b in zip(built.paths, offsets[:-1], offsets[1:]):
             path._vertices = corners[a:b]
+        self.fills, self.is_whole = built.paths, built.is_whole
+        if self.near:
+            self.fills, self.is_whole = list(built.paths), built.is_whole.copy()
+            for i, (path, _) in self.near.items():
+                self.fills[i], self.is_whole[i] = path, False
         ends = built.pieces.ends
         self.ends = place(ends.reshape(-1, 3)).reshape(-1, 2, 2)
         self.at = self.ends[:, 0]
@@ -589,14 +611,11 @@ class _Ordered(_Shown):
             keep = (self.kinds == 0) | ~behind[np.where(self.kinds == 0, 0, self.numbers)]
             self.kinds, self.numbers = self.kinds[keep], self.numbers[keep]
 
-    def area(self, number):
+    def stroke(self, number):
         if number in self.near:
-            return self.near[number]
-        path = self.built.paths[number]
-        if self.built.is_whole[number]:
-            return path, None
+            return self.near[number][1]
         corners, codes = self.built.stroke(number)
-        return path, Path(self.places[corners], codes) if len(corners) else False
+        return Path(self.places[corners], codes)
 
 
 def _before_eye(points, own, depth, near, place):
@@ -611,36 +630,23 @@ def _before_eye(points, own, depth, near, place):
             t = (near - depth[i]) / (depth[j] - depth[i])
             corners.append(points[i] + t * (points[j] - points[i]))
             edges.append(own[i] and depth[i] <= near)
-    if len(corners) < 3:
-        return None, False
-    places = place(np.array(corners))
-    return _outline([places], [np.array(edges)])
-
-
-def _outline(outlines, own):
-    """The path of closed outlines, and of the lines along their own edges: None where it is the same."""
-    lines = [np.append(np.arange(len(outline)), 0) for outline in outlines]
-    corners = np.concatenate([outline[line] for outline, line in zip(outlines, lines)])
-    codes = np.full(len(corners), Path.LINETO, np.uint8)
-    ends = np.cumsum([len(line) for line in lines])
-    codes[np.append(0, ends[:-1])], codes[ends - 1] = Path.MOVETO, Path.CLOSEPOLY
-    path = Path(corners, codes)
-    if all(edges.all() for edges in own):
-        return path, None
-    strokes = [outline[line] for outline, edges in zip(outlines, own) for line in _own_lines(edges)]
-    if not strokes:
-        return path, False
-    _, codes = _compound(strokes)
-    return path, Path(np.concatenate(strokes), codes)
+    places = place(np.array(corners).reshape(-1, 3))
+    line = np.append(np.arange(len(places)), 0) if len(places) > 2 else np.empty(0, int)
+    codes = np.full(len(line), Path.LINETO, np.uint8)
+    codes[:1], codes[-1:] = Path.MOVETO, Path.CLOSEPOLY
+    corners, stroke_codes = _compound(_own_lines(np.array(edges)) if len(line) else [])
+    return Path(places[line].reshape(-1, 2), codes), Path(places[corners].reshape(-1, 2), stroke_codes)
 
 
 class _Drawn(_Shown):
     """A drawing of one view, with one path for each polygon where an order allows it."""
 
-    def __init__(self, built, matrix, to_display, size, has_overlay, is_opaque):
+    def __init__(self, built, matrix, to_display, size, is_opaque, traps):
         camera, is_mirrored = _camera(matrix, to_display, size)
-        if is_opaque and not has_overlay:
-            drawing = built.tree.visibility(camera).drawing()
+        has_overlay = bool(len(built.overlay))
+        seen = built.tree.visibility(camera) if is_opaque else None
+        if seen is not None and not has_overlay:
+            drawing = seen.drawing()
         else:
             drawing = built.tree.translucent(camera, built.overlay if has_overlay else None)
         items = drawing.items.astype(np.int64)
@@ -651,25 +657,94 @@ class _Drawn(_Shown):
             return np.stack([size[0] - x if is_mirrored else x, size[1] - y], -1)
 
         self.polygon = drawing.polygon.astype(np.int64)
-        self.paths, self.outlines = drawing.path_offsets.astype(np.int64), drawing.outline_offsets.astype(np.int64)
-        self.corners, self.edges = place(drawing.corners), drawing.edges.astype(np.int64)
+        self.of_paths, self.of_outlines = drawing.path_offsets.astype(np.int64), drawing.outline_offsets.astype(np.int64)
+        self.corners, edges = place(drawing.corners), drawing.edges.astype(np.int64)
         own = built.given[2]
         offsets = np.concatenate([[0], np.cumsum(built.given[1])]).astype(np.int64)
-        counts = np.add.reduceat(np.diff(self.outlines), self.paths[:-1]) if len(self.polygon) else np.empty(0, int)
-        first = np.repeat(offsets[self.polygon], counts)
-        self.own = self.edges >= 0
-        self.own[self.own] = own[(first + self.edges)[self.own]]
+        starts = self.of_outlines[self.of_paths]
+        first = np.repeat(offsets[self.polygon], np.diff(starts))
+        self.own = edges >= 0
+        self.own[self.own] = own[(first + edges)[self.own]]
+        self.is_whole = _are_all(self.own, starts[:-1])
+        if traps.any():
+            # Seams between faces would let through what is painted below them.
+            filled = drawing._trapped(traps.tolist())
+            corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
+            self.fills = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
+            self.is_whole[traps[self.polygon]] = False
+        else:
+            corners, codes, closed = _closed(self.of_outlines)
+            self.fills = _paths(self.corners[corners], codes, closed[self.of_paths])
         if drawing.lines is not None:
             self.line = drawing.lines.line.astype(np.int64)
             self.segment = drawing.lines.segment.astype(np.int64)
             self.ends = place(drawing.lines.ends)
             self.marker = drawing.markers.point.astype(np.int64)
             self.at = place(drawing.markers.at)
+            if seen is not None:
+                self._leave_out_hidden(seen, built.overlay, place)
 
-    def area(self, number):
-        outlines = range(self.paths[number], self.paths[number + 1])
-        parts = [slice(self.outlines[i], self.outlines[i + 1]) for i in outlines]
-        return _outline([self.corners[part] for part in parts], [self.own[part] for part in parts])
+    def _leave_out_hidden(self, seen, overlay, place):
+        """Polygons and parts of lines of which nothing is visible would show through seams of what hides them."""
+        is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
+        visible = seen.polygons().polygon
+        is_visible[visible[visible < len(is_visible)]] = True
+        runs = seen.lines(overlay)
+        known = {}
+        for line, segment, ends in zip(runs.line.tolist(), runs.segment.tolist(), place(runs.ends)):
+            known.setdefault((line, segment), []).append(ends)
+        kinds, numbers, origin, parts = [], [], [], []
+        for kind, number in zip(self.kinds.tolist(), self.numbers.tolist()):
+            if kind == 0 and not is_visible[self.polygon[number]]:
+                continue
+            if kind != 1:
+                kinds.append(kind)
+                numbers.append(number)
+                continue
+            start, step = self.ends[number, 0], self.ends[number, 1] - self.ends[number, 0]
+            square = step @ step
+            for ends in known.get((int(self.line[number]), int(self.segment[number])), ()):
+                a, b = np.clip((ends - start) @ step / square, 0, 1) if square > 0 else (0, 0)
+                if b > a:
+                    kinds.append(1)
+                    numbers.append(len(parts))
+                    origin.append(number)
+                    parts.append(start + np.outer([a, b], step))
+        self.kinds, self.numbers = np.array(kinds, int), np.array(numbers, int)
+        self.ends = np.array(parts).reshape(-1, 2, 2)
+        origin = np.array(origin, int)
+        self.line, self.segment = self.line[origin], self.segment[origin]
+
+    def stroke(self, number):
+        outlines = range(self.of_paths[number], self.of_paths[number + 1])
+        starts = [(self.of_outlines[i], self.of_outlines[i + 1]) for i in outlines]
+        corners, codes = _compound([a + line for a, b in starts for line in _own_lines(self.own[a:b])])
+        return Path(self.corners[corners].reshape(-1, 2), codes)
+
+
+class _Looks:
+    """How polygons are painted: a row for each."""
+
+    def __init__(self, parts):
+        def rows(values):
+            chosen = [np.asarray(v)[r % len(v)] if len(v) else np.zeros((len(r), *np.shape(v)[1:])) for v, r in values]
+            return np.concatenate(chosen) if chosen else None
+
+        count = sum(len(r) for _, r in parts)
+        self.face = rows([(s.face, r) for s, r in parts]) if count else np.empty((0, 4))
+        self.edge = rows([(s.edge, r) for s, r in parts]) if count else np.empty((0, 4))
+        self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
+        self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
+        self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
+        self.widths = np.where(self.is_stroked, self.widths, 0.0)
+        self.dashes = None
+        if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
+            self.dashes = [s.dashes[row % len(s.dashes)] for s, r in parts for row in r]
+
+    def dashes_of(self, polygons):
+        if self.dashes is None:
+            return [(0, None)] * len(polygons)
+        return [self.dashes[i] for i in polygons]
 
 
 class _Composite(martist.Artist):
@@ -687,7 +762,6 @@ class _Composite(martist.Artist):
         sources = [_kind(artist)(axes, artist) for artist in self.sources]
         areas = [(i, source.polygons) for i, source in enumerate(sources) if source.polygons is not None]
         self.owner = np.concatenate([np.full(len(p.lengths), i) for i, p in areas] + [np.empty(0, int)]).astype(int)
-        self.row = np.concatenate([p.rows for _, p in areas] + [np.empty(0, int)]).astype(int)
         points = np.concatenate([p.points for _, p in areas] + [np.empty((0, 3))])
         lengths = np.concatenate([p.lengths for _, p in areas] + [np.empty(0, int)]).astype(np.int64)
         own = np.concatenate([p.own for _, p in areas] + [np.empty(0, bool)]).astype(bool)
@@ -698,7 +772,8 @@ class _Composite(martist.Artist):
         markers = np.concatenate([source.points for source in sources] + [np.empty((0, 3))])
         self.marker_owner = np.repeat(np.arange(len(sources)), [len(source.points) for source in sources])
         self.marker_row = np.concatenate([source.point_rows for source in sources] + [np.empty(0, int)]).astype(int)
-        alpha = np.concatenate([sources[i].face[p.rows % len(sources[i].face), 3] for i, p in areas if len(p.rows)] + [np.empty(0)])
+        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
+        alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
         opacity = None if is_opaque else np.clip(alpha, 0, 1)
         given = (
@@ -716,10 +791,11 @@ class _Composite(martist.Artist):
         to_display = axes.transData.get_matrix()
         size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
         matrix = np.asarray(axes.M, float)
-        if _is_quick(axes, renderer):
+        if _is_quick(axes, built, renderer):
             shown = _Ordered(built, matrix, to_display)
         else:
-            shown = _Drawn(built, matrix, to_display, size, bool(len(built.overlay)), is_opaque)
+            traps = self.looks.smooth & (alpha >= 1)
+            shown = _Drawn(built, matrix, to_display, size, is_opaque, traps)
         self._paint(renderer, sources, shown, lambda points: _displayed(matrix, to_display, points))
         for artist in self.sources:
             artist.stale = False
@@ -761,50 +837,53 @@ class _Composite(martist.Artist):
     def _paint_paths(self, renderer, sources, shown, kinds, numbers, owners, place):
         """Areas and lines of collections and patches."""
         paths, face, edge, widths, dashes, smooth = [], [], [], [], [], []
-        nothing = (0.0, 0.0, 0.0, 0.0)
-
-        def add(path, source, row, is_filled, is_stroked, dash=None):
-            paths.append(path)
-            face.append(source.face[row % len(source.face)] if is_filled else nothing)
-            edge.append(source.edge[row % len(source.edge)] if is_stroked else nothing)
-            widths.append(source.widths[row % len(source.widths)] if is_stroked else 0.0)
-            dashes.append(dash or source.dashes[row % len(source.dashes)])
-            smooth.append(bool(source.smooth[row % len(source.smooth)]))
-
-        i = 0
-        polygon = shown.polygon
-        while i < len(kinds):
-            source = sources[owners[i]]
-            if kinds[i] == 0:
-                row = self.row[polygon[numbers[i]]]
-                path, strokes = shown.area(int(numbers[i]))
-                i += 1
-                if path is None:
-                    continue
-                is_stroked = bool(source.is_stroked(np.array([row]))[0])
-                is_whole = strokes is None
-                add(path, source, row, True, is_stroked and is_whole)
-                if is_stroked and not is_whole and strokes is not False:
-                    add(strokes, source, row, False, True)
+        starts = np.flatnonzero(np.append(True, (kinds[1:] != kinds[:-1]) | ((kinds[1:] == 1) & (owners[1:] != owners[:-1]))))
+        for start, end in zip(starts, np.append(starts[1:], len(kinds))):
+            if kinds[start] == 0:
+                areas = numbers[start:end]
+                polygon = shown.polygon[areas]
+                look = self.looks
+                is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
+                fills = [shown.fills[i] for i in areas.tolist()]
+                colors, strokes = look.face[polygon], look.edge[polygon]
+                lengths = np.where(is_apart, 0.0, look.widths[polygon])
+                strokes[is_apart] = 0
+                if is_apart.any():
+                    # A fill without a stroke, and then the stroke without a fill.
+                    twice = np.repeat(np.arange(len(areas)), 1 + is_apart)
+                    second = np.flatnonzero(np.append(False, twice[1:] == twice[:-1]))
+                    fills = [fills[i] for i in twice.tolist()]
+                    for i in second.tolist():
+                        fills[i] = shown.stroke(int(areas[twice[i]]))
+                    polygon, colors, strokes, lengths = polygon[twice], colors[twice], strokes[twice], lengths[twice]
+                    colors[second], strokes[second] = 0, look.edge[polygon[second]]
+                    lengths[second] = look.widths[polygon[second]]
+                paths += fills
+                face.append(colors)
+                edge.append(strokes)
+                widths.append(lengths)
+                smooth.append(look.smooth[polygon])
+                dashes += look.dashes_of(polygon)
                 continue
-            j = i
-            while j < len(kinds) and kinds[j] == 1 and owners[j] == owners[i]:
-                j += 1
-            for line, segment, corners in _chains(shown, numbers[i:j], len(source.edge) == 1):
+            source = sources[owners[start]]
+            for line, segment, corners in _chains(shown, numbers[start:end], len(source.edge) == 1):
                 row = self.line_row[line]
-                dash = source.dashes[row % len(source.dashes)]
-                dash = self._dash(line, segment, corners, dash, place, source.widths[0])
-                add(Path(corners), source, row, False, True, dash)
-            i = j
+                paths.append(Path(corners))
+                face.append(np.zeros((1, 4)))
+                edge.append(source.edge[[row % len(source.edge)]])
+                widths.append(source.widths[[row % len(source.widths)]])
+                smooth.append(source.smooth[[row % len(source.smooth)]])
+                dashes.append(self._dash(line, segment, corners, source.dashes[row % len(source.dashes)], place))
         if not paths:
             return
         template = sources[owners[0]].artist
         batch = mcoll.Collection()
         batch._paths = paths
         _take_style(batch, template)
-        batch.set_facecolor(np.array(face))
-        batch.set_edgecolor(np.array(edge))
-        batch._linewidths, batch._linestyles, batch._antialiaseds = widths, dashes, smooth
+        batch.set_facecolor(np.concatenate(face))
+        batch.set_edgecolor(np.concatenate(edge))
+        batch._linewidths, batch._antialiaseds = np.concatenate(widths), np.concatenate(smooth)
+        batch._linestyles = dashes if any(pattern is not None for _, pattern in dashes) else [(0, None)]
         if template.get_hatch():
             batch.set_hatch(template.get_hatch())
         cap, join = template.get_capstyle(), template.get_joinstyle()
@@ -814,7 +893,7 @@ class _Composite(martist.Artist):
             batch.set_joinstyle(join)
         batch.draw(renderer)
 
-    def _dash(self, line, segment, corners, dash, place, width):
+    def _dash(self, line, segment, corners, dash, place):
         """The pattern of dashes at a part of a line, as if the line were drawn at once."""
         offset, pattern = dash
         if pattern is None:
@@ -831,7 +910,7 @@ class _Composite(martist.Artist):
             copy = mlines.Line2D(*corners.T)
             _take_style(copy, artist, mlines.Line2D)
             copy.set_marker("None")
-            copy._dash_pattern = self._dash(line, segment, corners, artist._dash_pattern, place, 1)
+            copy._dash_pattern = self._dash(line, segment, corners, artist._dash_pattern, place)
             count = len(self.lines[line])
             is_all = segment == 0 and len(corners) >= count
             if is_opaque and not is_all and artist.get_solid_capstyle() != "butt":
@@ -859,10 +938,10 @@ def _chains(shown, numbers, may_sort):
 
 def _group(artist):
     """What artists have in common that are painted at once."""
-    clip = artist.get_clip_path()
-    key = (artist.get_clip_on(), id(artist.get_clip_box()), artist.get_sketch_params(), artist.get_snap(),
+    clip, box = artist.get_clip_path(), artist.get_clip_box()
+    key = (artist.get_clip_on(), box and tuple(box.bounds), artist.get_sketch_params(), artist.get_snap(),
            artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
-    clip = id(clip) if clip is None else tuple(map(id, clip.get_transformed_path_and_affine()[:1]))
+    clip = id(getattr(clip, "_patch", clip))
     if isinstance(artist, (mcoll.Collection, mpatches.Patch)):
         key += (artist.get_hatch(), artist.get_capstyle(), artist.get_joinstyle(), bool(artist.get_hatch()) and id(artist))
     return key + (clip,)
@@ -916,12 +995,10 @@ def _paint_scatter(renderer, artist, rows, at):
     batch.draw(renderer)
 
 
-def _is_quick(axes, renderer):
-    """Whether the order of the tree will do: while the view is turned."""
-    return _quick
-
-
-_quick = True
+def _is_quick(axes, built, renderer):
+    """Whether the order of the tree will do: while the view is turned, and where a drawing would take long."""
+    most = _MOST_PIXELS if hasattr(renderer, "buffer_rgba") else _MOST_VECTORS
+    return axes.button_pressed is not None or len(built.polygon) > most
 
 
 # The axes.
