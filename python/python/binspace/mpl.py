@@ -1042,11 +1042,9 @@ class ExactAxes3D(_Exact, Axes3D):
     name = "exact3d"
 
 
-class _Installed(ExactAxes3D):
-    name = "3d"
-
-
 mprojections.register_projection(ExactAxes3D)
+# matplotlib treats axes of this name otherwise, such as their ticks.
+ExactAxes3D.name = Axes3D.name
 
 
 def exact(axes):
@@ -1071,7 +1069,7 @@ def exact(axes):
 
 def install():
     """Makes the projection ``"3d"`` exact, for packages that draw on mplot3d."""
-    mprojections.register_projection(_Installed)
+    mprojections.register_projection(ExactAxes3D)
 
 
 def uninstall():
