@@ -93,7 +93,9 @@ def wireframe_and_surface(ax):
 def arrows_through_plane(ax):
     x, y = _grid(-1, 1, 5)
     ax.plot_surface(x, y, 0.2 * x, color="C0")
+    x, y = _grid(-0.7, 0.7, 3)
     ax.quiver(x.ravel(), y.ravel(), -0.6, 0.3, 0.1, 1.2, color="C3", lw=2)
+    ax.set_zlim(-1, 1)
 
 
 def interlocking_rings(ax):
