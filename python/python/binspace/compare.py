@@ -229,8 +229,9 @@ class Depths:
     def certain(self):
         """Where it is certain what is nearest."""
         other = np.where(self.low_number == self.number, self.low[1], self.low[0])
-        # Polygons cross where the nearest is another one pixel further.
-        return (other > self.best + self.margin) & (self.edge > self.best + self.margin) & _is_alike(self.number)
+        # Polygons cross where two are at one depth, or where the nearest is another one pixel further.
+        is_apart = _spread(other > self.best + self.margin, 1, np.minimum)
+        return is_apart & (self.edge > self.best + self.margin) & _is_alike(self.number)
 
     def blended(self, background):
         """The colours of all layers, one over another, and where they are certain."""
@@ -246,6 +247,7 @@ class Depths:
         close = (pixels[1:] == pixels[:-1]) & (near[:-1] - far[1:] <= self.margin)
         certain[pixels[1:][close]] = False
         certain[pixels[np.isinf(far)]] = False
+        certain = _spread(certain.reshape(shape), 1, np.minimum).ravel()
         names = np.zeros(len(image), np.uint64)
         for level in range(rank.max(initial=-1) + 1):
             at = rank == level
@@ -267,8 +269,8 @@ def _triangle(corners, depths, x, y):
 
 
 def _is_alike(numbers):
-    """Whether a pixel and all around it have the same number."""
-    return _spread(numbers, 1, np.minimum) == _spread(numbers, 1, np.maximum)
+    """Whether all pixels around one have the same number: two pixels far, as Agg fills each that an area touches."""
+    return _spread(numbers, 2, np.minimum) == _spread(numbers, 2, np.maximum)
 
 
 def _spread(image, radius, combine):

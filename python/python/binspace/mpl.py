@@ -641,7 +641,7 @@ def _before_eye(points, own, depth, near, place):
 class _Drawn(_Shown):
     """A drawing of one view, with one path for each polygon where an order allows it."""
 
-    def __init__(self, built, matrix, to_display, size, is_opaque, traps):
+    def __init__(self, built, matrix, to_display, size, is_opaque, traps, are_texts):
         camera, is_mirrored = _camera(matrix, to_display, size)
         has_overlay = bool(len(built.overlay))
         seen = built.tree.visibility(camera) if is_opaque else None
@@ -682,10 +682,11 @@ class _Drawn(_Shown):
             self.marker = drawing.markers.point.astype(np.int64)
             self.at = place(drawing.markers.at)
             if seen is not None:
-                self._leave_out_hidden(seen, built.overlay, place)
+                self._leave_out_hidden(seen, built.overlay, place, are_texts)
 
-    def _leave_out_hidden(self, seen, overlay, place):
-        """Polygons and parts of lines of which nothing is visible would show through seams of what hides them."""
+    def _leave_out_hidden(self, seen, overlay, place, are_texts):
+        """Polygons and parts of lines of which nothing is visible would show through seams of what hides them. A marker is
+        left out if its middle is hidden: it would lie over polygons in front of it that do not hide its middle."""
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
@@ -693,9 +694,12 @@ class _Drawn(_Shown):
         known = {}
         for line, segment, ends in zip(runs.line.tolist(), runs.segment.tolist(), place(runs.ends)):
             known.setdefault((line, segment), []).append(ends)
+        markers = seen.markers(overlay)
+        is_shown = are_texts.copy()
+        is_shown[markers.point[markers.is_visible]] = True
         kinds, numbers, origin, parts = [], [], [], []
         for kind, number in zip(self.kinds.tolist(), self.numbers.tolist()):
-            if kind == 0 and not is_visible[self.polygon[number]]:
+            if kind == 0 and not is_visible[self.polygon[number]] or kind == 2 and not is_shown[self.marker[number]]:
                 continue
             if kind != 1:
                 kinds.append(kind)
@@ -795,7 +799,8 @@ class _Composite(martist.Artist):
             shown = _Ordered(built, matrix, to_display)
         else:
             traps = self.looks.smooth & (alpha >= 1)
-            shown = _Drawn(built, matrix, to_display, size, is_opaque, traps)
+            texts = np.array([isinstance(artist, art3d.Text3D) for artist in self.sources] + [False])
+            shown = _Drawn(built, matrix, to_display, size, is_opaque, traps, texts[self.marker_owner])
         self._paint(renderer, sources, shown, lambda points: _displayed(matrix, to_display, points))
         for artist in self.sources:
             artist.stale = False
@@ -868,6 +873,9 @@ class _Composite(martist.Artist):
             source = sources[owners[start]]
             for line, segment, corners in _chains(shown, numbers[start:end], len(source.edge) == 1):
                 row = self.line_row[line]
+                look = source.widths[row % len(source.widths)], source.edge[row % len(source.edge), 3]
+                if source.dashes[row % len(source.dashes)][1] is None and source.artist.get_capstyle() in (None, "butt"):
+                    corners = self._overlapping(line, corners, *look, place)
                 paths.append(Path(corners))
                 face.append(np.zeros((1, 4)))
                 edge.append(source.edge[[row % len(source.edge)]])
@@ -903,19 +911,30 @@ class _Composite(martist.Artist):
         length = np.nansum(before) + np.hypot(*(corners[0] - places[segment]))
         return offset + length * 72 / self.axes.figure.dpi, pattern
 
+    def _overlapping(self, line, corners, width, alpha, place):
+        """A part of a line with ends that reach half its width into the parts before and after it, so that there is no notch
+        between them. Where one shines through the other, they only touch."""
+        if alpha < 1 or len(corners) < 2:
+            return corners
+        ends = place(self.lines[line][[0, -1]])
+        reach = 0.5 * width * self.axes.figure.dpi / 72
+        corners = corners.copy()
+        for end, inner, own in ((0, 1, ends[0]), (-1, -2, ends[1])):
+            step = corners[end] - corners[inner]
+            length = np.hypot(*step)
+            if length > 0 and np.abs(corners[end] - own).max() > _JOINED:
+                corners[end] += step / length * reach
+        return corners
+
     def _paint_line(self, renderer, source, shown, numbers, place):
         artist = source.artist
-        is_opaque = source.edge[0, 3] >= 1
         for line, segment, corners in _chains(shown, numbers, True):
             copy = mlines.Line2D(*corners.T)
             _take_style(copy, artist, mlines.Line2D)
             copy.set_marker("None")
             copy._dash_pattern = self._dash(line, segment, corners, artist._dash_pattern, place)
-            count = len(self.lines[line])
-            is_all = segment == 0 and len(corners) >= count
-            if is_opaque and not is_all and artist.get_solid_capstyle() != "butt":
-                # A projecting end would reach over what the line ends at.
-                copy.set_solid_capstyle("round")
+            if not artist.is_dashed() and artist.get_solid_capstyle() == "butt":
+                copy.set_data(*self._overlapping(line, corners, source.widths[0], source.edge[0, 3], place).T)
             copy.draw(renderer)
 
 
