@@ -99,7 +99,7 @@ def contours(ax):
 
 
 def a_patch(ax):
-    patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, ls="--", hatch="/")
+    patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, hatch="/")
     ax.add_patch(patch)
     art3d.pathpatch_2d_to_3d(patch, z=0.5, zdir="y")
 

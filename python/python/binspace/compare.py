@@ -404,18 +404,36 @@ def _judge_probes(view, depths, probes, image, dpi, keep):
     return np.logical_or.reduce(covers) if covers else np.zeros(shape, bool), (wrong, count, doubtful)
 
 
+def write_picture(file, scenes):
+    """Writes scenes side by side: in the first row by mplot3d, in the second by exact axes."""
+    figure = Figure(figsize=(3 * len(scenes), 6), dpi=72)
+    FigureCanvasAgg(figure)
+    for row, (projection, title) in enumerate((("3d", "matplotlib"), ("exact3d", "with binspace"))):
+        for column, scene in enumerate(scenes):
+            axes = figure.add_subplot(2, len(scenes), row * len(scenes) + column + 1, projection=projection)
+            scene(axes)
+            axes.set(xticklabels=[], yticklabels=[], zticklabels=[])
+            if column == 0:
+                axes.set_title(title, y=0.97)
+    figure.subplots_adjust(0, 0, 1, 0.98, 0, 0)
+    figure.savefig(file, metadata={"Software": None})
+
+
 def main():
     """Prints the table."""
     parser = argparse.ArgumentParser(prog="python -m binspace.compare", description=__doc__)
     parser.add_argument("--dpi", type=int, default=300)
+    parser.add_argument("--picture", metavar="FILE", help="write the scenes as both draw them, and judge nothing")
     parser.add_argument("scenes", nargs="*", help="names of scenes; by default all")
     options = parser.parse_args()
+    scenes = [scene for scene in SCENES if not options.scenes or scene.__name__ in options.scenes]
+    if options.picture:
+        write_picture(options.picture, scenes)
+        return 0
     print("| scene | mplot3d: wrong | binspace: wrong | pixels judged | doubtful | probes judged | doubtful |")
     print("|---|---|---|---|---|---|---|")
     is_right = True
-    for scene in SCENES:
-        if options.scenes and scene.__name__ not in options.scenes:
-            continue
+    for scene in scenes:
         before, ours = (judged(scene, projection, options.dpi) for projection in ("3d", "exact3d"))
         is_right &= ours.percent == 0
         name = scene.__name__.replace("_", " ")
