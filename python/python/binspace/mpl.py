@@ -1,0 +1,1096 @@
+"""Axes for matplotlib that paint 3D plots in exact order.
+
+Importing this module registers the projection ``"exact3d"``:
+
+>>> import matplotlib.pyplot as plt
+>>> import binspace.mpl
+>>> ax = plt.figure().add_subplot(projection="exact3d")
+
+`exact` makes existing axes exact, and `install` makes ``"3d"`` itself exact.
+
+Polygons are cut where they cross, and lines where they pass through polygons. Polygons of one plane, and lines and points
+on it, are painted in the order of their z-orders, and else in the order in which they were added.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib import artist as martist
+from matplotlib import collections as mcoll
+from matplotlib import colors as mcolors
+from matplotlib import lines as mlines
+from matplotlib import patches as mpatches
+from matplotlib import projections as mprojections
+from matplotlib import transforms as mtransforms
+from matplotlib.path import Path
+from mpl_toolkits.mplot3d import art3d, proj3d
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+import binspace
+
+__all__ = ["ExactAxes3D", "exact", "install", "uninstall"]
+
+_IDENTITY = mtransforms.IdentityTransform()
+# Corners behind the eye, or nearer to its plane than this share of the furthest, are cut off. Too small: corners
+# that lie far outside of the picture overflow. Too large: parts near the eye are missing.
+_NEAR = 1e-6
+# Bezier curves become as many lines.
+_CURVE = 16
+# Pictures of pixels, and of vectors, with more fragments are painted by the order of the tree. Too small: seams at cuts, and
+# large files. Too large: pictures that take a second, or many.
+_MOST_PIXELS = 10_000
+_MOST_VECTORS = 200_000
+# Ends of lines in a picture are one point if they are no further apart, in pixels.
+_JOINED = 1e-5
+
+
+# What artists consist of.
+
+
+def _placed(axes, artist, points):
+    """Points in scaled data coordinates; NaN where they are invalid or clipped."""
+    points = np.ma.asarray(points, float)
+    mask = np.ma.getmaskarray(points).any(-1)
+    points = np.array(np.ma.getdata(points))
+    x, y, z = points[..., 0], points[..., 1], points[..., 2]
+    if hasattr(art3d, "_scale_invalid_mask"):
+        mask = mask | art3d._scale_invalid_mask(x, y, z, axes)
+    if getattr(artist, "_axlim_clip", False):
+        mask = mask | art3d._viewlim_mask(x, y, z, axes)
+    if hasattr(proj3d, "_apply_scale_transforms"):
+        with np.errstate(all="ignore"):
+            points = np.stack(proj3d._apply_scale_transforms(x, y, z, axes), -1)
+    mask = mask | ~np.isfinite(points).all(-1)
+    if mask.any():
+        points[mask] = np.nan
+    return points
+
+
+class _Polygons:
+    """Polygons of an artist: corners one after the other, the number of each polygon's corners, the row of the artist's
+    colours that it has, and whether the edge from each corner is one of the artist's."""
+
+    def __init__(self, points, lengths, rows, own):
+        self.points, self.lengths, self.rows, self.own = points, lengths, rows, own
+
+
+def _flat_polygons(points, lengths):
+    return _Polygons(points, lengths, np.arange(len(lengths)), np.ones(len(points), bool))
+
+
+def _joined_polygons(polygons):
+    """Polygons of (points, row, own)."""
+    if not polygons:
+        return _Polygons(np.empty((0, 3)), np.empty(0, int), np.empty(0, int), np.empty(0, bool))
+    points, rows, own = zip(*polygons)
+    lengths = np.array([len(corners) for corners in points])
+    return _Polygons(np.concatenate(points), lengths, np.array(rows), np.concatenate(own))
+
+
+def _rings(points, codes):
+    """The closed outlines of a path, curves as lines; and its lines that are not closed."""
+    if codes is None:
+        return [points] if len(points) > 1 else [], []
+    rings, lines, ring = [], [], []
+
+    def end(is_closed):
+        if len(ring) > 1:
+            (rings if is_closed else lines).append(np.array(ring))
+        ring.clear()
+
+    i = 0
+    while i < len(codes):
+        code = codes[i]
+        if code == Path.MOVETO:
+            end(False)
+            ring.append(points[i])
+        elif code == Path.CLOSEPOLY:
+            end(True)
+        elif code == Path.LINETO:
+            ring.append(points[i])
+        elif code in (Path.CURVE3, Path.CURVE4):
+            count = 2 if code == Path.CURVE3 else 3
+            control = np.concatenate([ring[-1:], points[i : i + count]])
+            t = np.linspace(0, 1, _CURVE + 1)[1:, None]
+            while len(control) > 1:
+                # De Casteljau's algorithm, all parameters at once.
+                control = [(1 - t) * a + t * b for a, b in zip(control[:-1], control[1:])]
+            ring.extend(control[0])
+            i += count - 1
+        elif code == Path.STOP:
+            break
+        i += 1
+    end(False)
+    return rings, lines
+
+
+def _is_inside(point, ring):
+    """Whether a point of the plane is inside a ring, by the number of crossings."""
+    a, b = ring, np.roll(ring, -1, 0)
+    spans = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
+    a, b = a[spans], b[spans]
+    return np.count_nonzero(a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0]) > point[0]) % 2 == 1
+
+
+def _without_holes(rings):
+    """Rings in one plane as polygons, each hole joined to its outline by a bridge, and whether edges are the rings' own.
+
+    Bridges go from the rightmost corner of a hole to a corner that it sees (D. Eberly, "Triangulation by ear clipping",
+    2002). What an odd number of rings is around is filled.
+    """
+    rings = [ring[:-1] if len(ring) > 1 and np.array_equal(ring[0], ring[-1]) else ring for ring in rings]
+    rings = [ring for ring in rings if len(ring) > 2 and not np.isnan(ring).any()]
+    if len(rings) < 2:
+        return [(ring, np.ones(len(ring), bool)) for ring in rings]
+    normal = sum(np.abs(np.cross(ring - ring[0], np.roll(ring, -1, 0) - ring[0]).sum(0)) for ring in rings)
+    axes = [axis for axis in range(3) if axis != np.argmax(normal)]
+    flat = [ring[:, axes] for ring in rings]
+    areas = [_area(ring) for ring in flat]
+    around = [
+        [j for j in range(len(rings)) if j != i and _is_inside(flat[i][0], flat[j])] for i in range(len(rings))
+    ]
+    polygons = []
+    for i in range(len(rings)):
+        if len(around[i]) % 2:
+            continue
+        holes = [j for j in range(len(rings)) if i in around[j] and len(around[j]) == len(around[i]) + 1]
+        holes.sort(key=lambda j: -flat[j][:, 0].max())
+        ring, plane, own = rings[i], flat[i], np.ones(len(rings[i]), bool)
+        if areas[i] < 0:
+            ring, plane, own = ring[::-1], plane[::-1], own[::-1]
+        for j in holes:
+            hole, of_hole = rings[j], flat[j]
+            if areas[j] > 0:
+                hole, of_hole = hole[::-1], of_hole[::-1]
+            start = int(np.argmax(of_hole[:, 0]))
+            at = _seen_corner(plane, of_hole[start])
+            turned = np.roll(np.arange(len(hole)), -start)
+            # To the corner, over the bridge, around the hole, and back.
+            order = np.concatenate([turned, turned[:1]])
+            ring = np.concatenate([ring[: at + 1], hole[order], ring[at:]])
+            plane = np.concatenate([plane[: at + 1], of_hole[order], plane[at:]])
+            around_hole = np.ones(len(order), bool)
+            around_hole[-1] = False
+            own = np.concatenate([own[:at], [False], around_hole, own[at:]])
+        polygons.append((ring, own))
+    return polygons
+
+
+def _area(ring):
+    x, y = ring.T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+
+def _seen_corner(ring, point):
+    """A corner of a counter-clockwise ring that a point inside sees."""
+    a, b = ring, np.roll(ring, -1, 0)
+    spans = (a[:, 1] <= point[1]) & (b[:, 1] > point[1])
+    numbers = np.flatnonzero(spans)
+    if not len(numbers):
+        return int(np.argmin(np.hypot(*(ring - point).T)))
+    a, b = a[spans], b[spans]
+    x = a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+    right = np.where(x >= point[0], x, np.inf)
+    nearest = int(np.argmin(right))
+    side = numbers[nearest]
+    ends = [side, (side + 1) % len(ring)]
+    corner = max(ends, key=lambda i: ring[i, 0])
+    # Corners in the triangle of the point, the place that it sees, and the corner may be before the corner.
+    place = np.array([right[nearest], point[1]])
+    triangle = np.array([point, place, ring[corner]])
+    if _area(triangle) < 0:
+        triangle = triangle[::-1]
+    edges = np.roll(triangle, -1, 0) - triangle
+    offsets = ring[:, None] - triangle
+    inside = (edges[:, 0] * offsets[..., 1] - edges[:, 1] * offsets[..., 0] >= 0).all(1)
+    inside[corner] = False
+    inside &= ~(ring == ring[corner]).all(1)
+    candidates = np.flatnonzero(inside)
+    if len(candidates):
+        steps = ring[candidates] - point
+        slopes = np.abs(steps[:, 1]) / np.maximum(steps[:, 0], 1e-300)
+        return int(candidates[np.lexsort([steps[:, 0], slopes])[0]])
+    return int(corner)
+
+
+class _Source:
+    """An artist with what it consists of, in scaled data coordinates, and how it is painted."""
+
+    def __init__(self, artist):
+        self.artist = artist
+        self.polygons = None
+        self.lines, self.line_rows = [], []
+        self.points = np.empty((0, 3))
+        self.point_rows = np.empty(0, int)
+        self.face = self.edge = np.empty((0, 4))
+        self.widths, self.dashes, self.smooth = [0.0], [(0, None)], [True]
+
+    def set_style(self, face, edge):
+        artist = self.artist
+        self.face, self.edge = np.asarray(face, float).reshape(-1, 4), np.asarray(edge, float).reshape(-1, 4)
+        self.widths = np.atleast_1d(np.asarray(artist.get_linewidth(), float))
+        if isinstance(artist, mcoll.Collection):
+            self.dashes = artist._linestyles or [(0, None)]
+            self.smooth = np.atleast_1d(artist.get_antialiased())
+        else:
+            self.dashes = [artist._dash_pattern]
+            self.smooth = np.array([artist.get_antialiased()])
+        if not len(self.widths):
+            self.widths = np.zeros(1)
+
+    def is_filled(self, rows):
+        return self.face[rows % len(self.face), 3] > 0 if len(self.face) else np.zeros(len(rows), bool)
+
+    def is_stroked(self, rows):
+        if not len(self.edge):
+            return np.zeros(len(rows), bool)
+        return (self.edge[rows % len(self.edge), 3] > 0) & (self.widths[rows % len(self.widths)] > 0)
+
+    def set_areas(self, polygons):
+        """Polygons that are filled; of others, only lines along their edges."""
+        filled = self.is_filled(polygons.rows)
+        if filled.all():
+            self.polygons = polygons
+            return
+        stroked = self.is_stroked(polygons.rows)
+        ends = np.cumsum(polygons.lengths)
+        for i in np.flatnonzero(~filled & stroked):
+            corners = slice(ends[i] - polygons.lengths[i], ends[i])
+            for line in _own_lines(polygons.own[corners]):
+                self.lines.append(polygons.points[corners][line])
+                self.line_rows.append(polygons.rows[i])
+        keep = np.repeat(filled, polygons.lengths)
+        self.polygons = _Polygons(
+            polygons.points[keep], polygons.lengths[filled], polygons.rows[filled], polygons.own[keep]
+        )
+
+    def set_paths(self, axes, paths):
+        """Paths of (points, codes) with this artist's colours."""
+        areas = []
+        for row, (points, codes) in enumerate(paths):
+            points = _placed(axes, self.artist, np.asarray(points, float).reshape(-1, 3))
+            rings, open_lines = _rings(points, codes)
+            rows = np.array([row])
+            if not self.is_filled(rows)[0]:
+                if self.is_stroked(rows)[0]:
+                    closed = [] if codes is None else [np.concatenate([ring, ring[:1]]) for ring in rings]
+                    for line in (rings if codes is None else closed) + open_lines:
+                        self.lines.append(line)
+                        self.line_rows.append(row)
+                continue
+            for corners, own in _without_holes(rings + open_lines):
+                areas.append((corners, row, own))
+        self.polygons = _joined_polygons(areas)
+
+
+def _own_lines(own):
+    """The corners, by number, of the lines along those edges of an outline that are its own."""
+    count = len(own)
+    if own.all():
+        return [np.append(np.arange(count), 0)]
+    first = int(np.flatnonzero(~own)[0]) + 1
+    lines, line = [], []
+    for i in range(first, first + count):
+        if own[i % count]:
+            line = line or [i % count]
+            line.append((i + 1) % count)
+        elif line:
+            lines.append(np.array(line))
+            line = []
+    return lines + [np.array(line)] if line else lines
+
+
+def _of_polygons(axes, artist):
+    source = _Source(artist)
+    source.set_style(artist._facecolor3d, artist._edgecolor3d)
+    if len(source.edge) and len(source.edge) not in (1, len(source.face)) and len(source.face):
+        source.edge = source.edge[:1]
+    if hasattr(artist, "_faces"):
+        faces, invalid = artist._faces, artist._invalid_vertices
+        count, most = faces.shape[:2] if faces.ndim == 3 else (0, 0)
+        valid = ~np.broadcast_to(invalid, (count, most))
+        lengths = valid.sum(1)
+        points = faces[valid] if count else np.empty((0, 3))
+    else:
+        points = artist._vec[:3].T
+        lengths = np.array([part.stop - part.start for part in artist._segslices], int)
+    codes = artist._codes3d
+    if codes is not None and len(codes):
+        ends = np.cumsum(lengths)
+        source.set_paths(axes, [(points[e - n : e], c) for e, n, c in zip(ends, lengths, codes)])
+        return source
+    points = _placed(axes, artist, points)
+    polygons = _flat_polygons(points, lengths)
+    if not artist._closed and len(lengths):
+        polygons.own[np.cumsum(lengths)[lengths > 0] - 1] = False
+    source.set_areas(polygons)
+    return source
+
+
+def _of_paths(axes, artist):
+    """Contours: `Collection3D` in matplotlib 3.8 and later."""
+    source = _Source(artist)
+    artist.update_scalarmappable()
+    source.set_style(artist.get_facecolor(), artist.get_edgecolor())
+    source.set_paths(axes, artist._3dverts_codes)
+    return source
+
+
+def _of_patch(axes, artist):
+    source = _Source(artist)
+    face = [artist.get_facecolor()] if artist.get_fill() else np.empty((0, 4))
+    source.set_style(face, [artist.get_edgecolor()])
+    points = np.asarray(artist._segment3d, float)
+    codes = getattr(artist, "_code3d", None)
+    if codes is None and len(points):
+        # A patch is drawn as a path that is not closed.
+        codes = np.full(len(points), Path.LINETO, np.uint8)
+        codes[0] = Path.MOVETO
+    source.set_paths(axes, [(points, codes)])
+    return source
+
+
+def _of_segments(axes, artist):
+    source = _Source(artist)
+    artist.update_scalarmappable()
+    source.set_style(np.empty((0, 4)), artist.get_edgecolor())
+    rows = np.arange(len(artist._segments3d))
+    for row, (segment, stroked) in enumerate(zip(artist._segments3d, source.is_stroked(rows))):
+        if stroked and len(segment) > 1:
+            source.lines.append(_placed(axes, artist, segment))
+            source.line_rows.append(row)
+    return source
+
+
+def _of_line(axes, artist):
+    source = _Source(artist)
+    vertices = np.broadcast_arrays(*(np.ma.asarray(c, float) for c in artist._verts3d), subok=True)
+    points = _placed(axes, artist, np.ma.stack([np.ma.atleast_1d(c).ravel() for c in vertices], -1))
+    source.set_style(np.empty((0, 4)), [mcolors.to_rgba(artist.get_color(), artist.get_alpha())])
+    if artist.get_linestyle() not in ("None", "none", " ", "", None) and source.widths[0] > 0 and len(points) > 1:
+        source.lines, source.line_rows = [points], [0]
+    if artist.get_marker() not in ("None", "none", " ", "", None):
+        source.point_rows = _marked(artist, points)
+        source.points = points[source.point_rows]
+    # What picking and `get_data` use.
+    projected = _projected(axes.M, points)
+    artist.set_data(projected[:, 0], projected[:, 1])
+    return source
+
+
+def _marked(artist, points):
+    """The vertices of a line that have markers."""
+    every = artist.get_markevery()
+    numbers = np.arange(len(points))
+    if every is None:
+        return numbers
+    if isinstance(every, (int, np.integer)):
+        return numbers[::every]
+    if isinstance(every, tuple) and all(isinstance(number, (int, np.integer)) for number in every):
+        return numbers[every[0] :: every[1]]
+    if isinstance(every, (float, tuple)):
+        raise NotImplementedError("exact axes have no markers at distances: markevery must not be a float")
+    return numbers[every]
+
+
+def _of_scatter(axes, artist):
+    source = _Source(artist)
+    offsets = [np.ma.asarray(np.ma.atleast_1d(c), float) for c in artist._offsets3d]
+    offsets = np.broadcast_arrays(*offsets, subok=True)
+    source.points = _placed(axes, artist, np.ma.stack(offsets, -1).reshape(-1, 3))
+    source.point_rows = np.arange(len(source.points))
+    return source
+
+
+def _of_text(axes, artist):
+    source = _Source(artist)
+    if artist.get_text():
+        source.points = _placed(axes, artist, np.array([[artist._x, artist._y, artist._z]], float))
+        source.point_rows = np.zeros(1, int)
+    return source
+
+
+_KINDS = [
+    (art3d.Poly3DCollection, _of_polygons),
+    (art3d.Line3DCollection, _of_segments),
+    (art3d.Path3DCollection, _of_scatter),
+    (art3d.Line3D, _of_line),
+    (art3d.Patch3D, _of_patch),
+    (art3d.Text3D, _of_text),
+]
+if hasattr(art3d, "Collection3D"):
+    _KINDS.append((art3d.Collection3D, _of_paths))
+
+
+def _kind(artist):
+    return next((gather for kind, gather in _KINDS if isinstance(artist, kind)), None)
+
+
+# The view.
+
+
+def _projected(matrix, points):
+    """x and y of points in the plane of the projection."""
+    rows = matrix[[0, 1, 3]]
+    x, y, w = rows[:, :3] @ points.T + rows[:, 3:]
+    with np.errstate(all="ignore"):
+        return np.stack([x / w, y / w], -1)
+
+
+def _displayed(matrix, to_display, points):
+    """Points in display coordinates."""
+    return _projected(matrix, points) * to_display[[0, 1], [0, 1]] + to_display[:2, 2]
+
+
+def _viewpoint(matrix):
+    """The eye, or the direction of a parallel projection, of a matrix: where x, y and w are 0."""
+    rows = matrix[[0, 1, 3]]
+    rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    null = np.linalg.svd(rows)[2][3]
+    if abs(null[3]) > 1e-12 * np.linalg.norm(null[:3]) and np.linalg.norm(matrix[3, :3]) > 0:
+        return {"eye": null[:3] / null[3]}
+    # Depth increases away from the viewer.
+    direction = null[:3] * np.sign(matrix[2, :3] @ null[:3] * matrix[3, 3])
+    return {"direction": direction}
+
+
+def _camera(matrix, to_display, size):
+    """The camera of a picture of a size, and whether x is mirrored."""
+    scale, shift = to_display[[0, 1], [0, 1]], to_display[:2, 2]
+    clip = matrix.copy()
+    for axis in range(2):
+        in_pixels = scale[axis] * matrix[axis] + shift[axis] * matrix[3]
+        clip[axis] = 2 / size[axis] * in_pixels - matrix[3]
+    # Inverted axes mirror a picture.
+    volume = np.linalg.det(clip[[0, 1, 3]][:, :3])
+    is_parallel = "direction" in _viewpoint(matrix)
+    if is_parallel:
+        direction = _viewpoint(matrix)["direction"]
+        volume = np.linalg.det(np.stack([clip[0, :3], clip[1, :3], direction * matrix[3, 3]]))
+    is_mirrored = volume > 0
+    if is_mirrored:
+        clip[0] = -clip[0]
+    return binspace.Camera(clip, size), is_mirrored
+
+
+# What is painted.
+
+
+class _Built:
+    """A tree of polygons, with lines and points; kept while these are the same."""
+
+    def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers):
+        self.given = points, lengths, own, opacity, lines, line_lengths, markers
+        everything = np.concatenate([points, lines, markers])
+        valid = everything[~np.isnan(everything).any(1)]
+        bounds = [valid.min(0), valid.max(0)] if len(valid) else None
+        offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
+        self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds)
+        line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
+        self.overlay = self.tree.overlay((lines, line_offsets), markers)
+        self.pieces = self.overlay.pieces
+        fragments = self.tree.fragments
+        self.points, self.polygon = fragments.points, fragments.polygon.astype(np.int64)
+        offsets_of_fragments = fragments.offsets.astype(np.int64)
+        self.starts, self.ends = offsets_of_fragments[:-1], offsets_of_fragments[1:]
+        edges = fragments.edges.astype(np.int64)
+        self.own = edges >= 0
+        first = np.repeat(offsets[self.polygon], np.diff(offsets_of_fragments))
+        self.own[self.own] = own[(first + edges)[self.own]]
+        self.is_whole = _are_all(self.own, self.starts)
+        self.corners, codes, self.closed = _closed(offsets_of_fragments)
+        places = np.zeros((len(self.corners), 2))
+        self.paths = _paths(places, codes, self.closed)
+        self.strokes = {}
+
+    def is_of(self, *given):
+        return all(
+            a is b or (a is not None and b is not None and a.shape == b.shape and np.array_equal(a, b, equal_nan=True))
+            for a, b in zip(self.given, given)
+        )
+
+    def stroke(self, fragment):
+        """The lines along edges of the polygon of a fragment that is cut: corners and codes."""
+        if fragment not in self.strokes:
+            start, end = self.starts[fragment], self.ends[fragment]
+            self.strokes[fragment] = _compound([start + line for line in _own_lines(self.own[start:end])])
+        return self.strokes[fragment]
+
+
+def _are_all(values, starts):
+    """Whether all values from each start to the next are true."""
+    return np.logical_and.reduceat(values, starts) if len(starts) else np.empty(0, bool)
+
+
+def _closed(offsets):
+    """Closed outlines: the corners of each, by number, the first once more at the end; codes; and where each begins."""
+    count = len(offsets) - 1
+    closed = offsets + np.arange(count + 1)
+    corners = np.arange(closed[-1]) - np.repeat(np.arange(count), np.diff(closed))
+    corners[closed[1:] - 1] = offsets[:-1]
+    codes = np.full(len(corners), Path.LINETO, np.uint8)
+    codes[closed[:-1]] = Path.MOVETO
+    codes[closed[1:] - 1] = Path.CLOSEPOLY
+    return corners, codes, closed
+
+
+def _paths(places, codes, offsets):
+    offsets = offsets.tolist()
+    make = Path._fast_from_codes_and_verts
+    return [make(places[a:b], codes[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
+
+
+def _compound(lines):
+    if not lines:
+        return np.empty(0, int), np.empty(0, np.uint8)
+    codes = np.full(sum(map(len, lines)), Path.LINETO, np.uint8)
+    codes[np.cumsum([0] + [len(line) for line in lines[:-1]])] = Path.MOVETO
+    return np.concatenate(lines), codes
+
+
+class _Shown:
+    """The items of a picture in the order to paint them: kinds 0, 1 and 2 are areas, parts of lines and points, each with
+    its number in the lists below. Places are in display coordinates."""
+
+    def __init__(self, kinds, numbers):
+        self.kinds, self.numbers = kinds, numbers
+        self.polygon = self.line = self.segment = self.marker = np.empty(0, int)
+        self.ends = np.empty((0, 2, 2))
+        self.at = np.empty((0, 2))
+
+    # Paths of areas, by number, and whether all of their sides are edges of their polygons.
+    fills: list
+    is_whole: np.ndarray
+
+    def stroke(self, number):
+        """The path of those sides of an area that are edges of its polygon."""
+        raise NotImplementedError
+
+
+class _Ordered(_Shown):
+    """The fragments of a tree in its own order: fast, for any view."""
+
+    def __init__(self, built, matrix, to_display):
+        view = _viewpoint(matrix)
+        order = built.overlay.order(**view).astype(np.int64)
+        count = len(built.polygon)
+        is_point = built.pieces.segment < 0
+        kinds = np.concatenate([np.zeros(count, int), np.where(is_point, 2, 1)])
+        numbers = np.concatenate([np.arange(count), np.arange(len(is_point))])
+        super().__init__(kinds[order], numbers[order])
+        self.built = built
+        self.polygon = built.polygon
+        self.line = self.marker = built.pieces.number.astype(np.int64)
+        self.segment = built.pieces.segment
+
+        def place(points):
+            return _displayed(matrix, to_display, points)
+
+        self.places = place(built.points)
+        depth = built.points @ matrix[3, :3] + matrix[3, 3]
+        near = _NEAR * np.abs(depth).max(initial=0)
+        self.near = {}
+        if (depth <= near).any():
+            is_near = np.logical_or.reduceat(depth <= near, built.starts)
+            for i in np.flatnonzero(is_near):
+                part = slice(built.starts[i], built.ends[i])
+                self.near[int(i)] = _before_eye(built.points[part], built.own[part], depth[part], near, place)
+        corners, offsets = self.places[built.corners], built.closed.tolist()
+        for path, a, b in zip(built.paths, offsets[:-1], offsets[1:]):
+            path._vertices = corners[a:b]
+        self.fills, self.is_whole = built.paths, built.is_whole
+        if self.near:
+            self.fills, self.is_whole = list(built.paths), built.is_whole.copy()
+            for i, (path, _) in self.near.items():
+                self.fills[i], self.is_whole[i] = path, False
+        ends = built.pieces.ends
+        self.ends = place(ends.reshape(-1, 3)).reshape(-1, 2, 2)
+        self.at = self.ends[:, 0]
+        behind = (ends @ matrix[3, :3] + matrix[3, 3] <= 0).any(1)
+        if behind.any():
+            keep = (self.kinds == 0) | ~behind[np.where(self.kinds == 0, 0, self.numbers)]
+            self.kinds, self.numbers = self.kinds[keep], self.numbers[keep]
+
+    def stroke(self, number):
+        if number in self.near:
+            return self.near[number][1]
+        corners, codes = self.built.stroke(number)
+        return Path(self.places[corners], codes)
+
+
+def _before_eye(points, own, depth, near, place):
+    """The path of the part of an outline that is before the eye, and of its strokes."""
+    corners, edges = [], []
+    for i in range(len(points)):
+        j = (i + 1) % len(points)
+        if depth[i] > near:
+            corners.append(points[i])
+            edges.append(own[i])
+        if (depth[i] > near) != (depth[j] > near):
+            t = (near - depth[i]) / (depth[j] - depth[i])
+            corners.append(points[i] + t * (points[j] - points[i]))
+            edges.append(own[i] and depth[i] <= near)
+    places = place(np.array(corners).reshape(-1, 3))
+    line = np.append(np.arange(len(places)), 0) if len(places) > 2 else np.empty(0, int)
+    codes = np.full(len(line), Path.LINETO, np.uint8)
+    codes[:1], codes[-1:] = Path.MOVETO, Path.CLOSEPOLY
+    corners, stroke_codes = _compound(_own_lines(np.array(edges)) if len(line) else [])
+    return Path(places[line].reshape(-1, 2), codes), Path(places[corners].reshape(-1, 2), stroke_codes)
+
+
+class _Drawn(_Shown):
+    """A drawing of one view, with one path for each polygon where an order allows it."""
+
+    def __init__(self, built, matrix, to_display, size, is_opaque, traps, are_texts):
+        camera, is_mirrored = _camera(matrix, to_display, size)
+        has_overlay = bool(len(built.overlay))
+        seen = built.tree.visibility(camera) if is_opaque else None
+        if seen is not None and not has_overlay:
+            drawing = seen.drawing()
+        else:
+            drawing = built.tree.translucent(camera, built.overlay if has_overlay else None)
+        items = drawing.items.astype(np.int64)
+        super().__init__(items[:, 0], items[:, 1])
+
+        def place(points):
+            x, y = points[..., 0], points[..., 1]
+            return np.stack([size[0] - x if is_mirrored else x, size[1] - y], -1)
+
+        self.polygon = drawing.polygon.astype(np.int64)
+        self.of_paths, self.of_outlines = drawing.path_offsets.astype(np.int64), drawing.outline_offsets.astype(np.int64)
+        self.corners, edges = place(drawing.corners), drawing.edges.astype(np.int64)
+        own = built.given[2]
+        offsets = np.concatenate([[0], np.cumsum(built.given[1])]).astype(np.int64)
+        starts = self.of_outlines[self.of_paths]
+        first = np.repeat(offsets[self.polygon], np.diff(starts))
+        self.own = edges >= 0
+        self.own[self.own] = own[(first + edges)[self.own]]
+        self.is_whole = _are_all(self.own, starts[:-1])
+        if traps.any():
+            # Seams between faces would let through what is painted below them.
+            filled = drawing._trapped(traps.tolist())
+            corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
+            self.fills = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
+            self.is_whole[traps[self.polygon]] = False
+        else:
+            corners, codes, closed = _closed(self.of_outlines)
+            self.fills = _paths(self.corners[corners], codes, closed[self.of_paths])
+        if drawing.lines is not None:
+            self.line = drawing.lines.line.astype(np.int64)
+            self.segment = drawing.lines.segment.astype(np.int64)
+            self.ends = place(drawing.lines.ends)
+            self.marker = drawing.markers.point.astype(np.int64)
+            self.at = place(drawing.markers.at)
+            if seen is not None:
+                self._leave_out_hidden(seen, built.overlay, place, are_texts)
+
+    def _leave_out_hidden(self, seen, overlay, place, are_texts):
+        """Polygons and parts of lines of which nothing is visible would show through seams of what hides them. A marker is
+        left out if its middle is hidden: it would lie over polygons in front of it that do not hide its middle."""
+        is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
+        visible = seen.polygons().polygon
+        is_visible[visible[visible < len(is_visible)]] = True
+        runs = seen.lines(overlay)
+        known = {}
+        for line, segment, ends in zip(runs.line.tolist(), runs.segment.tolist(), place(runs.ends)):
+            known.setdefault((line, segment), []).append(ends)
+        markers = seen.markers(overlay)
+        is_shown = are_texts.copy()
+        is_shown[markers.point[markers.is_visible]] = True
+        kinds, numbers, origin, parts = [], [], [], []
+        for kind, number in zip(self.kinds.tolist(), self.numbers.tolist()):
+            if kind == 0 and not is_visible[self.polygon[number]] or kind == 2 and not is_shown[self.marker[number]]:
+                continue
+            if kind != 1:
+                kinds.append(kind)
+                numbers.append(number)
+                continue
+            start, step = self.ends[number, 0], self.ends[number, 1] - self.ends[number, 0]
+            square = step @ step
+            for ends in known.get((int(self.line[number]), int(self.segment[number])), ()):
+                a, b = np.clip((ends - start) @ step / square, 0, 1) if square > 0 else (0, 0)
+                if b > a:
+                    kinds.append(1)
+                    numbers.append(len(parts))
+                    origin.append(number)
+                    parts.append(start + np.outer([a, b], step))
+        self.kinds, self.numbers = np.array(kinds, int), np.array(numbers, int)
+        self.ends = np.array(parts).reshape(-1, 2, 2)
+        origin = np.array(origin, int)
+        self.line, self.segment = self.line[origin], self.segment[origin]
+
+    def stroke(self, number):
+        outlines = range(self.of_paths[number], self.of_paths[number + 1])
+        starts = [(self.of_outlines[i], self.of_outlines[i + 1]) for i in outlines]
+        corners, codes = _compound([a + line for a, b in starts for line in _own_lines(self.own[a:b])])
+        return Path(self.corners[corners].reshape(-1, 2), codes)
+
+
+class _Looks:
+    """How polygons are painted: a row for each."""
+
+    def __init__(self, parts):
+        def rows(values):
+            chosen = [np.asarray(v)[r % len(v)] if len(v) else np.zeros((len(r), *np.shape(v)[1:])) for v, r in values]
+            return np.concatenate(chosen) if chosen else None
+
+        count = sum(len(r) for _, r in parts)
+        self.face = rows([(s.face, r) for s, r in parts]) if count else np.empty((0, 4))
+        self.edge = rows([(s.edge, r) for s, r in parts]) if count else np.empty((0, 4))
+        self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
+        self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
+        self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
+        self.widths = np.where(self.is_stroked, self.widths, 0.0)
+        self.dashes = None
+        if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
+            self.dashes = [s.dashes[row % len(s.dashes)] for s, r in parts for row in r]
+
+    def dashes_of(self, polygons):
+        if self.dashes is None:
+            return [(0, None)] * len(polygons)
+        return [self.dashes[i] for i in polygons]
+
+
+class _Composite(martist.Artist):
+    """Paints all artists of exact axes in one order."""
+
+    def __init__(self, axes, sources):
+        super().__init__()
+        self.set_figure(axes.figure)
+        self.axes = axes
+        self.sources = sources
+        self.zorder = max(axis.get_zorder() for axis in axes._axis_map.values()) + 1
+
+    def draw(self, renderer):
+        axes = self.axes
+        sources = [_kind(artist)(axes, artist) for artist in self.sources]
+        areas = [(i, source.polygons) for i, source in enumerate(sources) if source.polygons is not None]
+        self.owner = np.concatenate([np.full(len(p.lengths), i) for i, p in areas] + [np.empty(0, int)]).astype(int)
+        points = np.concatenate([p.points for _, p in areas] + [np.empty((0, 3))])
+        lengths = np.concatenate([p.lengths for _, p in areas] + [np.empty(0, int)]).astype(np.int64)
+        own = np.concatenate([p.own for _, p in areas] + [np.empty(0, bool)]).astype(bool)
+        lines = [line for source in sources for line in source.lines]
+        self.lines = lines
+        self.line_owner = np.repeat(np.arange(len(sources)), [len(source.lines) for source in sources])
+        self.line_row = np.array([row for source in sources for row in source.line_rows], int)
+        markers = np.concatenate([source.points for source in sources] + [np.empty((0, 3))])
+        self.marker_owner = np.repeat(np.arange(len(sources)), [len(source.points) for source in sources])
+        self.marker_row = np.concatenate([source.point_rows for source in sources] + [np.empty(0, int)]).astype(int)
+        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
+        alpha = self.looks.face[:, 3]
+        is_opaque = bool((alpha >= 1).all())
+        opacity = None if is_opaque else np.clip(alpha, 0, 1)
+        given = (
+            points,
+            lengths,
+            own,
+            opacity,
+            np.concatenate(lines + [np.empty((0, 3))]),
+            np.array([len(line) for line in lines], np.int64),
+            markers,
+        )
+        built = getattr(axes, "_exact_built", None)
+        if built is None or not built.is_of(*given):
+            built = axes._exact_built = _Built(*(None if array is None else array.copy() for array in given))
+        to_display = axes.transData.get_matrix()
+        size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
+        matrix = np.asarray(axes.M, float)
+        if _is_quick(axes, built, renderer):
+            shown = _Ordered(built, matrix, to_display)
+        else:
+            traps = self.looks.smooth & (alpha >= 1)
+            texts = np.array([isinstance(artist, art3d.Text3D) for artist in self.sources] + [False])
+            shown = _Drawn(built, matrix, to_display, size, is_opaque, traps, texts[self.marker_owner])
+        self._paint(renderer, sources, shown, lambda points: _displayed(matrix, to_display, points))
+        for artist in self.sources:
+            artist.stale = False
+        self.stale = False
+
+    def _paint(self, renderer, sources, shown, place):
+        kinds, numbers = shown.kinds, shown.numbers
+        owners = np.empty(len(kinds), int)
+        tables = [(self.owner, shown.polygon), (self.line_owner, shown.line), (self.marker_owner, shown.marker)]
+        for kind, (owner, given) in enumerate(tables):
+            chosen = kinds == kind
+            owners[chosen] = owner[given[numbers[chosen]]]
+        groups = {}
+        group = np.array([groups.setdefault(_group(source.artist), len(groups)) for source in sources] + [0])
+        # Areas and the lines of collections of one group are painted at once; others by artist.
+        is_line2d = np.array([isinstance(source.artist, mlines.Line2D) for source in sources] + [False])
+        alone = (kinds == 2) | is_line2d[owners]
+        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
+        starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
+        for start, end in zip(starts, np.append(starts[1:], len(key))):
+            source = sources[owners[start]]
+            chosen = numbers[start:end]
+            if not alone[start]:
+                self._paint_paths(renderer, sources, shown, kinds[start:end], chosen, owners[start:end], place)
+            elif kinds[start] == 1:
+                self._paint_line(renderer, source, shown, chosen, place)
+            elif isinstance(source.artist, mlines.Line2D):
+                copy = mlines.Line2D(*shown.at[chosen].T)
+                _take_style(copy, source.artist, mlines.Line2D)
+                copy.set_linestyle("None")
+                copy.set_markevery(None)
+                copy.draw(renderer)
+            elif isinstance(source.artist, art3d.Path3DCollection):
+                rows = self.marker_row[shown.marker[chosen]]
+                _paint_scatter(renderer, source.artist, rows, shown.at[chosen])
+            else:
+                source.artist.draw(renderer)
+
+    def _paint_paths(self, renderer, sources, shown, kinds, numbers, owners, place):
+        """Areas and lines of collections and patches."""
+        paths, face, edge, widths, dashes, smooth = [], [], [], [], [], []
+        starts = np.flatnonzero(np.append(True, (kinds[1:] != kinds[:-1]) | ((kinds[1:] == 1) & (owners[1:] != owners[:-1]))))
+        for start, end in zip(starts, np.append(starts[1:], len(kinds))):
+            if kinds[start] == 0:
+                areas = numbers[start:end]
+                polygon = shown.polygon[areas]
+                look = self.looks
+                is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
+                fills = [shown.fills[i] for i in areas.tolist()]
+                colors, strokes = look.face[polygon], look.edge[polygon]
+                lengths = np.where(is_apart, 0.0, look.widths[polygon])
+                strokes[is_apart] = 0
+                if is_apart.any():
+                    # A fill without a stroke, and then the stroke without a fill.
+                    twice = np.repeat(np.arange(len(areas)), 1 + is_apart)
+                    second = np.flatnonzero(np.append(False, twice[1:] == twice[:-1]))
+                    fills = [fills[i] for i in twice.tolist()]
+                    for i in second.tolist():
+                        fills[i] = shown.stroke(int(areas[twice[i]]))
+                    polygon, colors, strokes, lengths = polygon[twice], colors[twice], strokes[twice], lengths[twice]
+                    colors[second], strokes[second] = 0, look.edge[polygon[second]]
+                    lengths[second] = look.widths[polygon[second]]
+                paths += fills
+                face.append(colors)
+                edge.append(strokes)
+                widths.append(lengths)
+                smooth.append(look.smooth[polygon])
+                dashes += look.dashes_of(polygon)
+                continue
+            source = sources[owners[start]]
+            for line, segment, corners in _chains(shown, numbers[start:end], len(source.edge) == 1):
+                row = self.line_row[line]
+                look = source.widths[row % len(source.widths)], source.edge[row % len(source.edge), 3]
+                if source.dashes[row % len(source.dashes)][1] is None and source.artist.get_capstyle() in (None, "butt"):
+                    corners = self._overlapping(line, corners, *look, place)
+                paths.append(Path(corners))
+                face.append(np.zeros((1, 4)))
+                edge.append(source.edge[[row % len(source.edge)]])
+                widths.append(source.widths[[row % len(source.widths)]])
+                smooth.append(source.smooth[[row % len(source.smooth)]])
+                dashes.append(self._dash(line, segment, corners, source.dashes[row % len(source.dashes)], place))
+        if not paths:
+            return
+        template = sources[owners[0]].artist
+        batch = mcoll.Collection()
+        batch._paths = paths
+        _take_style(batch, template)
+        batch.set_facecolor(np.concatenate(face))
+        batch.set_edgecolor(np.concatenate(edge))
+        batch._linewidths, batch._antialiaseds = np.concatenate(widths), np.concatenate(smooth)
+        batch._linestyles = dashes if any(pattern is not None for _, pattern in dashes) else [(0, None)]
+        if template.get_hatch():
+            batch.set_hatch(template.get_hatch())
+        cap, join = template.get_capstyle(), template.get_joinstyle()
+        if cap:
+            batch.set_capstyle(cap)
+        if join:
+            batch.set_joinstyle(join)
+        batch.draw(renderer)
+
+    def _dash(self, line, segment, corners, dash, place):
+        """The pattern of dashes at a part of a line, as if the line were drawn at once."""
+        offset, pattern = dash
+        if pattern is None:
+            return dash
+        places = place(self.lines[line])
+        before = np.hypot(*np.diff(places[: segment + 1], axis=0).T)
+        length = np.nansum(before) + np.hypot(*(corners[0] - places[segment]))
+        return offset + length * 72 / self.axes.figure.dpi, pattern
+
+    def _overlapping(self, line, corners, width, alpha, place):
+        """A part of a line with ends that reach half its width into the parts before and after it, so that there is no notch
+        between them. Where one shines through the other, they only touch."""
+        if alpha < 1 or len(corners) < 2:
+            return corners
+        ends = place(self.lines[line][[0, -1]])
+        reach = 0.5 * width * self.axes.figure.dpi / 72
+        corners = corners.copy()
+        for end, inner, own in ((0, 1, ends[0]), (-1, -2, ends[1])):
+            step = corners[end] - corners[inner]
+            length = np.hypot(*step)
+            if length > 0 and np.abs(corners[end] - own).max() > _JOINED:
+                corners[end] += step / length * reach
+        return corners
+
+    def _paint_line(self, renderer, source, shown, numbers, place):
+        artist = source.artist
+        for line, segment, corners in _chains(shown, numbers, True):
+            copy = mlines.Line2D(*corners.T)
+            _take_style(copy, artist, mlines.Line2D)
+            copy.set_marker("None")
+            copy._dash_pattern = self._dash(line, segment, corners, artist._dash_pattern, place)
+            if not artist.is_dashed() and artist.get_solid_capstyle() == "butt":
+                copy.set_data(*self._overlapping(line, corners, source.widths[0], source.edge[0, 3], place).T)
+            copy.draw(renderer)
+
+
+def _chains(shown, numbers, may_sort):
+    """Parts of lines that follow one another, joined: the line, the segment that each begins in, and its corners."""
+    line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
+    if may_sort and len(numbers) > 1:
+        # How far each part is along its segment: parts of one segment have one direction.
+        along = np.einsum("ij,ij->i", ends[:, 0], ends[:, 1] - ends[:, 0])
+        along = along / np.maximum(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1e-300)
+        order = np.lexsort([along, segment, line])
+        line, segment, ends = line[order], segment[order], ends[order]
+    follows = (line[1:] == line[:-1]) & (segment[1:] - segment[:-1] <= 1) & (segment[1:] >= segment[:-1])
+    follows &= np.abs(ends[1:, 0] - ends[:-1, 1]).max(1, initial=0) <= _JOINED
+    breaks = np.flatnonzero(~follows) + 1
+    for start, end in zip(np.append(0, breaks), np.append(breaks, len(line))):
+        corners = np.concatenate([ends[start, :1], ends[start:end, 1]])
+        yield int(line[start]), int(segment[start]), corners
+
+
+def _group(artist):
+    """What artists have in common that are painted at once."""
+    clip, box = artist.get_clip_path(), artist.get_clip_box()
+    key = (artist.get_clip_on(), box and tuple(box.bounds), artist.get_sketch_params(), artist.get_snap(),
+           artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
+    clip = id(getattr(clip, "_patch", clip))
+    if isinstance(artist, (mcoll.Collection, mpatches.Patch)):
+        key += (artist.get_hatch(), artist.get_capstyle(), artist.get_joinstyle(), bool(artist.get_hatch()) and id(artist))
+    return key + (clip,)
+
+
+def _take_style(copy, artist, kind=martist.Artist):
+    if kind is martist.Artist:
+        martist.Artist.update_from(copy, artist)
+        copy._alpha = None
+    else:
+        copy.update_from(artist)
+        copy.set_alpha(artist.get_alpha())
+    copy.set_figure(artist.figure)
+    copy.set_transform(_IDENTITY)
+    copy.set_clip_box(artist.get_clip_box())
+    copy.set_clip_path(artist.get_clip_path())
+    copy.set_clip_on(artist.get_clip_on())
+    copy.set_path_effects(artist.get_path_effects())
+    copy.set_visible(True)
+    copy.set_gid(artist.get_gid())
+    copy.set_url(artist.get_url())
+
+
+def _paint_scatter(renderer, artist, rows, at):
+    count = len(artist._offsets3d[0])
+
+    def unsorted(colors):
+        """Colours in the order of the points, not in that of their depths."""
+        if len(colors) != count or count < 2:
+            return colors
+        result = np.empty_like(colors)
+        result[artist._z_markers_idx] = colors
+        return result
+
+    def of_rows(values):
+        return [values[row % len(values)] for row in rows] if len(values) else values
+
+    face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
+    paths = artist.get_paths()
+    sizes, widths = np.atleast_1d(artist._sizes3d), np.atleast_1d(artist._linewidths3d)
+    batch = mcoll.PathCollection(of_rows(paths) if len(paths) > 1 else paths, sizes=of_rows(sizes))
+    _take_style(batch, artist)
+    batch.set_facecolor(np.array(of_rows(face)).reshape(-1, 4))
+    batch.set_edgecolor(np.array(of_rows(edge)).reshape(-1, 4))
+    batch._linewidths = of_rows(widths)
+    batch._linestyles = of_rows(artist._linestyles)
+    batch._antialiaseds = of_rows(np.atleast_1d(artist.get_antialiased()))
+    batch.set_hatch(artist.get_hatch())
+    batch.set_offsets(at)
+    batch.set_offset_transform(_IDENTITY)
+    batch.draw(renderer)
+
+
+def _is_quick(axes, built, renderer):
+    """Whether the order of the tree will do: while the view is turned, and where a drawing would take long."""
+    most = _MOST_PIXELS if hasattr(renderer, "buffer_rgba") else _MOST_VECTORS
+    return axes.button_pressed is not None or len(built.polygon) > most
+
+
+# The axes.
+
+
+class _Exact:
+    """What exact axes do otherwise than those of mplot3d."""
+
+    _exact_composite = None
+
+    def get_children(self):
+        children = super().get_children()
+        if self._exact_composite is None:
+            return children
+        taken = set(map(id, self._exact_composite.sources))
+        return [child for child in children if id(child) not in taken] + [self._exact_composite]
+
+    def draw(self, renderer):
+        """Draws the axes; what they hold in one exact order, if `computed_zorder` is true."""
+        if not self.get_visible() or not self.computed_zorder:
+            return super().draw(renderer)
+        taken = [
+            child for child in self._children if child.get_visible() and not child.get_animated() and _kind(child)
+        ]
+        zorders = [artist.zorder for artist in taken]
+        taken.sort(key=lambda artist: artist.zorder)
+        self._exact_composite = _Composite(self, taken)
+        try:
+            super().draw(renderer)
+        finally:
+            self._exact_composite = None
+            in_order = [child for child in self._children if any(child is artist for artist in taken)]
+            for artist, zorder in zip(in_order, zorders):
+                artist.zorder = zorder
+        return None
+
+
+class ExactAxes3D(_Exact, Axes3D):
+    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``."""
+
+    name = "exact3d"
+
+
+mprojections.register_projection(ExactAxes3D)
+# matplotlib treats axes of this name otherwise, such as their ticks.
+ExactAxes3D.name = Axes3D.name
+
+
+def exact(axes):
+    """Makes 3D axes exact, in place.
+
+    Parameters
+    ----------
+    axes : Axes3D
+
+    Returns
+    -------
+    Axes3D
+        The same axes.
+    """
+    if not isinstance(axes, Axes3D):
+        raise TypeError(f"3D axes are needed, not {type(axes).__name__}")
+    if not isinstance(axes, _Exact):
+        own = type(axes)
+        axes.__class__ = ExactAxes3D if own is Axes3D else type("Exact" + own.__name__, (_Exact, own), {})
+    return axes
+
+
+def install():
+    """Makes the projection ``"3d"`` exact, for packages that draw on mplot3d."""
+    mprojections.register_projection(ExactAxes3D)
+
+
+def uninstall():
+    """Makes the projection ``"3d"`` that of mplot3d again."""
+    mprojections.register_projection(Axes3D)

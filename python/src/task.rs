@@ -1,0 +1,138 @@
+//! Long operations: the interpreter is released, Ctrl-C and a progress callback can cancel, and errors of the library
+//! become exceptions.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use binspace::{Error, ErrorKind, Progress};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// How often the calling thread looks for signals and calls the callback. Too small: it takes the interpreter from
+/// other threads. Too large: Ctrl-C is late.
+const PULSE: Duration = Duration::from_millis(20);
+
+/// How far an operation is, and whether it shall end: shared by the thread that calls and those that work.
+#[derive(Default)]
+pub(crate) struct Watch {
+    done: AtomicUsize,
+    total: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl Watch {
+    pub(crate) fn report(&self, progress: Progress) -> ControlFlow<()> {
+        self.done.store(progress.done, Ordering::Relaxed);
+        self.total.store(progress.total, Ordering::Relaxed);
+        match self.is_cancelled.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Lets signal handlers and the callback run.
+    fn pulse(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+        Python::attach(|py| {
+            py.check_signals()?;
+            if let Some(progress) = progress {
+                let [done, total] = [&self.done, &self.total].map(|n| n.load(Ordering::Relaxed));
+                progress.call1(py, (done, total))?;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// The operations of a map, one after the other, each with its own watch: the map has one callback for all.
+#[derive(Default)]
+pub(crate) struct Turns {
+    turn: Mutex<()>,
+    watch: Mutex<Arc<Watch>>,
+}
+
+impl Turns {
+    /// Waits until no other operation has its turn.
+    fn take(&self, watch: &Arc<Watch>) -> MutexGuard<'_, ()> {
+        let turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
+        *self.watch.lock().unwrap_or_else(PoisonError::into_inner) = watch.clone();
+        turn
+    }
+
+    pub(crate) fn report(&self, progress: Progress) -> ControlFlow<()> {
+        self.watch.lock().unwrap_or_else(PoisonError::into_inner).report(progress)
+    }
+}
+
+/// Runs `work` without the interpreter, in another thread, once it has its turn. This thread handles signals and calls `progress` with what
+/// is done and how much there is; an exception of either cancels the work.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    watch: &Arc<Watch>,
+    turns: Option<&Turns>,
+    work: impl FnOnce() -> Result<T, Error> + Send,
+) -> PyResult<T> {
+    py.detach(|| {
+        let pool = pool()?;
+        let mut failed = None;
+        let result = std::thread::scope(|scope| {
+            let (end, ended) = channel::<()>();
+            let worker = scope.spawn(move || {
+                // Not within the pool, whose threads may begin this while they wait for parts of other work.
+                let _turn = turns.map(|turns| turns.take(watch));
+                let result = pool.install(work);
+                drop(end);
+                result
+            });
+            while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(PULSE) {
+                if failed.is_none()
+                    && let Err(error) = watch.pulse(progress.as_ref())
+                {
+                    watch.is_cancelled.store(true, Ordering::Relaxed);
+                    failed = Some(error);
+                }
+            }
+            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        });
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        let result = result.map_err(exception)?;
+        if progress.is_some() {
+            watch.pulse(progress.as_ref())?;
+        }
+        Ok(result)
+    })
+}
+
+/// The threads of this process. A fork has none of its parent's threads, and would wait for them forever: it gets a
+/// pool of its own.
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+    let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    match &*pool {
+        Some((of, pool)) if *of == process => return Ok(pool.clone()),
+        // To drop the parent's pool would wait for its threads.
+        Some((_, parents)) => std::mem::forget(parents.clone()),
+        None => {}
+    }
+    let threads = ThreadPoolBuilder::new().build();
+    let threads = threads.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let (_, threads) = pool.insert((process, Arc::new(threads)));
+    Ok(threads.clone())
+}
+
+/// The exception for an error, with the library's words.
+pub(crate) fn exception(error: Error) -> PyErr {
+    let text = error.to_string();
+    match error.kind() {
+        ErrorKind::OutOfMemory => PyMemoryError::new_err(text),
+        ErrorKind::Cancelled => PyRuntimeError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
+}

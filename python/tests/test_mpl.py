@@ -1,0 +1,294 @@
+"""Exact axes: pictures judged pixel by pixel, and that all else is as with mplot3d's axes."""
+
+import io
+import subprocess
+import sys
+
+import binspace.mpl
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from binspace import compare
+from binspace._scenes import SCENES
+from matplotlib.backend_bases import MouseEvent
+from mpl_toolkits.mplot3d import art3d
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+matplotlib.use("Agg")
+VERSION = tuple(map(int, matplotlib.__version__.split(".")[:2]))
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(params=["drawing", "order"])
+def way(request, monkeypatch):
+    """Pictures are painted by a drawing of the view, or by the order of the tree."""
+    if request.param == "order":
+        monkeypatch.setattr(binspace.mpl, "_MOST_PIXELS", -1)
+    return request.param
+
+
+# Scenes that mplot3d draws right at places that are judged, if any.
+NEARLY_RIGHT = {"moebius_strip", "arrows_through_plane"}
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.__name__)
+def test_no_pixel_is_wrong(scene, way):
+    if scene.__name__ == "log_axes" and VERSION < (3, 11):
+        pytest.skip("3D axes have scales from matplotlib 3.11 on")
+    found = {}
+    result = compare.judged(scene, "exact3d", dpi=100, keep=found)
+    assert result.wrong_probes == 0
+    if way == "order":
+        # Without antialiasing, Agg fills each pixel that an area touches: a part of a polygon that was cut reaches a pixel
+        # over what lies in front of the other part.
+        assert not compare._spread(found["wrong"], 1, np.minimum).any() and result.percent < 0.1
+    else:
+        assert result.wrong == 0
+    assert result.judged + result.probes > 900
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.__name__)
+def test_the_judge_finds_what_mplot3d_draws_wrong(scene):
+    if scene.__name__ in NEARLY_RIGHT:
+        pytest.skip("mplot3d draws nearly all of it right")
+    if scene.__name__ == "log_axes" and VERSION < (3, 11):
+        pytest.skip("3D axes have scales from matplotlib 3.11 on")
+    assert compare.judged(scene, "3d", dpi=100).percent > 0.5
+
+
+def picture(draw, projection, **options):
+    figure = plt.figure(figsize=(4, 4), dpi=80)
+    draw(figure.add_subplot(projection=projection), **options)
+    figure.canvas.draw()
+    return np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def one_surface(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
+    ax.plot_surface(x, y, x * y, cmap="viridis", edgecolor="k", lw=0.5)
+
+
+def one_line(ax):
+    t = np.linspace(0, 9, 40)
+    ax.plot(np.cos(t), np.sin(t), t, "r--", marker="o", ms=4, markevery=3)
+
+
+def one_scatter(ax):
+    t = np.linspace(0, 9, 40)
+    ax.scatter(np.cos(t), np.sin(t), t, c=t, s=5 * t + 4, marker="^", edgecolors="k")
+
+
+def one_wireframe(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
+    ax.plot_wireframe(x, y, x + y, color="C1")
+
+
+def bars(ax):
+    ax.bar3d([0, 2], [0, 0], [0, 0], 0.5, 0.5, [1, 2], color=["C0", "C1"], shade=True)
+
+
+def contours(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 40), np.linspace(-2, 2, 40))
+    ax.contour(x, y, np.sin(x) * y, linewidths=[1, 2, 3])
+
+
+def a_patch(ax):
+    patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, hatch="/")
+    ax.add_patch(patch)
+    art3d.pathpatch_2d_to_3d(patch, z=0.5, zdir="y")
+
+
+def a_text(ax):
+    ax.text(0.4, 0.5, 0.6, "text", zdir="x", color="C3", fontsize=20)
+    ax.legend(handles=[matplotlib.lines.Line2D([], [], label="line")])
+
+
+@pytest.mark.parametrize(
+    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, a_patch, a_text]
+)
+def test_what_mplot3d_draws_right_is_the_same(draw, way):
+    before, ours = picture(draw, "3d"), picture(draw, "exact3d")
+    assert (before != 255).any(-1).mean() > 0.1
+    different = np.abs(before - ours).max(-1) > 90
+    assert different.mean() < 0.004
+
+
+@pytest.mark.parametrize("format", ["svg", "pdf", "png"])
+def test_files(format, tmp_path):
+    figure = plt.figure()
+    ax = figure.add_subplot(projection="exact3d")
+    compare.SCENES[0](ax)
+    ax.plot([-2, 2], [-2, 2], [-1, 1], "k")
+    figure.savefig(tmp_path / f"a.{format}")
+    assert (tmp_path / f"a.{format}").stat().st_size > 10_000
+
+
+def test_svg_has_one_path_a_polygon():
+    figure = plt.figure()
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.linspace(-2, 2, 11), np.linspace(-2, 2, 11))
+    ax.plot_surface(x, y, 0 * x, color="#ff0000", shade=False)
+    ax.plot_surface(x, y, x, color="#00ff00", shade=False)
+    ax.set_axis_off()
+    file = io.StringIO()
+    figure.savefig(file, format="svg")
+    # Nothing of the halves that are hidden, and no polygon twice.
+    assert 100 <= file.getvalue().count("fill: #ff0000") + file.getvalue().count("fill: #00ff00") <= 200
+
+
+def test_existing_axes_become_exact():
+    figure, ax = plt.subplots(subplot_kw={"projection": "3d"})
+    assert binspace.mpl.exact(ax) is ax and isinstance(ax, binspace.mpl.ExactAxes3D)
+    assert type(binspace.mpl.exact(ax)) is binspace.mpl.ExactAxes3D
+    compare.SCENES[0](ax)
+    figure.canvas.draw()
+
+    class Own(Axes3D):
+        pass
+
+    own = figure.add_axes(Own(figure))
+    binspace.mpl.exact(own)
+    assert isinstance(own, Own) and type(own).__name__ == "ExactOwn"
+    figure.canvas.draw()
+    with pytest.raises(TypeError):
+        binspace.mpl.exact(plt.figure().add_subplot())
+
+
+def test_install_and_uninstall():
+    try:
+        binspace.mpl.install()
+        assert type(plt.figure().add_subplot(projection="3d")) is binspace.mpl.ExactAxes3D
+    finally:
+        binspace.mpl.uninstall()
+    assert type(plt.figure().add_subplot(projection="3d")) is Axes3D
+    assert type(plt.figure().add_subplot(projection="exact3d")) is binspace.mpl.ExactAxes3D
+
+
+def test_picking_and_coordinates_are_as_before():
+    found = []
+    for projection in ("3d", "exact3d"):
+        figure = plt.figure(figsize=(4, 4), dpi=100)
+        ax = figure.add_subplot(projection=projection)
+        surface = ax.plot_surface(*np.meshgrid(np.linspace(-2, 2, 5), np.linspace(-2, 2, 5)), np.zeros((5, 5)), picker=True)
+        [line] = ax.plot([-2, 2], [0, 0], [1, 1], picker=5)
+        points = ax.scatter([0, 1], [0, 1], [1.5, 1.5], picker=True)
+        figure.canvas.draw()
+        events = []
+        for x in range(60, 340, 20):
+            for y in range(60, 340, 20):
+                event = MouseEvent("motion_notify_event", figure.canvas, x, y)
+                contains = [artist.contains(event) for artist in (surface, line, points)]
+                events.append([(bool(inside), np.sort(np.asarray(what.get("ind", []))).tolist()) for inside, what in contains])
+        found.append((events, ax.format_coord(0.01, 0.02), ax.get_children()[1:3] == [line, points] or len(ax.get_children())))
+    assert found[0][:2] == found[1][:2]
+    assert any(inside for event in found[0][0] for inside, _ in event)
+
+
+def test_orders_of_equals_and_zorders_stay():
+    """Of polygons in one plane the later one is above, and that of the larger z-order."""
+    square = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]], float)
+    for zorders, expected in (((1, 1), (0, 0, 255)), ((2, 1), (255, 0, 0))):
+        figure = plt.figure(figsize=(3, 3), dpi=50)
+        ax = figure.add_subplot(projection="exact3d")
+        artists = []
+        for color, zorder in zip(("#ff0000", "#0000ff"), zorders):
+            artists.append(ax.add_collection3d(art3d.Poly3DCollection(square, facecolor=color, zorder=zorder)))
+        ax.set_zlim(-1, 1)
+        for _ in range(2):
+            figure.canvas.draw()
+            image = np.asarray(figure.canvas.buffer_rgba())[..., :3]
+            x, y = ax.transData.transform(compare.View(ax)(np.zeros(3))[0] * 0)
+            pixels, _ = compare.View(ax)(np.array([[0.5, 0.5, 0.0]]))
+            column, row = np.floor(pixels[0]).astype(int)
+            assert tuple(image[row, column]) == expected
+        assert tuple(artist.zorder for artist in artists) == zorders
+
+
+def test_computed_zorder_off_is_left_to_mplot3d():
+    images = []
+    for projection in ("3d", "exact3d"):
+        figure = plt.figure(figsize=(3, 3), dpi=50)
+        ax = figure.add_subplot(projection=projection, computed_zorder=False)
+        compare.SCENES[0](ax)
+        figure.canvas.draw()
+        images.append(np.asarray(figure.canvas.buffer_rgba()))
+    assert np.array_equal(*images)
+
+
+def test_the_tree_is_kept_while_data_are_the_same():
+    figure = plt.figure(figsize=(3, 3), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    compare.SCENES[1](ax)
+    figure.canvas.draw()
+    built = ax._exact_built
+    ax.view_init(10, 20)
+    figure.canvas.draw()
+    assert ax._exact_built is built
+    ax.plot([0, 1], [0, 1], [0, 1])
+    figure.canvas.draw()
+    assert ax._exact_built is not built
+
+
+def test_nan_empty_and_hidden_artists_draw():
+    figure = plt.figure(figsize=(3, 3), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    figure.canvas.draw()
+    x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
+    z = x + y
+    z[3, 4] = np.nan
+    ax.plot_surface(x, y, z)
+    ax.plot([0, np.nan, 1, 2], [0, 1, np.nan, 1], [0, 0, 0, 1], "o-")
+    ax.plot([], [], [])
+    ax.plot([1], [1], [1])
+    ax.scatter([], [], [])
+    ax.scatter([0, np.nan], [0, 1], [0, 1])
+    ax.text(0, 0, np.nan, "nowhere")
+    ax.text(0, 0, 0, "")
+    ax.add_collection3d(art3d.Poly3DCollection(np.empty((0, 4, 3))))
+    ax.plot_surface(x, y, z - 1).set_visible(False)
+    figure.canvas.draw()
+    # Some corners are behind the eye.
+    ax.plot_surface(40 * x, 40 * y, z)
+    ax.plot([-90, 90], [-90, 90], [0, 0])
+    ax.set_xlim(-1, 1)
+    ax.set_ylim(-1, 1)
+    figure.canvas.draw()
+
+
+@pytest.mark.skipif(VERSION < (3, 10), reason="axlim_clip is from matplotlib 3.10 on")
+def test_what_is_outside_of_the_limits_is_clipped():
+    x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
+
+    def draw(ax):
+        ax.plot_surface(x, y, x + y, axlim_clip=True)
+        ax.plot([-3, 0, 3, 3], [0, 0, 0, 1], [1, 1, 1, 1], "k", axlim_clip=True)
+        ax.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), zlim=(-3, 3))
+
+    different = np.abs(picture(draw, "3d") - picture(draw, "exact3d")).max(-1) > 90
+    assert different.mean() < 0.004
+
+
+FIRST_TRY = """
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import binspace.mpl
+ax = plt.figure().add_subplot(projection="exact3d")
+x, y = np.meshgrid(np.linspace(-2, 2, 20), np.linspace(-2, 2, 20))
+ax.plot_surface(x, y, np.sin(x))
+ax.plot_surface(x, y, np.cos(y))
+ax.plot([-2, 2], [-2, 2], [-1, 1])
+plt.savefig("first.png")
+"""
+
+
+def test_a_first_try(tmp_path):
+    subprocess.run([sys.executable, "-c", FIRST_TRY], check=True, cwd=tmp_path)
+    assert (tmp_path / "first.png").stat().st_size > 10_000

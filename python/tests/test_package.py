@@ -1,0 +1,28 @@
+"""The README's code runs, and the stubs describe the module."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+README = pathlib.Path(__file__).parents[1] / "README.md"
+BLOCKS = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.split("\n")[0])
+def test_code_of_the_readme(block, tmp_path):
+    options = ["-c", "import matplotlib; matplotlib.use('Agg')\n" + block]
+    subprocess.run([sys.executable, *options], check=True, cwd=tmp_path)
+    for file in re.findall(r'"(\w+\.(?:svg|pdf))"', block):
+        assert (tmp_path / file).stat().st_size > 500
+
+
+def test_there_is_code_to_run():
+    assert len(BLOCKS) == 3
+
+
+def test_stubs():
+    pytest.importorskip("mypy")
+    subprocess.run([sys.executable, "-m", "mypy.stubtest", "binspace._binspace"], check=True)
