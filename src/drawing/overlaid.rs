@@ -71,8 +71,8 @@ impl VisibilityMap<'_> {
     /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
-    /// O(n log n) for n segments and faces in most scenes, plus the number of segments and faces that have points in
-    /// common; hidden faces are among these only with [`Hidden::Count`].
+    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of pairs that
+    /// have points in common.
     ///
     /// # Errors
     ///

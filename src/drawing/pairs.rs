@@ -195,7 +195,7 @@ fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool
 }
 
 /// The box around leaves.
-fn around(leaves: &[Leaf]) -> Rect {
+pub(super) fn around(leaves: &[Leaf]) -> Rect {
     leaves.iter().fold(NOWHERE, |[low, high], leaf| {
         let [from, to] = leaf.tile.sides();
         let axes = [0, 1];

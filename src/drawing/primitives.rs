@@ -39,8 +39,8 @@ pub(super) struct View {
     pub(super) is_opaque: bool,
     /// Whether its edges in the picture go through its corners as given.
     pub(super) is_as_given: bool,
-    /// The first and the last of its items; `u32::MAX` if it has none.
-    pub(super) items: [u32; 2],
+    /// The last of its items, if it has some.
+    pub(super) last: u32,
     /// Where the half-planes that bound it begin and end.
     halves: [u32; 2],
 }
@@ -94,8 +94,7 @@ impl<'t> Primitives<'t> {
         let item = |index: u32| primitives.item(&tree.fragment(index));
         primitives.items = shared(&order, item, watch)?;
         for (number, item) in (0..).zip(&primitives.items) {
-            let View { items: [first, last], .. } = &mut primitives.views[item.face as usize];
-            (*first, *last) = (number.min(*first), number);
+            primitives.views[item.face as usize].last = number;
         }
         primitives.add_halves(watch)?;
         Ok(primitives)
@@ -202,7 +201,7 @@ impl<'t> Primitives<'t> {
             side,
             is_opaque: false,
             is_as_given: false,
-            items: [u32::MAX; 2],
+            last: 0,
             halves: [0; 2],
         };
         let opacity = self.opacity(face);

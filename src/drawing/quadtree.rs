@@ -182,8 +182,8 @@ fn shared<P: Send, F: Send + Default>(
 /// So many faces at most, the front ones, are compared with a tile that all their items together may cover.
 const FACES: usize = 8;
 
-/// What the candidates of a list are: numbers of items, front to back, or of whole faces, by their first items.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the candidates of a list are: numbers of items, front to back, or of whole faces.
+#[derive(Clone, Copy, Debug)]
 enum Of {
     Items,
     Faces,
@@ -203,7 +203,7 @@ impl Candidate {
     }
 }
 
-/// The items or faces that may reach into a part of the picture, front to back.
+/// The items, front to back, or the faces that may reach into a part of the picture.
 #[derive(Debug)]
 pub(super) struct Candidates<'p> {
     pub(super) primitives: &'p Primitives<'p>,
@@ -236,9 +236,7 @@ impl<'p> Candidates<'p> {
     ) -> Result<Self, Error> {
         let mut all = Self::none(primitives, Of::Faces);
         let faces = 0..primitives.views.len() as u32;
-        let mut faces: Vec<u32> = faces.filter(|&f| primitives.sees(f) && keep(f)).collect();
-        faces.sort_by_key(|&face| primitives.views[face as usize].items[0]);
-        for face in faces {
+        for face in faces.filter(|&face| primitives.sees(face) && keep(face)) {
             all.push(face, primitives.outline(face))?;
         }
         Ok(all)
@@ -249,7 +247,7 @@ impl<'p> Candidates<'p> {
         Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
     }
 
-    /// The same, without what is hidden behind something opaque that covers a part of the picture.
+    /// The same items, without what is hidden behind one that is opaque and covers a part of the picture.
     pub(super) fn ending_at_covers(self) -> Self {
         Self { ends_at_cover: true, ..self }
     }
@@ -282,14 +280,6 @@ impl<'p> Candidates<'p> {
         }
     }
 
-    /// The first and the last item of a candidate.
-    fn items_of(&self, number: u32) -> [u32; 2] {
-        match self.of {
-            Of::Items => [number; 2],
-            Of::Faces => self.primitives.views[number as usize].items,
-        }
-    }
-
     /// Whether a candidate hides what is behind it, and the list is without what is hidden.
     pub(super) fn hides(&self, number: u32) -> bool {
         self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
@@ -304,8 +294,7 @@ impl<'p> Candidates<'p> {
         let mut part = Self { list, halves, ..*self };
         'candidates: for candidate in &self.list {
             let number = candidate.number;
-            let [first, last] = self.items_of(number);
-            if first > part.limit {
+            if number > part.limit {
                 break;
             }
             let around = self.around(number);
@@ -325,11 +314,11 @@ impl<'p> Candidates<'p> {
             }
             let end = part.halves.len();
             if start == end && self.hides(number) {
-                part.limit = part.limit.min(last);
+                part.limit = number;
             }
             part.list.push(Candidate { number, halves: [place(start)?, place(end)?] });
         }
-        if self.ends_at_cover && self.of == Of::Items {
+        if self.ends_at_cover {
             part.end_at_face(sides);
         }
         Ok(part)
@@ -345,7 +334,7 @@ impl<'p> Candidates<'p> {
                 break;
             }
             let face = primitives.face(candidate.number);
-            let View { items: [_, last], is_opaque, .. } = primitives.views[face as usize];
+            let View { last, is_opaque, .. } = primitives.views[face as usize];
             // If items of it are missing from the list, the others alone may not cover the box.
             let is_in_list = last <= self.limit;
             if is_opaque && is_in_list && !tried.contains(&face) && primitives.covers(face, sides) {

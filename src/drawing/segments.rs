@@ -11,8 +11,10 @@ use super::cell::{Cell, Corner, NOWHERE, Rect, are_apart, side_on_line};
 use super::edges::SHORTEST;
 use super::lines::{ExactLine, Image, LineTable, Rounded, meeting, side_at};
 use super::map::{VisibilityMap, sort_by};
+use super::pairs::around;
+use super::primitives::Primitives;
 use super::quadtree::{
-    CUT, Candidates, NARROWED, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
+    CUT, Candidates, Leaf, NARROWED, SubTile, TINIEST, Tile, TileList, VISITED, Visible, found_in,
 };
 use crate::Error;
 use crate::exact::{Faces, Int, PlaneId, PreparedPlane};
@@ -455,6 +457,7 @@ pub(super) fn passes<'p>(
     wants_behind_only: bool,
     watch: &Watch<'_>,
 ) -> Result<Passes, Error> {
+    let primitives = candidates.primitives;
     type Part<'p> = (TileList<'p>, Passing<'p>);
     let halves = |(list, passing): &Part<'p>| {
         if passing.is_empty() || list.open() <= FEW || list.is_small(TINIEST) {
@@ -472,31 +475,41 @@ pub(super) fn passes<'p>(
             return Ok(());
         }
         let whole = SubTile::new(list, passing.clone(), watch)?;
-        whole.for_each_part(|part| found.add(&part, wants_behind_only, watch), watch)
+        let see = |part: SubTile<'_, '_>| {
+            let face = |number: u32| part.candidates.face(number);
+            found.add(primitives, &part.pieces, face, &part.passing, wants_behind_only, watch)
+        };
+        whole.for_each_part(see, watch)
     };
     let all = (TileList::picture(candidates, watch)?, passing);
-    let mut passes = Passes::default();
-    for mut found in found_in(all, halves, leaf, watch)? {
-        passes.segments.append(&mut found.segments);
-        passes.points.append(&mut found.points);
-    }
-    Ok(passes)
+    Ok(Passes::joined(found_in(all, halves, leaf, watch)?))
 }
 
 impl Passes {
-    /// Adds the passes in a part of the picture.
-    fn add(
+    fn joined(parts: Vec<Self>) -> Self {
+        let mut joined = Self::default();
+        for mut part in parts {
+            joined.segments.append(&mut part.segments);
+            joined.points.append(&mut part.points);
+        }
+        joined
+    }
+
+    /// Adds where pieces, which have the numbers of items or faces, are passed.
+    fn add<'c>(
         &mut self,
-        part: &SubTile<'_, '_>,
+        primitives: &Primitives<'_>,
+        pieces: impl IntoIterator<Item = &'c Visible>,
+        face: impl Fn(u32) -> u32,
+        passing: &Passing<'_>,
         wants_behind_only: bool,
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
-        let Passing { segments, points, near_segments, near_points } = &part.passing;
-        let primitives = part.candidates.primitives;
+        let Passing { segments, points, near_segments, near_points } = passing;
         let lines = &primitives.lines;
-        for Visible { item: piece, cell } in &part.pieces {
+        for Visible { item: piece, cell } in pieces {
             watch.work((near_segments.len() + near_points.len()) * CUT)?;
-            let (around, face) = (cell.around(), part.candidates.face(*piece));
+            let (around, face) = (cell.around(), face(*piece));
             let side = primitives.views[face as usize].side;
             for &number in near_segments {
                 let segment = &segments[number as usize];
@@ -598,21 +611,49 @@ pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] 
 impl VisibilityMap<'_> {
     /// Where faces are in front of segments, sorted by segments, polygons and places, and in front of points: a phase.
     /// Hidden and translucent faces are among them only if all are wanted.
-    pub(super) fn in_front(
-        &self,
-        passing: Passing<'_>,
+    pub(super) fn in_front<'l>(
+        &'l self,
+        passing: Passing<'l>,
         wants_all: bool,
         watch: &Watch<'_>,
     ) -> Result<Passes, Error> {
         let primitives = &self.primitives;
-        let is_wanted = |face: u32| wants_all || primitives.views[face as usize].is_opaque;
-        let faces = Candidates::faces(primitives, is_wanted)?;
-        let faces = if wants_all { faces } else { faces.ending_at_covers() };
-        let mut passes = passes(faces, passing, true, watch)?;
+        let mut passes = match wants_all {
+            true => passes(Candidates::faces(primitives, |_| true)?, passing, true, watch)?,
+            false => self.behind_visible(passing, watch)?,
+        };
         let key = |pass: &Pass| (pass.segment, primitives.lines.frame.faces.polygon(pass.piece));
         sort_by(&mut passes.segments, watch, |a, b| {
             key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
         })?;
+        Ok(passes)
+    }
+
+    /// Where visible parts of opaque faces are in front of segments and points: a phase.
+    fn behind_visible<'l>(
+        &'l self,
+        passing: Passing<'l>,
+        watch: &Watch<'_>,
+    ) -> Result<Passes, Error> {
+        type Part<'l> = (&'l [Leaf], Passing<'l>);
+        let primitives = &self.primitives;
+        let halves = |(leaves, passing): &Part<'l>| {
+            if leaves.len() < 2 || passing.is_empty() {
+                return Ok(None);
+            }
+            watch.work((passing.near_segments.len() + passing.near_points.len()) * NARROWED)?;
+            let (first, second) = leaves.split_at(leaves.len() / 2);
+            Ok(Some([first, second].map(|leaves| (leaves, passing.near(&around(leaves))))))
+        };
+        let leaf = |(leaves, passing): &Part<'l>, found: &mut Passes| {
+            let opaque = leaves.iter().flat_map(|leaf| &leaf.cells);
+            let opaque = opaque.filter(|visible| primitives.is_opaque(visible.item));
+            let face = |item: u32| primitives.face(item);
+            found.add(primitives, opaque, face, passing, true, watch)
+        };
+        let all = (&self.leaves[..], passing);
+        let mut passes = Passes::joined(found_in(all, halves, leaf, watch)?);
+        passes.segments.iter_mut().for_each(|pass| pass.piece = primitives.face(pass.piece));
         Ok(passes)
     }
 }
