@@ -133,7 +133,7 @@ impl Error {
 pub enum ErrorKind {
     /// A number of a polygon, option or argument is out of range.
     InvalidInput,
-    /// A point lies outside the tree's grid.
+    /// A polygon, line or point of an overlay or a cell lies outside the tree's grid.
     OutOfBounds,
     /// A body has an open edge, so it has no inside.
     OpenBody,
@@ -162,7 +162,7 @@ pub enum ErrorKind {
     Io,
 }
 
-/// Shows the message, as programs print it whose `main` returns the error.
+/// Shows the message, because programs print `Debug` if `main` returns the error.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Error").field(&self.to_string()).finish()
@@ -317,15 +317,12 @@ impl fmt::Display for Error {
             ),
             Kind::Argument(problem) => f.write_str(problem),
             Kind::File(FileFault { name, line, problem }) => {
-                f.write_str(name)?;
-                if let Some(line) = line {
-                    write!(f, ", line {line}")?;
-                }
-                if let Some((_, face)) = self.blamed {
-                    write!(f, ", face {face} (from 0)")?;
-                }
-                if !name.is_empty() {
-                    f.write_str(": ")?;
+                let line = line.map(|line| format!("line {line}"));
+                let face = self.blamed.map(|(_, face)| format!("face {face} (from 0)"));
+                let name = Some(name).filter(|name| !name.is_empty()).cloned();
+                let place: Vec<String> = [name, line, face].into_iter().flatten().collect();
+                if !place.is_empty() {
+                    write!(f, "{}: ", place.join(", "))?;
                 }
                 problem.fmt(f)
             }

@@ -201,18 +201,18 @@ impl Bounds {
     }
 }
 
-/// So many boxes, in blocks.
+/// `len` boxes in blocks.
 fn blocks(len: usize, flat: impl Fn(usize) -> Flat) -> Vec<Block> {
     (0..len).step_by(BLOCK).map(|first| Block::new((first..len).map(&flat))).collect()
 }
 
-/// The blocks of so many boxes, the blocks of the boxes around these, and so on.
+/// The blocks of `len` boxes, the blocks of the boxes around these, and so on.
 fn levels(mut len: usize, blocks: Vec<Block>) -> Vec<Vec<Block>> {
     let mut levels = vec![blocks];
     while let Some(last) = levels.last().filter(|last| last.len() > 1) {
-        let blocks = |first| last.iter().zip((0..len).step_by(BLOCK)).skip(first);
-        let of = |first| Block::new(blocks(first).map(|(block, first)| block.all(len - first)));
-        let next = (0..last.len()).step_by(BLOCK).map(of).collect();
+        let whole: Vec<Flat> =
+            last.iter().enumerate().map(|(k, block)| block.all(len - k * BLOCK)).collect();
+        let next = whole.chunks(BLOCK).map(|boxes| Block::new(boxes.iter().copied())).collect();
         len = last.len();
         levels.push(next);
     }

@@ -232,8 +232,11 @@ impl BspTree {
     /// All fragments, in the order of their numbers.
     pub fn fragments(
         &self,
-    ) -> impl DoubleEndedIterator<Item = Fragment<'_>> + ExactSizeIterator + FusedIterator + Clone
-    {
+    ) -> impl DoubleEndedIterator<Item = Fragment<'_>>
+    + ExactSizeIterator
+    + FusedIterator
+    + Clone
+    + fmt::Debug {
         (0..self.len() as u32).map(|index| self.fragment(index))
     }
 }

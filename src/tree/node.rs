@@ -244,7 +244,8 @@ impl BspTree {
     /// O(nodes) for all of them.
     pub fn nodes(
         &self,
-    ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone {
+    ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone + fmt::Debug
+    {
         Nodes { tree: self, walk: Walk::new(self), left: self.nodes.len() }
     }
 }

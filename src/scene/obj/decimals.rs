@@ -30,7 +30,7 @@ const DIGITS_OF_STRAYS: i32 = 3;
 /// case numbers of different size have as many digits, which otherwise only the largest numbers have. Zeros
 /// that a program adds at the end do not count; zeros that it omits there do no harm, because the longest
 /// numbers decide. The exceptions are numbers far longer than nearly all others: see
-/// [`Digits::without_noise`] and [`Decimals::counted`].
+/// `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,

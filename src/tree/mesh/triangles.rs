@@ -166,14 +166,16 @@ impl Triangles {
     /// are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
     /// The vertices of the pieces are numbered after those of the tree's mesh: put both into one vertex
-    /// buffer, the pieces' after the tree's. Lines and points in the order have no triangles.
+    /// buffer, the pieces' after the tree's. Lines and points in the order have no triangles. After each
+    /// [`replace`](crate::overlay::Overlay::replace) of the overlay, make its mesh again: triangles of an
+    /// earlier one do not fit the new order.
     ///
     /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
-    /// If `indices` is too short, or `pieces` are not those of an overlay of the same tree. Then nothing is
-    /// written.
+    /// If `indices` is too short, if `pieces` are not those of an overlay of the same tree, or if there are
+    /// more than 2³² vertices. Then nothing is written.
     ///
     /// # Panics
     ///
@@ -187,6 +189,9 @@ impl Triangles {
         let is_of_one_tree = self.generation == pieces.generation;
         if !is_of_one_tree || self.first != 0 || pieces.first != self.starts.len() - 1 {
             return Err(Kind::MeshOfOtherTree.error());
+        }
+        if self.vertices.checked_add(pieces.vertices).is_none() {
+            return Err(Kind::Indices.error());
         }
         let is_piece = |number: u32| number as usize >= pieces.first;
         let of = |number: u32| if is_piece(number) { pieces } else { self };
@@ -225,7 +230,9 @@ impl Triangles {
 
     /// If each fragment has N indices, their place follows from the fragment's number.
     fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
-        let (all, places) = (self.indices.as_chunks::<N>().0, places.as_chunks_mut::<N>().0);
+        // Without the room after the last fragment's indices: a number beyond it panics.
+        let all = &self.indices.as_chunks::<N>().0[..self.starts.len() - 1];
+        let places = places.as_chunks_mut::<N>().0;
         for (&fragment, place) in order.iter().zip(places) {
             *place = all[fragment as usize];
         }
