@@ -287,7 +287,8 @@ impl Graph<'_> {
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
         let mut waits: Vec<u32> = vec![0; nodes];
-        for &pair in self.pairs {
+        for pair in each(self.watch, 1, self.pairs) {
+            let pair = *pair?;
             waits[pair.above as usize] += u32::from(self.holds(pair));
         }
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
@@ -367,7 +368,8 @@ impl<'p> Graph<'p> {
         }
         let (is_clipped, component) = (vec![false; nodes], vec![NONE; nodes]);
         let mut is_seen_through = vec![false; nodes];
-        for pair in pairs {
+        for pair in each(watch, 1, pairs) {
+            let pair = pair?;
             is_seen_through[pair.below as usize] |= !is_opaque(pair.above);
         }
         let (number, least) = (vec![NONE; nodes], vec![NONE; nodes]);
