@@ -185,8 +185,8 @@ def test_picking_and_coordinates_are_as_before():
                 event = MouseEvent("motion_notify_event", figure.canvas, x, y)
                 contains = [artist.contains(event) for artist in (surface, line, points)]
                 events.append([(bool(inside), np.sort(np.asarray(what.get("ind", []))).tolist()) for inside, what in contains])
-        found.append((events, ax.format_coord(0.01, 0.02), ax.get_children()[1:3] == [line, points] or len(ax.get_children())))
-    assert found[0][:2] == found[1][:2]
+        found.append((events, ax.format_coord(0.01, 0.02)))
+    assert found[0] == found[1]
     assert any(inside for event in found[0][0] for inside, _ in event)
 
 
@@ -203,7 +203,6 @@ def test_orders_of_equals_and_zorders_stay():
         for _ in range(2):
             figure.canvas.draw()
             image = np.asarray(figure.canvas.buffer_rgba())[..., :3]
-            x, y = ax.transData.transform(compare.View(ax)(np.zeros(3))[0] * 0)
             pixels, _ = compare.View(ax)(np.array([[0.5, 0.5, 0.0]]))
             column, row = np.floor(pixels[0]).astype(int)
             assert tuple(image[row, column]) == expected

@@ -488,7 +488,8 @@ class _Built:
         self.middle, self.scale = low + (high - low) / 2, np.where(high > low, (high - low) / 2, 1.0)
         points, lines, markers = ((part - self.middle) / self.scale for part in (points, lines, markers))
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
-        bounds = [-np.ones(3), np.ones(3)]
+        # A little larger, as quotients are rounded.
+        bounds = [np.full(3, -1.001), np.full(3, 1.001)]
         self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds)
         line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
         self.overlay = self.tree.overlay((lines, line_offsets), markers)
@@ -567,6 +568,8 @@ class _Shown:
         self.polygon = self.line = self.segment = self.marker = np.empty(0, int)
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
+        # Paths of areas, and whether all of their sides are edges of their polygons.
+        self.fills, self.is_whole = [], np.empty(0, bool)
 
     def sort_markers(self, depths):
         """Sorts markers that follow one another by depth: those that are in one plane with the eye overlap as well."""
@@ -576,10 +579,6 @@ class _Shown:
         depth[is_marker] = depths[self.marker[self.numbers[is_marker]]]
         order = np.lexsort([-depth, run])
         self.kinds, self.numbers = self.kinds[order], self.numbers[order]
-
-    # Paths of areas, by number, and whether all of their sides are edges of their polygons.
-    fills: list
-    is_whole: np.ndarray
 
     def stroke(self, number):
         """The path of those sides of an area that are edges of its polygon."""
@@ -822,7 +821,7 @@ class _Composite(martist.Artist):
             try:
                 shown = _Drawn(built, built.matrix(matrix), to_display, size, is_opaque, traps, are_texts)
             except ValueError:
-                # The view is too narrow for a drawing, or too skewed.
+                # The view is too narrow or too skewed for a drawing. An order has no such limits.
                 pass
         if shown is None:
             shown = _Ordered(built, built.matrix(matrix), to_display)
