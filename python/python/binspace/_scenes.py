@@ -1,6 +1,8 @@
 """Scenes that matplotlib's 3D axes are known to draw wrong: each function draws one on given axes."""
 
 import numpy as np
+from matplotlib.patches import Circle, Rectangle
+from matplotlib.tri import Triangulation
 from mpl_toolkits.mplot3d import art3d
 
 
@@ -108,9 +110,7 @@ def interlocking_rings(ax):
 def moebius_strip(ax):
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 60), np.linspace(-0.4, 0.4, 6))
     u, v = u.ravel(), v.ravel()
-    import matplotlib.tri as mtri
-
-    triangles = mtri.Triangulation(u, v).triangles
+    triangles = Triangulation(u, v).triangles
     x, y, z = (1 + v * np.cos(u / 2)) * np.cos(u), (1 + v * np.cos(u / 2)) * np.sin(u), v * np.sin(u / 2)
     ax.plot_trisurf(x, y, z, triangles=triangles, color="C0")
     ax.plot([-1.5, 1.5], [0.3, -0.2], [0.1, 0.0], color="C3", lw=3)
@@ -149,8 +149,6 @@ def close_perspective(ax):
 
 
 def discs_on_walls(ax):
-    from matplotlib.patches import Circle, Rectangle
-
     for z, color in ((0.0, "C0"), (0.5, "C1")):
         patch = Circle((0.5, 0.5), 0.4, color=color)
         ax.add_patch(patch)

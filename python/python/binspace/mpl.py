@@ -483,8 +483,13 @@ class _Built:
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
         valid = everything[~np.isnan(everything).any(1)]
-        bounds = [valid.min(0), valid.max(0)] if len(valid) else None
+        # Coordinates of the tree are from -1 to 1: axes may have very different scales.
+        low, high = (valid.min(0), valid.max(0)) if len(valid) else (-np.ones(3), np.ones(3))
+        self.middle, self.scale = low + (high - low) / 2, np.where(high > low, (high - low) / 2, 1.0)
+        points, lines, markers = ((part - self.middle) / self.scale for part in (points, lines, markers))
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
+        # A little larger, as quotients are rounded.
+        bounds = [np.full(3, -1.001), np.full(3, 1.001)]
         self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds)
         line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
         self.overlay = self.tree.overlay((lines, line_offsets), markers)
@@ -502,6 +507,12 @@ class _Built:
         places = np.zeros((len(self.corners), 2))
         self.paths = _paths(places, codes, self.closed)
         self.strokes = {}
+
+    def matrix(self, matrix):
+        """A matrix for points in the coordinates of the tree."""
+        placed = np.diag([*self.scale, 1.0])
+        placed[:3, 3] = self.middle
+        return matrix @ placed
 
     def is_of(self, *given):
         return all(
@@ -557,10 +568,17 @@ class _Shown:
         self.polygon = self.line = self.segment = self.marker = np.empty(0, int)
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
+        # Paths of areas, and whether all of their sides are edges of their polygons.
+        self.fills, self.is_whole = [], np.empty(0, bool)
 
-    # Paths of areas, by number, and whether all of their sides are edges of their polygons.
-    fills: list
-    is_whole: np.ndarray
+    def sort_markers(self, depths):
+        """Sorts markers that follow one another by depth: those that are in one plane with the eye overlap as well."""
+        is_marker = self.kinds == 2
+        run = np.cumsum(np.append(True, ~(is_marker[1:] & is_marker[:-1]))[: len(is_marker)])
+        depth = np.zeros(len(run))
+        depth[is_marker] = depths[self.marker[self.numbers[is_marker]]]
+        order = np.lexsort([-depth, run])
+        self.kinds, self.numbers = self.kinds[order], self.numbers[order]
 
     def stroke(self, number):
         """The path of those sides of an area that are edges of its polygon."""
@@ -795,12 +813,20 @@ class _Composite(martist.Artist):
         to_display = axes.transData.get_matrix()
         size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
         matrix = np.asarray(axes.M, float)
-        if _is_quick(axes, built, renderer):
-            shown = _Ordered(built, matrix, to_display)
-        else:
+        shown = None
+        if not _is_quick(axes, built, renderer):
             traps = self.looks.smooth & (alpha >= 1)
             texts = np.array([isinstance(artist, art3d.Text3D) for artist in self.sources] + [False])
-            shown = _Drawn(built, matrix, to_display, size, is_opaque, traps, texts[self.marker_owner])
+            are_texts = texts[self.marker_owner]
+            try:
+                shown = _Drawn(built, built.matrix(matrix), to_display, size, is_opaque, traps, are_texts)
+            except ValueError:
+                # The view is too narrow or too skewed for a drawing. An order has no such limits.
+                pass
+        if shown is None:
+            shown = _Ordered(built, built.matrix(matrix), to_display)
+        homogeneous = markers @ matrix[2:, :3].T + matrix[2:, 3]
+        shown.sort_markers(homogeneous[:, 0] / homogeneous[:, 1])
         self._paint(renderer, sources, shown, lambda points: _displayed(matrix, to_display, points))
         for artist in self.sources:
             artist.stale = False
