@@ -364,7 +364,10 @@ def test_progress_and_cancel():
 
 
 ENDLESS = """
+import signal
 import numpy as np, binspace
+# Programs in the background of a shell ignore it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 random = np.random.default_rng(1)
 polygons = random.uniform(-1, 1, (3000, 3, 3))
 print("begins", flush=True)

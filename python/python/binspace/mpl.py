@@ -1022,12 +1022,16 @@ def _paint_scatter(renderer, artist, rows, at):
         return result
 
     def of_rows(values):
-        return [values[row % len(values)] for row in rows] if len(values) else values
+        if len(values) < 2:
+            return values
+        chosen = [values[row % len(values)] for row in rows]
+        # Agg rounds the places of markers where all are alike, and so only where all of the artist's are.
+        return chosen * 2 if len(chosen) == 1 else chosen
 
     face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
     paths = artist.get_paths()
     sizes, widths = np.atleast_1d(artist._sizes3d), np.atleast_1d(artist._linewidths3d)
-    batch = mcoll.PathCollection(of_rows(paths) if len(paths) > 1 else paths, sizes=of_rows(sizes))
+    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=of_rows(sizes))
     _take_style(batch, artist)
     batch.set_facecolor(np.array(of_rows(face)).reshape(-1, 4))
     batch.set_edgecolor(np.array(of_rows(edge)).reshape(-1, 4))
