@@ -166,8 +166,8 @@ impl Faces {
         self.len() - self.thin.segments - self.thin.points
     }
 
-    /// How many of a face's corners, from the first on, are part of it: all; two of a segment; one of a
-    /// point.
+    /// The number of a face's corners, from the first on, that belong to it: all; two of a segment; one of
+    /// a point.
     pub(crate) fn reach(&self, face: u32) -> usize {
         let Thin { segments, points } = self.thin;
         let from_end = self.len() - face as usize;

@@ -173,7 +173,7 @@ impl Scene {
         Self { precision, ..self }
     }
 
-    /// Gives it another name.
+    /// Changes the name.
     #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
@@ -211,9 +211,9 @@ impl Scene {
         (0..self.len()).map(polygon)
     }
 
-    /// How far corners may be off the planes that they were meant to be on, a length: of a scene
-    /// from an OBJ file, four units in the last decimal that its coordinates need. (Corners off by half a
-    /// unit each way put one off the plane of three others by three and a half, in a parallelogram.) 0 in
+    /// The largest distance of corners from their intended planes, a length. For a scene from an OBJ file,
+    /// four units in the last decimal that its coordinates need. (In a parallelogram whose corners are off
+    /// by half a unit each way, one corner is off the plane of the three others by three and a half.) 0 in
     /// generated scenes, unless [`with_precision`](Self::with_precision) sets it.
     pub fn precision(&self) -> f64 {
         self.precision

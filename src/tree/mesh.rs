@@ -139,7 +139,7 @@ impl Mesh {
         Ok(Self { parts, triangles })
     }
 
-    /// How many vertices there are.
+    /// The number of vertices.
     pub fn len(&self) -> usize {
         self.parts.vertices.len()
     }

@@ -65,7 +65,7 @@ impl Parts {
         Stored { records, vertices, positions }
     }
 
-    /// Forgets all.
+    /// Removes everything.
     pub(crate) fn clear(&mut self) {
         self.nodes.clear();
         self.records.clear();

@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 /// The number of consecutive faces that share a ball.
 const RUN: usize = 16;
 
-/// The faces of a tree, or of a tree and an overlay, made ready for rays.
+/// The faces of a tree, or of a tree and an overlay, prepared for rays.
 pub struct Oracle<'t> {
     tree: &'t BspTree,
     overlay: Option<&'t Overlay>,
@@ -265,7 +265,7 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// That of an overlay's hits. The faces are the tree's, and those of the overlay's polygons.
+    /// The oracle of an overlay's hits. The faces are the tree's, and those of the overlay's polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }

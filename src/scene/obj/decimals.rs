@@ -95,7 +95,7 @@ impl Digits {
 }
 
 impl Decimals {
-    /// Notes a number, which is finite, as it is written and as it is read.
+    /// Records a finite number, as written and as read.
     pub fn see(&mut self, number: &str, value: f64) {
         self.numbers += 1;
         self.largest = self.largest.max(value.abs());

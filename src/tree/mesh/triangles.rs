@@ -19,9 +19,9 @@ pub struct Triangles {
     generation: u64,
     /// The number of the first fragment in orders: 0, or that of an overlay's first piece.
     first: usize,
-    /// How many vertices the mesh has.
+    /// The number of the mesh's vertices.
     pub(super) vertices: u32,
-    /// Where each fragment's indices begin, and the end of the last.
+    /// The first index of each fragment, and the end of the last.
     starts: Vec<u32>,
     /// [`CHUNK`] more than are used.
     indices: Vec<u32>,
@@ -67,7 +67,7 @@ impl Triangles {
         &mut self.indices[range]
     }
 
-    /// Those of some fragments alone, by their indices.
+    /// The triangles of some fragments only, chosen by their indices.
     pub(super) fn of_fragments(&self, keep: impl Fn(&[u32]) -> bool) -> Result<Self, Error> {
         let fragments = 0..self.starts.len() - 1;
         let kept = |at| Some(&self.indices[self.range_at(at)]).filter(|indices| keep(indices));
