@@ -27,7 +27,7 @@ pub struct Colours<'a> {
 }
 
 impl<'a> Colours<'a> {
-    /// Those of a scene.
+    /// The colours of a scene.
     pub fn new(scene: &'a Scene, by: Colouring) -> Self {
         Self { scene, by, numbers: None }
     }

@@ -14,7 +14,7 @@ pub(crate) const WIDTH: f64 = 1.0;
 /// The width of hidden lines, in pixels.
 pub(crate) const HIDDEN_WIDTH: f64 = 0.6;
 
-/// How long the dashes of hidden lines and the gaps between them are, in pixels, by the lines' depth.
+/// The lengths of the dashes of hidden lines and of their gaps, in pixels, by the lines' depth.
 pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
     match depth {
         0 | 1 => [3.0, 2.0],
@@ -66,7 +66,7 @@ pub(crate) fn blank(camera: &Camera) -> VectorPicture {
     VectorPicture::new(camera.size()).with_background(BACKGROUND)
 }
 
-/// Adds regions, which viewers add up: those that look alike together.
+/// Adds regions, which viewers add up. Regions that look alike are added together.
 pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style: &Style<'_>) {
     let front = |region: &Region| region.polygons().first().copied().unwrap_or_default();
     let filled = regions.iter().map(|region| {
@@ -97,7 +97,7 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
     });
 }
 
-/// Adds the paths of a drawing: those that look alike together where nothing lies between them.
+/// Adds the paths of a drawing. Paths that look alike are added together if nothing lies between them.
 pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
     let opacity = |polygon| style.opacity(polygon);
     // Opacities from 0 to 1 are in the order of their bits.

@@ -5,7 +5,7 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-/// How much of the picture the scene fills.
+/// The share of the picture that the scene fills.
 const FILL: f64 = 0.92;
 
 /// A perspective camera with the direction of another, moved so that the scene just fills the
@@ -73,7 +73,7 @@ pub(crate) fn parallel(
     Camera::parallel(direction, up, centre, shown, size)
 }
 
-/// How far the scene reaches in a direction.
+/// The extent of the scene in a direction.
 fn reach(scene: &Scene, direction: DVec3) -> f64 {
     let corners = scene.polygons().flatten();
     corners.map(|corner| corner.dot(direction)).fold(f64::MIN, f64::max)

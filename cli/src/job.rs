@@ -42,7 +42,7 @@ pub(crate) fn timed_scene_and_tree(
 pub(crate) struct Made {
     pub(crate) scene: Scene,
     pub(crate) tree: BspTree,
-    /// What it took to build the tree, or to read its file.
+    /// The time to build the tree, or to read its file.
     pub(crate) seconds: f64,
     /// How the tree was built; `None` if it was read.
     pub(crate) heuristic: Option<Heuristic>,
@@ -93,7 +93,7 @@ pub(crate) fn refuse_options(
     Err(Failure::about(name, problem))
 }
 
-/// A failure to build a scene's tree. It names the program's options, not those of the library.
+/// A failure to build a scene's tree. It names the program's options, not the library's.
 pub fn about(scene: &Scene, error: &Error) -> Failure {
     let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
     Failure::about(scene.name(), problem)
@@ -184,7 +184,7 @@ fn short(length: f64) -> String {
     }
 }
 
-/// The first of the faces that were dropped, and how many more there are.
+/// The first of the dropped faces, and the number of the others.
 fn some(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) -> String {
     let name = |face: usize| match scene.line(face) {
         Some(line) => format!("face {face} (line {line})"),

@@ -9,8 +9,8 @@ use binspace::{BspTree, BuildOptions, Error, Viewpoint};
 
 use crate::progress::Progress;
 
-/// How long to repeat a short measurement. Smaller: the clock's resolution spoils the figures of
-/// small trees; larger: the command takes longer.
+/// The time during which a short measurement is repeated. Too small: the clock's resolution spoils the
+/// figures of small trees. Too large: the command takes longer.
 const LONG_ENOUGH: Duration = Duration::from_millis(20);
 
 /// Builds a tree of a scene.

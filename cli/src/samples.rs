@@ -4,8 +4,7 @@
 /// each way already give 256 levels along an edge.
 pub(crate) const MOST: u32 = 16;
 
-/// The light of full white. Larger: it does not fit `u32`; smaller: two dark colours are the same
-/// light.
+/// The light of full white. Too large: it does not fit `u32`. Too small: two dark colours are the same light.
 const FULL: f64 = (1u32 << 24) as f64;
 
 /// Between the 8-bit numbers of colours (sRGB) and amounts of light.

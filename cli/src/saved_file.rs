@@ -10,7 +10,7 @@ use binspace::{BspTree, Error};
 use crate::failure::Failure;
 use crate::progress::Progress;
 
-/// What such a file begins with.
+/// The magic bytes of such a file.
 pub(crate) const BEGINNING: &[u8] = b"binspace";
 
 /// Writes a file.
@@ -28,7 +28,7 @@ pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     read(&name, io::BufReader::new(file))
 }
 
-/// Reads a file; `name` is what messages call it.
+/// Reads a file; `name` is its name in messages.
 pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let (scene, tree) = read_pair(name, &mut input)?;
     let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;

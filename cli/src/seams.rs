@@ -1,4 +1,4 @@
-//! What is done about seams between neighbours.
+//! The treatment of seams between neighbours.
 
 use clap::ValueEnum;
 

@@ -1,8 +1,8 @@
 //! Shades of polygons in vector pictures: one brightness for each plane, so that neither the triangles of a
 //! flat wall nor the pieces of a polygon differ.
 //!
-//! Along a direction it is that of the painter's pictures, lit by a lamp at the eye. From an eye, such a lamp
-//! shades a plane unevenly, so there the lamp is far away, above the viewer's left shoulder.
+//! Along a direction it is the brightness of the painter's pictures, lit by a lamp at the eye. From an eye,
+//! such a lamp shades a plane unevenly. So there the lamp is far away, above the viewer's left shoulder.
 
 use binspace::glam::DVec3;
 use binspace::raster;

@@ -25,7 +25,7 @@ pub(crate) fn create_in(folder: &Path) -> io::Result<File> {
 /// Puts a complete file in its place, with the given permissions, or the usual ones if there are
 /// none.
 ///
-/// The file has a name of its own for the moment before it replaces what is there; signals wait.
+/// The file has its own name for the moment before it replaces an existing one; signals wait.
 pub(crate) fn place(
     mut file: File,
     folder: &Path,
@@ -33,7 +33,7 @@ pub(crate) fn place(
     permissions: Option<Permissions>,
 ) -> io::Result<()> {
     if let Some(permissions) = permissions.clone() {
-        // Best effort: the content is what matters.
+        // Best effort: only the content matters.
         let _ = file.set_permissions(permissions);
     }
     signals::hold_back(|| persist(&mut file, folder, target, permissions))
@@ -65,7 +65,7 @@ pub(crate) fn place_all(
         builder.permissions(Permissions::from_mode(0o777));
     }
     signals::hold_back(|| {
-        // Removed with all that is in it, unless it becomes the target.
+        // Removed with all its content, unless it becomes the target.
         let part = builder.tempdir_in(folder)?;
         for (name, mut file) in files {
             persist(&mut file, part.path(), &part.path().join(name), None)?;
@@ -77,7 +77,7 @@ pub(crate) fn place_all(
     })
 }
 
-/// A short name, as that of the file to replace may be as long as names can be.
+/// A short name, as the name of the replaced file may have the maximal length.
 fn builder() -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".binspace-").suffix(".part");

@@ -54,7 +54,7 @@ impl AddAssign for Sum {
     }
 }
 
-/// A view of a scene with what a depth buffer shows in it.
+/// A view of a scene with its depth-buffer picture.
 struct View {
     camera: Camera,
     rays: Rays,

@@ -28,7 +28,7 @@ use crate::terminal::{note, say};
 use crate::upright::note_z_up;
 use crate::{camera, coverage, ink, job, png_file};
 
-/// The side of the square, in pixels, that a polygon has to show, unless the user says.
+/// The default side of the square, in pixels, that a polygon has to show.
 const MIN_SIZE: f64 = 0.01;
 /// The longest side of a PDF's page, in points, as the standard has it (ISO 32000-1, annex C).
 const LONGEST: u32 = 14_400;
@@ -118,7 +118,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// What is drawn, and how.
+/// The content of the drawing, and its style.
 struct View<'a> {
     args: &'a DrawArgs,
     style: Style<'a>,
@@ -127,7 +127,7 @@ struct View<'a> {
     options: ViewOptions<'a>,
 }
 
-/// How far a step is.
+/// The progress of a step.
 fn go_on(bar: &Mutex<Option<Progress>>, progress: binspace::Progress) -> ControlFlow<()> {
     if let Some(bar) = &*bar.lock().unwrap_or_else(PoisonError::into_inner) {
         bar.set(progress.done, progress.total);
@@ -157,7 +157,7 @@ fn min_size(args: &DrawArgs) -> f64 {
 }
 
 impl<'a> View<'a> {
-    /// Shows what is done next, if it takes long.
+    /// Shows the next step, if it takes long.
     fn show(&self, phase: Option<&'static str>) {
         *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
     }
@@ -251,7 +251,7 @@ impl Figures {
     }
 }
 
-/// Which edges are drawn: those of a line drawing that are seen best, unless the user says.
+/// The edges that are drawn. By default they are those of a line drawing that are seen best.
 fn edges(args: &DrawArgs) -> EdgeChoice {
     let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
     args.edges.unwrap_or(default)

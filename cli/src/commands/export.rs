@@ -58,7 +58,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The format that is asked for, or else that of the file's name.
+/// The format of the option; by default, the format of the file's name.
 fn format(args: &ExportArgs) -> Result<ExportFormat, Failure> {
     let named = |ext: &OsStr| match ext.to_ascii_lowercase().to_str()? {
         "obj" => Some(ExportFormat::Obj),
@@ -78,7 +78,7 @@ fn library(output: &Path) -> Option<PathBuf> {
     (output != Path::new(STANDARD)).then(|| output.with_extension("mtl"))
 }
 
-/// What is written.
+/// The data to write.
 struct Export<'a> {
     scene: &'a Scene,
     mesh: &'a Mesh,

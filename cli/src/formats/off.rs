@@ -6,7 +6,7 @@ use binspace::scene::Scene;
 use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
-/// What stands in each vertex line, as the first word of a file says: `OFF` behind these letters.
+/// The content of each vertex line, as the first word of a file gives it: `OFF` behind these letters.
 struct Kind {
     has_colours: bool,
     has_normals: bool,
@@ -51,7 +51,8 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let (Some(vertices), Some(faces)) = (count(0), count(1)) else {
         return Err("expected the numbers of vertices and faces behind `OFF`".into());
     };
-    // Each line of a vertex or a face has two bytes at least. What is asked for later is as large as the file.
+    // Each line of a vertex or a face has two bytes at least. So the memory requested later is at most
+    // proportional to the file's size.
     if vertices.saturating_add(faces) > bytes.len() / 2 {
         return Err(format!(
             "it says that it has {vertices} vertices and {faces} faces, more than fit into it"

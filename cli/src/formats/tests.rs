@@ -183,7 +183,7 @@ fn glb() -> Vec<u8> {
     bytes
 }
 
-/// All files, with what they are and whether coordinates are text.
+/// All files, each with its kind and whether its coordinates are text.
 fn files() -> Vec<(&'static str, Vec<u8>, MeshKind, bool)> {
     vec![
         ("STL as text", stl_text(), MeshKind::Stl, true),
@@ -434,7 +434,7 @@ fn damaged_files_are_read_or_refused() {
     }
 }
 
-/// A file may place what it has as often as it has nodes.
+/// A file may place its content as often as it has nodes.
 #[test]
 fn many_places_of_many_empty_primitives_take_no_time() {
     let primitives = vec![r#"{"attributes":{"POSITION":0}}"#; 20_000].join(",");

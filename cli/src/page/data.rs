@@ -1,4 +1,4 @@
-//! What a page holds of a scene and its tree.
+//! A page's data of a scene and its tree.
 
 use binspace::BspTree;
 use binspace::glam::DVec3;
@@ -20,7 +20,7 @@ pub(super) struct Data {
     materials: Vec<Colour>,
     /// Steps of the grid in a unit.
     steps: f64,
-    /// How many of the planes are those of nodes: the first ones.
+    /// The number of planes that are planes of nodes: the first ones.
     #[serde(rename = "nodePlaneCount")]
     node_planes: usize,
     arrays: Arrays,

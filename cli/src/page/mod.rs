@@ -29,7 +29,7 @@ const SCRIPTS: [&str; 4] = [
     include_str!("controls.js"),
 ];
 
-/// What is shown of a scene.
+/// The displayed data of a scene.
 #[derive(Debug)]
 pub(crate) struct Page<'a> {
     pub(crate) scene: &'a Scene,

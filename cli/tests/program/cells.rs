@@ -46,7 +46,7 @@ fn pictures_of_cells_are_those_of_one_tree() {
                 folder.run(&format!("render {name} -o p.png {view}")).good();
                 fs::read(folder.path("p.png")).unwrap()
             };
-            // With a parallel camera the scene's box decides how much is shown.
+            // With a parallel camera the scene's box decides the visible extent.
             let of_one = if k == 2 { picture("d1") } else { picture("s.bsp") };
             assert_eq!(picture(&format!("d{cells}")), of_one, "{cells} cells, {view}");
         }
@@ -139,8 +139,8 @@ fn a_folder_is_written_completely_or_not_at_all() {
     folder.run("render empty -o p.png --size 20x20").good();
 }
 
-/// What `build` says of a scene is said of its cells too: each polygon counts once, however many cells it
-/// reaches.
+/// Every note of `build` on a scene is also written for its cells. Each polygon counts once, however many
+/// cells it reaches.
 #[test]
 fn notes_on_cells_are_those_on_the_whole() {
     let folder = Folder::new("cells_notes");
@@ -244,7 +244,7 @@ fn memory_is_that_of_one_cell() {
             format!("ulimit -d {MEMORY}; exec {program} build s.obj --cells {cells} -o d{cells}");
         let mut command = std::process::Command::new("sh");
         command.args(["-c", &line]).current_dir(folder.path(""));
-        // One list of free memory and one thread, so that what is counted is what is in use.
+        // One list of free memory and one thread, so that the counted memory is the memory in use.
         let output = command.env("MALLOC_ARENA_MAX", "1").env("RAYON_NUM_THREADS", "1").output();
         let output = output.unwrap();
         let message = String::from_utf8_lossy(&output.stderr);

@@ -79,7 +79,7 @@ fn a_picture_of_backs_says_so() {
             assert!(!said(&format!("room.obj -o {file} {view} --cull back")), "{file} {view}");
         }
     }
-    // From inside, and for what shows fronts, or both sides.
+    // From inside, and for pictures of fronts or of both sides.
     assert!(!said("room.obj -o p.png --eye=0.5,0.5,0.2"));
     for scene in ["teapot:3", "city:300", "random:100", "crossing:4", "newell", "terrain:200"] {
         assert!(!said(&format!("{scene} -o p.png")), "{scene}");

@@ -63,7 +63,7 @@ fn gltf(uri: &str) -> (String, Vec<u8>) {
     (json, bytes(corners.flatten()))
 }
 
-/// Whatever the files are called.
+/// The kind does not depend on the file's name.
 #[test]
 fn all_formats_have_the_same_order() {
     let folder = Folder::new("formats_order");
@@ -87,7 +87,7 @@ fn all_formats_have_the_same_order() {
         let run = Run::new(&folder.pipe("order - --eye=1,2,9", file));
         assert_eq!(run.good(), expected);
     }
-    // What is built of them is what they are.
+    // Trees built from them hold the same polygons.
     folder.run("build s.gltf -o s.bsp").good();
     assert_eq!(order("s.bsp").good(), expected);
     folder.run("build s.stl --cells 2 -o cells").good();
@@ -99,7 +99,7 @@ fn all_formats_have_the_same_order() {
     }
 }
 
-/// What is up in a picture: the wall is at the top if y is.
+/// The up direction of a picture: the wall is at the top if y is up.
 #[test]
 fn up_is_that_of_the_format() {
     let folder = Folder::new("formats_up");

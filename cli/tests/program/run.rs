@@ -49,7 +49,7 @@ impl Folder {
         command
     }
 
-    /// Runs the program with something on standard input; what it writes may be no text.
+    /// Runs the program with data on standard input; the output need not be text.
     pub(crate) fn pipe(&self, arguments: &str, input: impl AsRef<[u8]>) -> Output {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -71,7 +71,7 @@ impl Folder {
     }
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug)]
 pub(crate) struct Run {
     pub(crate) status: Option<i32>,

@@ -1,5 +1,5 @@
-//! Pages, and what a browser without a window makes of them. These tests are ignored, as they need
-//! Chromium: `cargo test in_browser -- --ignored` runs them.
+//! Pages in a headless browser. These tests are ignored, as they need Chromium: `cargo test in_browser --
+//! --ignored` runs them.
 
 mod deeds;
 mod orders;
