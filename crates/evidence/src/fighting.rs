@@ -29,7 +29,7 @@ const ENDS: [f64; 2] = [1.0 / 20.0, 1.0 / 190.0];
 /// The tangent of half of the field of view.
 const HALF_HEIGHT: f64 = 0.5;
 
-/// What a buffer makes of two sheets.
+/// The result of a buffer for two sheets.
 #[derive(Clone, Debug)]
 pub struct Fight {
     /// The picture: faces 0 and 1 are the further sheet.
@@ -40,13 +40,13 @@ pub struct Fight {
     pub seen: Option<[f64; 2]>,
 }
 
-/// What the steps of a format predict.
+/// The prediction from the steps of a format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// The nearest and the furthest depth at which the sheets are less than a step apart.
     pub begin: Option<[f64; 2]>,
-    /// How many pixels are wrong: sheets that are a share s of a step apart are stored as the same in
-    /// 1 − s of all places.
+    /// The number of wrong pixels. Sheets that are a share s of a step apart are stored as the same in 1 − s
+    /// of all places.
     pub wrong: f64,
 }
 
@@ -78,11 +78,11 @@ impl Sheets {
         &self.camera
     }
 
-    /// What a method shows.
+    /// The picture of a method.
     ///
     /// # Errors
     ///
-    /// Those of the method.
+    /// The errors of the method.
     pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
         let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
         let image = painted.image;
@@ -99,21 +99,22 @@ impl Sheets {
         Ok(Fight { image, wrong: wrong.len(), seen: (!wrong.is_empty()).then_some(ends) })
     }
 
-    /// What a depth buffer shows.
+    /// The picture of a depth buffer.
     ///
     /// # Errors
     ///
-    /// None is known.
+    /// No error is known.
     pub fn in_format(&self, format: DepthFormat) -> Result<Fight, MethodError> {
         self.shown_by(&DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]))
     }
 
-    /// What the roundings of the pipeline predict as well: the planes as it sets them up, the roundings in
-    /// each pixel within their bounds, and the steps. No pixel is wrong at depths other than the predicted.
+    /// The prediction that includes the roundings of the pipeline: the planes as it sets them up, the
+    /// roundings in each pixel within their bounds, and the steps. No pixel is wrong outside the predicted
+    /// depths.
     ///
     /// # Errors
     ///
-    /// None is known.
+    /// No error is known.
     pub fn predicted_with_roundings(&self, format: DepthFormat) -> Result<Prediction, MethodError> {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for (apart, &depth) in self.apart(format)?.into_iter().zip(&self.depths) {
@@ -126,7 +127,7 @@ impl Sheets {
         Ok(prediction)
     }
 
-    /// How far apart the sheets are in each pixel, when they are about to be stored.
+    /// The distance of the sheets in each pixel, just before they are stored.
     fn apart(&self, format: DepthFormat) -> Result<Vec<Apart>, MethodError> {
         let method = DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]);
         let planes = method.set_up(&self.camera, &self.faces)?;
@@ -144,11 +145,12 @@ impl Sheets {
         Ok((0..).zip(self.truth.faces()).map(apart).collect())
     }
 
-    /// What the steps of a format predict, by the formula of [`DepthFormat::step`].
+    /// The prediction from the steps of a format, by the formula of [`DepthFormat::step`].
     pub fn predicted(&self, format: DepthFormat) -> Prediction {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for &depth in &self.depths {
-            // Of 1 / w, from which z comes, the sheets differ by gap / (1 + gap), of w by gap.
+            // In 1 / w, from which z is computed, the sheets differ by gap / (1 + gap); in w they differ by
+            // gap.
             let share = if is_linear(format) { self.gap } else { self.gap / (1.0 + self.gap) };
             let apart = share * depth / format.step(PLANES, depth);
             if apart < 1.0 {
@@ -161,8 +163,8 @@ impl Sheets {
     }
 }
 
-/// How far the further sheet's number is beyond the nearer one's, in steps, and the most by which
-/// roundings move each of them.
+/// The distance of the further sheet's number beyond the nearer one's, in steps, and the largest effect of
+/// roundings on each of them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     steps: f64,

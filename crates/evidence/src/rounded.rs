@@ -175,7 +175,7 @@ impl RoundedPiece {
     }
 }
 
-/// How many planes are tried at each node, as by `Heuristic::Sampled`.
+/// The number of planes tried at each node, as by `Heuristic::Sampled`.
 const CANDIDATES: usize = 16;
 /// A cut costs as much as this many pieces by which one side has more than the other.
 const CUT: usize = 8;

@@ -3,22 +3,22 @@
 use super::patch::Patch;
 use crate::plain::{PlainView, UNITS};
 
-/// What is certain about a ray and a patch.
+/// The certain facts about a ray and a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cast {
     /// It misses.
     Misses,
     /// It meets the patch, the first time between these depths, in world units.
     Meets([f64; 2]),
-    /// It passes too near the rim, or meets the patch in several places, to tell.
+    /// It passes too near the boundary, or meets the patch in several places, to tell.
     Doubtful,
 }
 
 /// Coefficients of a bicubic polynomial.
 type Net = [[i128; 4]; 4];
 
-/// How often parameters are halved. More: intervals of depth are narrower, and numbers longer: 2⁶⁴ and
-/// 6 bits a level.
+/// The number of times that parameters are halved. Too small: intervals of depth are wide. Too large: numbers
+/// are long, 2⁶⁴ and 6 bits a level.
 const LEVELS: u32 = 8;
 
 impl Cast {

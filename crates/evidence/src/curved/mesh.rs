@@ -21,9 +21,9 @@ type Vertex = ([f64; 2], DVec3);
 
 /// Cuts patches to triangles that are off by no more than `tolerance` pixels; a list for each patch.
 ///
-/// Each patch has a grid of its own. An edge has as many points as the finer of the patches that share
-/// it needs, and these points depend on its curve alone, whichever way it runs: so patches fit together.
-/// A strip joins a patch's grid to its edges.
+/// Each patch has its own grid. An edge has as many points as the finer of its two patches needs. These
+/// points depend on the edge's curve alone, in either direction, so patches fit together. A strip joins a
+/// patch's grid to its edges.
 pub fn mesh(patches: &[Patch], view: &PlainView, tolerance: f64) -> Vec<Vec<Triangle>> {
     let mut counts = Counts::new();
     for patch in patches {
@@ -125,8 +125,8 @@ fn turned(net: &[[Corner; 4]; 4]) -> [[Corner; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]))
 }
 
-/// How many rows and columns a patch needs: triangles whose parameters differ by 1 / n are off by the
-/// largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
+/// The numbers of rows and columns that a patch needs. Triangles whose parameters differ by 1 / n are off by
+/// the largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
 fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     let (mut bends, three) = ([0.0f64; 3], 0..3usize);
     for (bend, lines) in bends.iter_mut().zip([*net, turned(net)]) {

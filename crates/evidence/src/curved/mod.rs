@@ -1,4 +1,4 @@
-//! Curved surfaces in a depth buffer, each by a routine of its own, and cut to triangles for the tree.
+//! Curved surfaces in a depth buffer, each by its own routine, and triangulated for the tree.
 
 mod cast;
 mod mesh;

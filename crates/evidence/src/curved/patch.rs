@@ -8,8 +8,8 @@ use crate::plain::{Corner, PlainView, UNITS};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patch(pub [[Corner; 4]; 4]);
 
-/// The side of a part, in pixels, at which it counts as a point. Larger: the rim is thicker; smaller:
-/// time.
+/// The side of a part, in pixels, at which it counts as a point. Too large: the boundary is thicker. Too
+/// small: time.
 const POINT: f64 = 1.0 / 64.0;
 
 type Net = [[[f64; 3]; 4]; 4];

@@ -20,8 +20,8 @@ fn volume(p: Corner, q: Corner, r: Corner, s: Corner) -> i64 {
     a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
 }
 
-/// The triangles of the convex hull of points, fronts outside: all that have every other point
-/// behind. `None` if four points are in one plane there.
+/// The triangles of the convex hull of points, fronts outside: each has every other point behind it. `None`
+/// if four points are in one plane there.
 fn hull(points: &[Corner]) -> Option<Vec<[DVec3; 3]>> {
     let mut triangles = Vec::new();
     for (i, &p) in points.iter().enumerate() {

@@ -85,7 +85,7 @@ impl Family {
     /// The coplanar tolerance that the families are meant for: none.
     pub const TOLERANCE: f64 = 0.0;
 
-    /// The name by which a user asks for the family.
+    /// The family's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Angle => "angle",
@@ -102,7 +102,7 @@ impl Family {
         }
     }
 
-    /// One line on what the scenes are.
+    /// One line on the scenes.
     pub fn description(self) -> &'static str {
         match self {
             Self::Angle => "six triangles that cross each other at a small angle",
@@ -119,7 +119,7 @@ impl Family {
         }
     }
 
-    /// What the difficulty is, for the axis of a plot.
+    /// The meaning of the difficulty, for the axis of a plot.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Angle => "angle between triangles [rad]",

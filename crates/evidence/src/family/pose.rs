@@ -47,9 +47,8 @@ impl Pose {
         Look { eye: self.place(eye), target: self.place(target), up: self.direction(up) }
     }
 
-    /// Views of what lies around the frame's origin within `reach`: from the front (where z comes
-    /// from), from within, from behind, and slantingly from around. `distance` takes the front
-    /// view.
+    /// Views of the surroundings of the frame's origin within `reach`: from the front (where z comes from),
+    /// from within, from behind, and slantingly from around. `distance` takes the front view.
     pub(super) fn looks(&self, distance: f64, reach: f64, random: &mut SplitMix64) -> Vec<Look> {
         let mut jitter = |size: f64| random.point(-size, size);
         let around = [

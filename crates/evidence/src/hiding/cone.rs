@@ -1,4 +1,4 @@
-//! What an eye sees of a face: the cone of rays through it.
+//! The visible part of a face from an eye: the cone of rays through it.
 
 use binspace::internals::{Faces, PlaneId, VertexId};
 use dashu_int::IBig;
@@ -6,7 +6,7 @@ use num_traits::Signed;
 
 use crate::place::{Place, Plane};
 
-/// A point over a weight that is not negative, or a plane: what is in front has a positive product.
+/// A point over a weight that is not negative, or a plane: points in front have a positive product.
 type Quad = [IBig; 4];
 
 /// A face as an eye sees it.

@@ -115,7 +115,8 @@ fn what_is_near_an_end_hides_as_well() {
     }
 }
 
-/// What a point sees of a patch, as a sum over small parts: also of what is partly below its horizon.
+/// The form factor from a point to a patch, as a sum over small parts: also for patches partly below its
+/// horizon.
 #[test]
 fn what_a_point_sees_is_what_small_parts_send_it() {
     const PARTS: u32 = 200;

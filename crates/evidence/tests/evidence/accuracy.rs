@@ -1,5 +1,5 @@
-//! What trees say of their own accuracy, against rationals: every figure computed anew from the
-//! definitions of vertices and planes.
+//! The accuracy figures of trees, against rationals: every figure is computed again from the definitions of
+//! vertices and planes.
 
 use binspace::Preparation;
 use binspace::internals::{Side, Tuning, VertexId, VertexKind, tree_of};
@@ -30,7 +30,7 @@ struct Placed {
     misplaced: [bool; 2],
 }
 
-/// The place of a vertex; `None` if what defines it is parallel.
+/// The place of a vertex; `None` if the planes that define it are parallel.
 fn place(faces: &Faces, face: &Face, vertex: VertexId) -> Option<Point> {
     let is_defined = match vertex.kind() {
         VertexKind::Corner(_) => true,
@@ -47,8 +47,8 @@ fn place(faces: &Faces, face: &Face, vertex: VertexId) -> Option<Point> {
     is_defined.then(|| face.resolve(faces, vertex))
 }
 
-/// How far a position is from the exact one; further than any scene reaches, or no number, is
-/// infinitely far.
+/// The distance of a position from the exact one; infinite for NaN and for positions further than any scene
+/// reaches.
 fn drift(point: &Point, position: [f64; 3]) -> f64 {
     let reach = 2f64.powi(59);
     if position.iter().any(|c| c.is_nan() || c.abs() > reach) {
@@ -138,7 +138,7 @@ fn is_torn(tree: &Tree, id: u32, face: &Face, pieces: &[Vec<Option<Placed>>]) ->
     sum != own
 }
 
-/// What was compared, and how much of it went wrong in the trees themselves.
+/// The number of comparisons, and the number of errors in the trees themselves.
 #[derive(Debug, Default)]
 struct Tally {
     trees: usize,

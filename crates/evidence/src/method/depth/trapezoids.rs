@@ -11,7 +11,7 @@ struct Edge {
     first: u32,
     end: u32,
     top: Sample,
-    /// 1/m: what x grows by from one scanline to the next; 0 if the edge is vertical.
+    /// 1/m: the increment of x from one scanline to the next; 0 if the edge is vertical.
     step: f64,
 }
 

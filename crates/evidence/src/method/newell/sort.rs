@@ -30,12 +30,12 @@ pub(super) struct Sorter<'a> {
     method: &'a Newell,
     space: &'a CameraSpace,
     pieces: &'a mut Pieces,
-    /// Pieces by their furthest depths, the furthest last; those that are gone may still be there.
+    /// Pieces by their furthest depths, the furthest last; removed pieces may still be there.
     list: Vec<u32>,
     state: Vec<State>,
     /// Each has taken the place of the one before it.
     chain: Vec<Candidate>,
-    /// How many of the list are gone.
+    /// The number of removed pieces in the list.
     gone: usize,
     comparisons: u64,
     decisions: Decisions,
@@ -65,7 +65,7 @@ impl<'a> Sorter<'a> {
         if self.pieces.len() > limit { Err(MethodError::pieces(limit)) } else { Ok(()) }
     }
 
-    /// All pieces, the furthest first, and what decided.
+    /// All pieces, the furthest first, and the deciding tests.
     pub(super) fn sort(mut self) -> Result<(Vec<u32>, Decisions), MethodError> {
         let mut order = Vec::with_capacity(self.list.len());
         while let Some(candidate) = self.next() {
@@ -91,7 +91,7 @@ impl<'a> Sorter<'a> {
         Ok((order, self.decisions))
     }
 
-    /// The piece to look at: that of the chain's end, or the furthest that is left.
+    /// The next piece: the end of the chain, or the furthest remaining one.
     fn next(&mut self) -> Option<Candidate> {
         if self.chain.is_empty() {
             if 2 * self.gone > self.list.len() {

@@ -9,8 +9,8 @@ use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
 use binspace::raster::NONE;
 
-/// Asserts that every pixel that brute force is sure of shows what it says; and gives back the
-/// pieces of all views together.
+/// Asserts that every pixel for which brute force is certain shows its result; and returns the pieces of all
+/// views together.
 fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     let faces = faces(polygons, Some(0.0));
     let (mut certain, mut all, mut pieces) = (0, 0, 0);
@@ -238,8 +238,8 @@ fn budgets_run_out_with_a_figure() {
 
 #[test]
 fn a_long_chain_of_swaps_needs_no_stack() {
-    // Parallel and tilted: the higher a plank, the deeper it reaches, so that of all that are left
-    // the highest is always the furthest, and all others take its place, one after the other.
+    // Parallel and tilted: the higher a plank, the deeper it reaches. So of all remaining planks the highest
+    // is always the furthest, and all others take its place, one after the other.
     let count = 4000;
     let plank = |i: i32| {
         let (height, reach) = (1e-4 * f64::from(i), -1.0 - 1e-3 * f64::from(i));
@@ -258,7 +258,7 @@ fn a_long_chain_of_swaps_needs_no_stack() {
     std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
 }
 
-/// Two squares, or what stands in for them, of which the further, P, is the first: one test decides.
+/// Two squares, or their substitutes. The further, P, is the first: one test decides.
 #[test]
 fn each_test_decides_the_pair_that_it_is_for() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 12.0, [120, 120]).unwrap();
