@@ -1,5 +1,5 @@
-//! Drawings of one view: how many polygons show, in how many cells, and for how long a drawing takes, on one
-//! thread and on two, against building the tree in the same process. Fans show how cells grow with the
+//! Drawings of one view: the number of visible polygons and of cells, and the time of a drawing, on one
+//! thread and on two, against building the tree in the same process. Fans show the growth of cells with the
 //! triangles around one vertex.
 //!
 //! ```sh

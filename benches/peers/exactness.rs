@@ -1,4 +1,4 @@
-//! What exactness costs: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
+//! The cost of exactness: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
 //! candidates by `f64` and an epsilon.
 
 use binspace::internals::Faces;

@@ -78,7 +78,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     ]);
 }
 
-/// Builds, orders, reads; the sum of what is read, so that it is not left out.
+/// Builds, orders, reads; returns the sum of the values read, so that the reads are not optimised away.
 fn our_frame(outlines: &[Outline], builder: &mut FrameBuilder, order: &mut Vec<u32>) -> f64 {
     let tree = builder.build(outlines).expect("within budget");
     tree.back_to_front_into(Viewpoint::direction([0.0, 0.0, -1.0]), order);
@@ -130,8 +130,9 @@ fn their_pieces(outlines: &[Outline]) -> Vec<Painted> {
     splitter.sort(euclid::vec3(0.0, 0.0, 1.0)).iter().map(painted).collect()
 }
 
-/// Paints at points of a grid, given the depths of the layers there: how many points at least two layers cover, and at how many of those
-/// the layers come in another order than that of their depths.
+/// Paints at points of a grid, given the depths of the layers there. Returns the number of points that at
+/// least two layers cover, and the number of those at which the layers' order differs from the order of their
+/// depths.
 pub(crate) fn judge(
     depths: impl Fn([f64; 2]) -> Vec<Option<f64>>,
     pieces: &[Painted],

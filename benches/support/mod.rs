@@ -1,4 +1,4 @@
-//! What the tables of measured figures share: scenes by name, times, rows.
+//! Shared code of the tables of measured figures: scenes by name, times, rows.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
@@ -217,7 +217,7 @@ pub fn against(measured: f64, target: Target) -> [String; 3] {
     [format!("{measured:.2}"), format!("{sign} {limit}"), verdict.to_owned()]
 }
 
-/// What a figure is to reach.
+/// The target of a figure.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
     /// At most this.

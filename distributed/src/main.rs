@@ -2,8 +2,8 @@
 //!
 //! Each MPI rank reads or generates a share of the polygons. All agree on the extent and, from samples, on
 //! the planes between cells, one cell a rank. Polygons go to the ranks whose cells they reach; each rank
-//! builds the tree of its cell, and paints it. What shows in a pixel goes to the rank that owns the pixel,
-//! which blends it in the order of the cells.
+//! builds the tree of its cell, and paints it. The visible layers of a pixel go to the rank that owns the
+//! pixel, which blends them in the order of the cells.
 
 mod agree;
 mod arguments;
@@ -31,7 +31,8 @@ use figures::{Figures, processor_time};
 use polygon::Given;
 use share::Share;
 
-/// About so many samples choose the planes between cells. More: time; fewer: cells differ in size.
+/// The approximate number of samples that choose the planes between cells. Too large: time. Too small: cells
+/// differ in size.
 const SAMPLES: u64 = 1 << 16;
 
 fn main() -> ExitCode {
@@ -48,10 +49,10 @@ fn main() -> ExitCode {
     }
 }
 
-/// All that a rank does. After an error on any rank, all of them return.
+/// The work of a rank. After an error on any rank, all of them return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let arguments = match Arguments::try_parse() {
-        // What was asked for, such as help, is no error: rank 0 says it.
+        // Requested output, such as help, is no error: rank 0 prints it.
         Err(answer) if !answer.use_stderr() => {
             if rank(world) == 0 {
                 print!("{answer}");
@@ -107,7 +108,7 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is wrong with a command line.
+/// The error of a command line.
 fn plain(error: &clap::Error) -> String {
     let text = error.to_string();
     text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
@@ -153,8 +154,8 @@ fn mixed(number: u64) -> u64 {
     (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
 }
 
-/// Sends each polygon to the ranks whose cells it reaches. Gives how many bytes this rank has sent, and the
-/// polygons that it has been sent, in the order of their numbers.
+/// Sends each polygon to the ranks whose cells it reaches. Returns the number of bytes that this rank has
+/// sent, and the polygons that it has received, in the order of their numbers.
 fn send_polygons(
     world: &SimpleCommunicator,
     partition: &Partition,

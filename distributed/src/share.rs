@@ -1,4 +1,4 @@
-//! What a rank has of a scene before all exchange: generated, or read from files.
+//! A rank's share of a scene before all exchange: generated, or read from files.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ struct Generated {
 /// The bits of a number that are the place in a file; those above are the number of the file.
 const IN_FILE: u32 = 32;
 
-/// What the names of generated scenes begin with, and whether they are lumps.
+/// The prefixes of the names of generated scenes, and whether they are lumps.
 const KINDS: [(&str, bool); 2] = [("cloud:", false), ("lump:", true)];
 
 fn is_generated(scene: &str) -> bool {
@@ -62,7 +62,7 @@ impl Share {
         extent
     }
 
-    /// Adds the polygons of a file. Numbers go by files, and then by places in them.
+    /// Adds the polygons of a file. Numbers are ordered by files, and then by places in them.
     fn read(&mut self, path: &Path, file: usize) -> Result<(), String> {
         let about = |error: binspace::Error| error.to_string();
         let stream = ObjStream::open(path).map_err(about)?;
@@ -84,8 +84,8 @@ impl Share {
     }
 }
 
-/// What is wrong with a tree of some of a scene's polygons, with the polygon to blame as the scene has it:
-/// a generated one by its number, one of a file by its place there.
+/// The error of a tree of some of a scene's polygons. It names the polygon as the scene has it: a generated
+/// one by its number, one of a file by its place there.
 pub(crate) fn about(scene: &str, polygons: &[Given], error: Error) -> String {
     let Some(given) = error.polygon().and_then(|place| polygons.get(place)) else {
         return error.to_string();

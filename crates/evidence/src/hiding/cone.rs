@@ -1,4 +1,4 @@
-//! The visible part of a face from an eye: the cone of rays through it.
+//! The cone of rays from an eye through a face.
 
 use binspace::internals::{Faces, PlaneId, VertexId};
 use dashu_int::IBig;

@@ -19,7 +19,7 @@ impl Scale {
     /// two decades or less hold all, it ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
-        // What is beyond a decade by a hair does not open another one.
+        // A value that exceeds a decade by rounding does not open another one.
         let (first, mut last) = ((low + 0.01).floor(), (high - 0.01).ceil());
         if last <= first {
             last = first + 1.0;

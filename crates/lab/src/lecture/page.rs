@@ -108,7 +108,7 @@ fn grouped(text: &str) -> String {
         let end = from.find(|c: char| !c.is_ascii_digit()).unwrap_or(from.len());
         let (digits, after) = from.split_at(end);
         result.push_str(before);
-        // Digits behind a point are no whole number, and those in names no number.
+        // Digits behind a point are no whole number, and digits in names no number.
         let is_whole = digits.len() > 4
             && !result.ends_with(|c: char| c == '.' || c == ':' || c.is_alphabetic());
         for (k, digit) in digits.chars().enumerate() {

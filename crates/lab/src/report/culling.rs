@@ -1,4 +1,4 @@
-//! What culling leaves of a large scene.
+//! The remainder of a large scene after culling.
 
 use std::time::Instant;
 

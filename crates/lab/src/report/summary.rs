@@ -114,7 +114,7 @@ impl<'a> Summary<'a> {
         self.bytes = self.bytes.max(figures.bytes);
     }
 
-    /// Its name, and how many trials it ended if it gave up in others.
+    /// Its name, and the number of finished trials if it gave up in others.
     pub(super) fn label(&self) -> String {
         label(self.method, self.ended, self.ended + self.failed)
     }
@@ -124,7 +124,7 @@ impl<'a> Summary<'a> {
         self.wrong as f64 / self.covered.max(1) as f64
     }
 
-    /// The seconds for a picture, order and drawing: the geometric mean over what it ended.
+    /// The seconds for a picture, order and drawing: the geometric mean over the finished trials.
     pub(super) fn time(&self) -> f64 {
         (self.picture / self.ended.max(1) as f64).exp()
     }
@@ -158,7 +158,7 @@ impl<'a> Summary<'a> {
     }
 }
 
-/// A method's name, and how many of its trials it ended if those were not all.
+/// A method's name, and the number of finished trials if it did not finish all.
 pub(super) fn label(method: &str, ended: usize, trials: usize) -> String {
     if ended == trials { method.to_owned() } else { format!("{method}, {ended} of {trials}") }
 }

@@ -7,8 +7,8 @@ use super::pass::Pass;
 use super::walk::FaceWalk;
 use crate::Precision;
 
-/// Vertices are rounded to a pixel over this number. Too large: coordinates of wide pictures need more than
-/// 32 bits in hardware. Too small: edges move, and neighbours of different slopes show gaps.
+/// The number of parts of a pixel that vertices are rounded to. Too large: coordinates of wide pictures need
+/// more than 32 bits in hardware. Too small: edges move, and neighbours of different slopes show gaps.
 const PARTS: i64 = 256;
 
 /// Nothing is kept from one face to the next.
