@@ -20,7 +20,7 @@ pub const RIM: f64 = 1e-6;
 pub struct Patch {
     /// The corners.
     pub corners: [DVec3; 4],
-    /// The quad that it is a part of.
+    /// The number of its quad.
     pub quad: usize,
 }
 
