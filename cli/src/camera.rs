@@ -54,7 +54,7 @@ pub(crate) fn whole(
             Some((eye, target)) => Camera::perspective(eye, target, up, fov, size)?,
             None => Camera::looking_at_all(bounds(scene), up, size)?,
         };
-        // There is no better camera for a scene that is almost a point, or as large as numbers go.
+        // No camera is better for a scene that is almost a point, or as large as the largest floats.
         Ok(framing::near(&roughly, scene, fov).unwrap_or(roughly))
     });
     camera.map_err(|error| about(scene, &error))

@@ -1,5 +1,5 @@
-//! Pictures of pixels by exact coverage: each polygon that shows in a pixel has the share of its colour
-//! that it has of the pixel's area; where something shows through, each region of blended colour.
+//! Pictures of pixels by exact coverage: each visible polygon contributes its colour by its share of the
+//! pixel's area. Where polygons are translucent, each region contributes its blended colour.
 //!
 //! Coverage comes from the sides of cells and regions. Each side adds, in the pixels that it crosses, the
 //! area between it and the right end of its row, counted up or down. (The sum along a row is then the cell's
@@ -76,7 +76,7 @@ struct Band {
     top: usize,
     /// The coverage of a pixel minus that of the pixel before, for the cell that is being added.
     change: Vec<f64>,
-    /// From where to where each row has changes.
+    /// The first and last change of each row.
     changed: Vec<[usize; 2]>,
     /// The difference of each pixel from the background.
     sums: Vec<[f64; 3]>,

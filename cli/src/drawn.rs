@@ -24,7 +24,7 @@ pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
     }
 }
 
-/// Where the colours of paths come from.
+/// The source of the colours of paths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Style<'a> {
     pub(crate) scene: &'a Scene,
@@ -138,7 +138,7 @@ pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], ids: boo
         let class = match depth {
             0 => "visible".to_owned(),
             1 => "hidden".to_owned(),
-            // A second class for those behind several polygons.
+            // A second class for lines behind several polygons.
             _ => format!("hidden layers-{depth}"),
         };
         picture.group(&[("class", &class)], |picture| {

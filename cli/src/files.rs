@@ -10,7 +10,7 @@ use crate::unfinished;
 /// The most symbolic links that are followed: more count as a circle, as in most systems.
 const MOST_LINKS: usize = 40;
 
-/// Where output goes.
+/// The destination of output.
 #[derive(Debug)]
 pub(crate) enum Output {
     /// Standard output.
@@ -27,7 +27,7 @@ pub struct NewFile {
     place: Place,
 }
 
-/// How a complete file gets to its place.
+/// The way of a complete file to its place.
 #[derive(Debug)]
 enum Place {
     /// It is written in place: it is not a regular file, but one such as /dev/null.
@@ -173,7 +173,7 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
     Failure::about(path.display(), format!("cannot be written: {error}"))
 }
 
-/// Makes a folder, and those above it, unless it is there.
+/// Makes a folder and its parents, unless they exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     if path == Path::new(STANDARD) {
         let problem = "it cannot hold several files: name a folder (./- if it is called so)";

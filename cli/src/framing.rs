@@ -32,8 +32,8 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Err
     Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
 }
 
-/// Finds, by bisection between two limits along an axis, the eye from which the scene reaches
-/// equally far to both sides of the picture.
+/// Finds, by bisection between two limits along an axis, the eye at which the margins on both sides of the
+/// picture are equal.
 fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
     let mut place = 0.5 * limits[0] + 0.5 * limits[1];
     // Twenty halvings are a thousandth of a pixel.

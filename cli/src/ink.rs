@@ -98,7 +98,7 @@ fn dashed(points: &[[f64; 2]], [dash, gap]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 impl Part {
-    /// From which height to which it reaches.
+    /// Its lower and upper end.
     fn rows(&self) -> [f64; 2] {
         match self {
             Self::Disc { centre: [_, y], radius } => [y - radius, y + radius],
@@ -203,7 +203,7 @@ mod tests {
         distances.fold(f64::MAX, f64::min)
     }
 
-    /// A visible line has all points that are not further from it than half its width.
+    /// A visible line covers all points within half its width.
     #[test]
     fn coverage_is_the_area_within_half_a_width() {
         let lines: [&[[f64; 2]]; 5] = [

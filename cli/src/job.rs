@@ -78,8 +78,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if a tree that is in a file, and so is not built, is to be built in a certain way, be it
-/// the default one.
+/// An error if build options are given for a tree in a file, even if they are the default ones.
 pub(crate) fn refuse_options(
     name: impl Display,
     has_heuristic: bool,
@@ -109,7 +108,7 @@ pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     }
 }
 
-/// Notes which faces were dropped or triangulated; `dropped` are the numbers of those dropped.
+/// Notes the dropped and triangulated faces; `dropped` are the numbers of the dropped faces.
 pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -134,7 +133,7 @@ pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) 
     note_length(scene, limits, tolerance, tree.preparation(), quads);
 }
 
-/// The same of a tolerance, and of faces `quads` of which have four corners or more.
+/// The same with a tolerance, for faces of which `quads` have four corners or more.
 pub(crate) fn note_length(
     scene: &Scene,
     limits: &LimitArgs,

@@ -81,6 +81,6 @@ fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
         .and_then(|(low, high)| views([low, high], scene.up(), 6, [640, 480], 1).ok())
         .unwrap_or_default();
     let eyes = cameras.iter().map(binspace::view::Camera::viewpoint);
-    // Around a scene as large as numbers go, positions overflow: they are left out.
+    // Around a scene as large as the largest floats, positions overflow: they are left out.
     eyes.chain([Viewpoint::direction([1.0, 2.0, -3.0])]).collect()
 }

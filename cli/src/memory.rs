@@ -44,7 +44,7 @@ pub(crate) fn check_file(name: &str, size: u64) -> Result<(), Failure> {
     find_room(needed).ok_or_else(|| lacking(name, &format!("a file of {}", bytes(size)), needed))
 }
 
-/// Allocates memory and frees it; none of it is touched.
+/// Allocates memory and frees it, without writing to it.
 fn find_room(needed: usize) -> Option<()> {
     let mut room = Vec::<u8>::new();
     let result = room.try_reserve_exact(needed);

@@ -42,7 +42,7 @@ impl Loaded {
     }
 }
 
-/// The name without folders: a file goes to people whom these do not concern.
+/// The name without folders: other people may read the file.
 fn stored_name(scene: &Scene) -> String {
     let name = Path::new(scene.name()).file_name();
     name.map_or_else(|| scene.name().into(), OsStr::to_string_lossy).into_owned()

@@ -59,7 +59,7 @@ mod tests {
         let wall = [corner(-4.0, -2.0), corner(4.0, -2.0), corner(4.0, 3.0), corner(-4.0, 3.0)];
         let middle = corner(0.3, 0.7);
         let shades = [0, 1, 2, 3].map(|k| {
-            // Alternately from either side, as careless models have them.
+            // Alternately from either side, as in careless models.
             let [a, b] = [wall[k], wall[(k + 1) % 4]];
             let triangle = if k % 2 == 0 { [middle, a, b] } else { [middle, b, a] };
             shaded([200; 3], &triangle, &camera)

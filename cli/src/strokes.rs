@@ -101,12 +101,12 @@ fn class(kind: EdgeKind) -> &'static str {
         EdgeKind::Silhouette => "silhouette",
         EdgeKind::Crease(_) => "crease",
         EdgeKind::Crossing(_) => "crossing",
-        // Kinds that the library may have one day.
+        // Kinds that the library may add later.
         _ => "other",
     }
 }
 
-/// The lines of some edges, hidden ones before visible ones, without those shorter than a length.
+/// The lines of some edges, hidden ones before visible ones, without lines shorter than a length.
 ///
 /// Lines of a kind are joined before the short ones are left out. The part of an edge seen through a crack is
 /// short, but so are the edges of a fine mesh.

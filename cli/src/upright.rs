@@ -18,13 +18,13 @@ const INWARDS: f64 = 0.05;
 /// The least ratio of the area of a room or town seen from above to the area seen from a side. Too large:
 /// towns of high houses are missed. Too small: blinds count as rooms.
 const SEEN_FROM_ABOVE: f64 = 0.8;
-/// A scene with more of its area than this perpendicular to z is a drawing in layers, which has no
-/// up.
+/// A scene with more of its area than this perpendicular to z is a drawing in layers, which has no up
+/// direction.
 const LAYERS: f64 = 0.98;
 /// The sine of the angle within which a face counts as perpendicular to z is below this.
 const PERPENDICULAR: f64 = 0.2;
 
-/// Notes that a file looks as if its up were z, unless the user has given the up direction.
+/// Notes that a file seems to be z-up, unless the user has given the up direction.
 pub(crate) fn note_z_up(scene: &Scene, up: &UpArgs) {
     let is_file = !scene.is_empty() && scene.line(0).is_some();
     if let (true, None, Some(reason)) = (is_file, up.up, sign_of_z_up(scene)) {
@@ -43,7 +43,7 @@ pub(crate) fn note_z_up(scene: &Scene, up: &UpArgs) {
 /// - It is a room, a level or a town: flat in z, with hardly less area seen from above than from a
 ///   side, and its faces look inwards, as floors, ceilings and walls do.
 ///
-/// Nothing is a sign if it stands on y = 0 in the same way, or is a stack of layers across z.
+/// Neither counts as a sign if the scene stands on y = 0 in the same way, or is a stack of layers across z.
 ///
 /// A scene that hangs, or was moved off the ground, shows no sign.
 fn sign_of_z_up(scene: &Scene) -> Option<&'static str> {
@@ -143,7 +143,7 @@ mod tests {
             assert!(!is_z_up(&scene), "{}", scene.name());
         }
         let flat = moved(&teapot(2), |p| p.with_z(0.0));
-        // A niche in a wall, seen into along z: a room, but it stands on y = 0.
+        // A niche in a wall, seen along z: a room, but it stands on y = 0.
         let niche = moved(&cornell_box(), |p| DVec3::new(p.x, p.y, 0.1 * p.z - 20.0));
         assert!(!is_z_up(&niche) && is_z_up(&moved(&niche, |p| p - DVec3::Y * 300.0)));
         let vast = moved(&teapot(2), |p| p * 1e305);

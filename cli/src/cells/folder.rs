@@ -28,7 +28,7 @@ fn cell_name(cell: usize) -> String {
 pub(crate) struct Cell {
     pub(crate) tree: BspTree,
     pub(crate) scene: Scene,
-    /// The numbers that its polygons have in the whole scene.
+    /// The numbers of its polygons in the whole scene.
     pub(crate) numbers: Vec<usize>,
 }
 
@@ -157,7 +157,7 @@ pub(crate) fn named(name: &std::ffi::OsStr) -> Option<&Path> {
     Some(Path::new(name)).filter(|path| path.is_dir())
 }
 
-/// The same, with an error if its trees are to be built in a certain way.
+/// The same, with an error if build options are given for its trees.
 pub(crate) fn asked<'a>(
     scene: &'a SceneArgs,
     build: &BuildArgs,

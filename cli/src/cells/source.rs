@@ -1,4 +1,4 @@
-//! Where the polygons of a scene come from that need not fit into memory.
+//! The source of the polygons of a scene that need not fit into memory.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;

@@ -30,7 +30,7 @@ use crate::{camera, coverage, ink, job, png_file};
 
 /// The default side of the square, in pixels, that a polygon has to show.
 const MIN_SIZE: f64 = 0.01;
-/// The longest side of a PDF's page, in points, as the standard has it (ISO 32000-1, annex C).
+/// The longest side of a PDF's page, in points, by the standard (ISO 32000-1, annex C).
 const LONGEST: u32 = 14_400;
 
 /// Runs the command.
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     };
     let start = Instant::now();
     let about = |error| job::about(&scene, &error);
-    // Where nothing is hidden, the map is for lines and regions alone.
+    // Where nothing is hidden, only lines and regions need the map.
     let needs_map = !args.translucent
         || format == DrawFormat::Png
         || seams == Seams::PlusLighter
@@ -151,7 +151,7 @@ fn options<'a>(
     if args.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
 }
 
-/// The side of the square that a polygon, and the length that a line, has to show to be drawn.
+/// The least visible size to be drawn: the side of a square for a polygon, a length for a line.
 fn min_size(args: &DrawArgs) -> f64 {
     args.min_size.unwrap_or(MIN_SIZE)
 }
@@ -170,7 +170,7 @@ impl<'a> View<'a> {
         tree.visibility(self.style.camera, &self.options)
     }
 
-    /// Adds the filled paths, counted, to a picture; none if there are to be lines alone.
+    /// Adds the filled paths, counted, to a picture; none if only lines are drawn.
     fn fill(
         &self,
         picture: &mut VectorPicture,
@@ -251,7 +251,7 @@ impl Figures {
     }
 }
 
-/// The edges that are drawn. By default they are those of a line drawing that are seen best.
+/// The edges that are drawn. By default they are the edges of a line drawing that are seen best.
 fn edges(args: &DrawArgs) -> EdgeChoice {
     let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
     args.edges.unwrap_or(default)

@@ -167,7 +167,7 @@ impl Export<'_> {
     }
 
     /// The JSON and the buffer of a glTF file. Vertices have the colour and the number of their polygon, so
-    /// that vertices of several polygons are in one place.
+    /// vertices of several polygons coincide.
     fn glb(&self) -> (String, Vec<u8>) {
         let mut buffer = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -198,7 +198,7 @@ impl Export<'_> {
             little(&mut self.mesh.vertices().flat_map(|vertex| light(vertex.polygon))),
             json!({"componentType": 5126, "count": count, "type": "VEC4"}),
         );
-        // Whole numbers of 32 bits are for indices alone; these are exact up to 2²⁴.
+        // Integers of 32 bits are for indices alone; floats are exact up to 2²⁴.
         let polygons = add(
             little(&mut self.mesh.vertices().map(|vertex| vertex.polygon as f32)),
             json!({"componentType": 5126, "count": count, "type": "SCALAR"}),

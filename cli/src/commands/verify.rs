@@ -57,7 +57,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     Ok(if all_right { Outcome::Done } else { Outcome::Differs })
 }
 
-/// The faults of a view, except those of the picture painted back to front, as phrases.
+/// The faults of a view, without faults of the picture painted back to front, as phrases.
 pub(crate) fn unseen_faults(seen: &Verification) -> Vec<String> {
     let mut faults = Vec::new();
     let wrong = seen.front_to_back.wrong();

@@ -35,7 +35,7 @@ const GEOMETRIC: [&str; 4] = [
     "EXT_mesh_gpu_instancing",
 ];
 
-/// Keys of a document. They stand in any order, and one may be long.
+/// Keys of a document. They occur in any order, and one may be long.
 const KEYS: [&[u8]; 5] =
     [b"\"asset\"", b"\"buffers\"", b"\"meshes\"", b"\"accessors\"", b"\"scenes\""];
 
@@ -52,7 +52,7 @@ pub(crate) struct Read {
     pub(crate) left_out: Vec<String>,
 }
 
-/// Reads a file. Its buffers, if they are files of their own, are in `folder`.
+/// Reads a file. Its buffers, if they are separate files, are in `folder`.
 pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Read, Failure> {
     let about = |problem: String| Failure::about(name, problem);
     let gltf = parsed(bytes).map_err(about)?;
@@ -203,8 +203,8 @@ fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     read().map_err(|error: io::Error| format!("cannot be read: {error}"))
 }
 
-/// The nodes of the scene, with where they are. A node that is not in one place alone is an error: it
-/// might have itself as an ancestor.
+/// The nodes of the scene, with their transforms. A node with several parents is an error: it might be its
+/// own ancestor.
 fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
     let mut is_child = vec![false; document.nodes().len()];
     document
@@ -435,8 +435,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// A value, its first four numbers; missing ones are 1, as opacities are. Whole numbers of colours are
-    /// shares of the largest.
+    /// A value, its first four numbers; missing ones are 1, as for opacities. Integer colours are shares of
+    /// the largest integer.
     fn get(&self, index: usize) -> Option<[f64; 4]> {
         if index >= self.count {
             return None;

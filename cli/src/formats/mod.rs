@@ -111,7 +111,7 @@ pub(crate) fn refused(name: &str, kind: &str) -> Failure {
     Failure::about(name, format!("this is {kind}; {READ}"))
 }
 
-/// The error of an OBJ file, or that it is none.
+/// The error of an OBJ file, or an unknown format.
 pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure {
     let text = narrowed(beginning);
     if beginning.is_empty() || other::is_like_obj(&text) {

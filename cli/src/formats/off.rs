@@ -13,7 +13,7 @@ struct Kind {
 }
 
 impl Kind {
-    /// `None` if it is another word. Vertices of four or more coordinates are none of a scene's.
+    /// `None` if it is another word. Vertices of four or more coordinates do not occur in scenes.
     fn of(word: &[u8]) -> Option<Self> {
         let rest = word.strip_suffix(b"OFF")?;
         let rest = rest.strip_prefix(b"ST").unwrap_or(rest);
@@ -71,7 +71,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         positions.push(DVec3::new(x, y, z));
         if kind.has_colours {
             let words: Vec<&str> = words.skip(if kind.has_normals { 3 } else { 0 }).collect();
-            // Texture coordinates stand behind colours of four numbers.
+            // Texture coordinates follow colours of four numbers.
             colours.push(colour(words.get(..4).unwrap_or(&words)));
         }
     }

@@ -214,7 +214,7 @@ fn what_was_written_is_read() {
         assert_eq!(scene.len(), if is_gltf { 8 } else { 4 }, "{what}");
         assert_eq!(scene.up(), if is_gltf { DVec3::Y } else { DVec3::Z }, "{what}");
         for (number, face) in FACES.iter().enumerate() {
-            // As text says it, or as 32 bits have it.
+            // As in text, or as rounded to 32 bits.
             let number_of =
                 |c: f32| if is_text { c.to_string().parse().unwrap() } else { f64::from(c) };
             let corners = face.map(|corner| DVec3::from(VERTICES[corner].map(number_of)));

@@ -116,7 +116,7 @@ struct Nodes {
 struct Side {
     /// The number of fragments, if it is a leaf.
     leaves: Vec<u32>,
-    /// Its number, if it is a node; else 0, which is the root's.
+    /// Its number, if it is a node; otherwise 0, the root's number.
     nodes: Vec<u32>,
 }
 

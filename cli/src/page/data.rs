@@ -46,7 +46,7 @@ struct Colour {
 }
 
 impl Data {
-    /// `up` is the direction that points up on the page, unless the camera had to take another.
+    /// `up` is the direction that points up on the page, unless the camera had to use another.
     pub(super) fn new(
         scene: &Scene,
         tree: &BspTree,
@@ -86,7 +86,7 @@ impl View {
     }
 }
 
-/// The different looks of a scene's materials, and which of them each polygon has.
+/// The different looks of a scene's materials, and the look of each polygon.
 fn materials(scene: &Scene) -> (Vec<Colour>, Vec<u32>) {
     let colours = Colours::new(scene, Colouring::Material);
     let mut looks = Numbered::default();

@@ -172,7 +172,7 @@ fn notes_on_cells_are_those_on_the_whole() {
         let run = folder.run(command);
         assert_eq!(run.status, Some(0), "{run:?}");
         let notes = run.err.lines().filter(|line| line.contains("s.obj"));
-        // A folder does not know lines.
+        // A folder has no line numbers.
         let known = |part: &str| part.split_once(')').map_or("", |(_, rest)| rest).to_owned();
         notes
             .map(|note| {
@@ -184,7 +184,7 @@ fn notes_on_cells_are_those_on_the_whole() {
     };
     let mut expected = notes("build s.obj -o s.bsp");
     assert!(expected.len() >= 5, "{expected:?}");
-    // Duplicates are counted within a tree, so cells do not tell.
+    // Duplicates are counted within a tree, so cells do not report them.
     expected.retain(|note| !note.contains("given more than once"));
     for cells in [1, 2, 3, 5, 9, 16] {
         let found = notes(&format!("build s.obj --cells {cells} -o d{cells}"));

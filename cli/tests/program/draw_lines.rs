@@ -7,8 +7,7 @@ use crate::png_picture::Picture;
 use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
-/// Whether the exact picture has different polygons, or an edge that it is not sure of, within some
-/// pixels of a pixel.
+/// Whether the exact picture has different polygons, or an uncertain edge, within some pixels of a pixel.
 fn is_near_edge(truth: &[Option<Option<usize>>], size: [u32; 2], at: usize, reach: i64) -> bool {
     let [width, height] = size.map(i64::from);
     let (x, y) = (at as i64 % width, at as i64 / width);

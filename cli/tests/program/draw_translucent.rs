@@ -10,7 +10,7 @@ use crate::run::Folder;
 use crate::svg_picture::Svg;
 use testkit::dice::Dice;
 
-/// Triangles that go through one another, of glass, of smoke and of wood.
+/// Triangles that penetrate each other, of glass, of smoke and of wood.
 pub(crate) fn write_scene(folder: &Folder, count: usize) {
     let materials = "newmtl glass\nKd .1 .3 .9\nd 0.25\nnewmtl smoke\nKd .4 .4 .4\nd 0.625\n\
                      newmtl wood\nKd .8 .5 .2\n";

@@ -78,7 +78,7 @@ fn all_formats_have_the_same_order() {
     folder.write("a buffer.bin", buffer);
     let order = |scene: &str| folder.run(&format!("order {scene} --eye=1,2,9"));
     let expected = order("s.obj").good();
-    // The floor goes through the wall.
+    // The floor penetrates the wall.
     assert!(expected.lines().count() > 4);
     for scene in ["s.stl", "stl.obj", "s.ply", "noname", "s.off", "s.gltf"] {
         assert_eq!(order(scene).good(), expected, "{scene}");
@@ -168,7 +168,7 @@ fn buffers_beside_a_file_are_found_or_named() {
     }
 }
 
-/// Files that say that they have far more than they have, read with little memory.
+/// Files that declare far more data than they hold, read with little memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn counts_that_lie_ask_for_no_memory() {

@@ -122,7 +122,7 @@ fn fragments_have_the_area_of_their_polygons() {
 #[test]
 fn polygons_are_numbered_by_their_line_in_the_file() {
     let folder = Folder::new("order_numbers");
-    // A point, a line, a face without area and one of two corners come between.
+    // A point, a line, a face without area and one of two corners lie between them.
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nf 1 2 4\nl 1 2 3\nf 1 2\nf 1 2 3\n";
     folder.write("s.obj", text);
     let run = folder.run("order s.obj --eye=0,0,1");

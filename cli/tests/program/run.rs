@@ -85,13 +85,13 @@ impl Run {
         Self { status: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
     }
 
-    /// The output of a run that must have gone well.
+    /// The output of a run that must succeed.
     pub(crate) fn good(self) -> String {
         assert_eq!(self.status, Some(0), "{self:?}");
         self.out
     }
 
-    /// The message of a run that must have been refused, with nothing on standard output.
+    /// The message of a run that must be refused, with nothing on standard output.
     pub(crate) fn refused(self) -> String {
         assert_eq!(self.status, Some(2), "{self:?}");
         assert_eq!(self.out, "", "{self:?}");

@@ -36,7 +36,7 @@ fn every_command_says_the_same_of_a_scene_and_of_its_tree_s_file() {
     ] {
         let scene = folder.run(&command.replace("SCENE", "s.obj"));
         let file = folder.run(&command.replace("SCENE", "s.bsp"));
-        // A tree that is there had its tolerance chosen before.
+        // The tolerance of an existing tree was chosen before.
         let notes = |text: &str| -> Vec<String> {
             text.lines().filter(|line| !line.contains("tolerance")).map(str::to_owned).collect()
         };

@@ -95,7 +95,7 @@ impl Svg {
     }
 }
 
-/// An attribute of a node or of the nearest group around it that has it.
+/// An attribute of a node or of the nearest enclosing group that has it.
 fn inherited<'d>(node: &Node<'d, '_>, name: &str) -> Option<&'d str> {
     node.ancestors().find_map(|node| node.attribute(name))
 }

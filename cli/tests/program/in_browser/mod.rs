@@ -12,7 +12,7 @@ use binspace::BspTree;
 
 use crate::run::Folder;
 
-/// A page, and the tree that it is of.
+/// A page, and its tree.
 pub(crate) fn page_and_tree(folder: &Folder, scene: &str) -> (String, BspTree) {
     folder.run(&format!("build {scene} -o s.bsp")).good();
     folder.run("page s.bsp -o s.html").good();

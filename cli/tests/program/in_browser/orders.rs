@@ -16,7 +16,7 @@ enum Eye {
 }
 
 impl Eye {
-    /// The eye as the library takes it; `None` if its position cannot be expressed.
+    /// The eye in the library's terms; `None` if its position cannot be expressed.
     fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
         match self {
             Self::At(point) => eye_at(tree, point),

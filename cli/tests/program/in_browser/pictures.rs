@@ -57,7 +57,7 @@ fn script_of_picture(tree: &BspTree, camera: &Camera, culls_backs: bool) -> Stri
     )
 }
 
-/// The polygon of each pixel as the library's painter has it, which decides pixels by exact lines.
+/// The polygon of each pixel by the library's painter, which decides pixels by exact lines.
 fn picture_of_library(tree: &BspTree, camera: &Camera, culls_backs: bool) -> Vec<u32> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
     let rays = if culls_backs { rays.with_front_faces_only() } else { rays };
