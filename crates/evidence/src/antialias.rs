@@ -13,7 +13,7 @@ use crate::translucent::Colour;
 /// The visible polygons of each pixel with the shares of the pixel that they own.
 ///
 /// The cells of a visibility map are clipped to the pixels (E. Catmull, "A hidden-surface algorithm with
-/// anti-aliasing", 1978). Which cells there are, and between which lines, is exact; areas are rounded.
+/// anti-aliasing", 1978). The set of cells and their lines are exact; areas are rounded.
 #[derive(Clone, Debug)]
 pub struct Areas {
     pixels: Vec<Vec<(usize, f64)>>,

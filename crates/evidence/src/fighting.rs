@@ -1,5 +1,5 @@
-//! Two sheets so near each other that depth buffers cannot tell them apart: they show through each
-//! other in patches, which is called z-fighting.
+//! Two sheets so near each other that depth buffers cannot separate them: they show through each other in
+//! patches (z-fighting).
 
 use glam::DVec3;
 
@@ -86,7 +86,7 @@ impl Sheets {
     pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
         let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
         let image = painted.image;
-        // Both sheets are two triangles each: another one of the same sheet is not wrong.
+        // Both sheets are two triangles each: the other triangle of the same sheet is not wrong.
         let mut wrong: Vec<f64> = Vec::new();
         for (i, (&shown, &nearest)) in image.faces().iter().zip(self.truth.faces()).enumerate() {
             if shown / 2 != nearest / 2 {
@@ -177,8 +177,8 @@ impl Apart {
         self.steps - self.roundings[0] - self.roundings[1] > 1.0
     }
 
-    /// How likely they are not, if both roundings are anywhere within their bounds: numbers that are
-    /// a share s of a step apart are stored as the same in 1 − s of all places.
+    /// The probability that they are not, if both roundings are anywhere within their bounds: numbers that
+    /// are a share s of a step apart are stored as the same in 1 − s of all places.
     fn share_wrong(&self) -> f64 {
         const PARTS: u32 = 8;
         let middle = |k: u32| (2 * k + 1) as f64 / f64::from(PARTS) - 1.0;
@@ -233,8 +233,8 @@ mod tests {
             let sheets = Sheets::new(gap, SIZE);
             let (fight, predicted) = (sheets.in_format(format).unwrap(), sheets.predicted(format));
             let ([first, last], [begin, end]) = (fight.seen.unwrap(), predicted.begin.unwrap());
-            // Nothing is wrong where the sheets are a step apart: that is certain. That something is
-            // soon after is likely.
+            // It is certain that nothing is wrong where the sheets are a step apart. It is likely that
+            // something is wrong soon after.
             assert!(first >= begin * (1.0 - 1e-9) && last <= end * (1.0 + 1e-9), "{format} {gap}");
             assert!(first <= begin * 1.05 && last >= end * 0.95, "{format} {gap}: {first} {begin}");
             let share = fight.wrong as f64 / predicted.wrong;
@@ -242,8 +242,9 @@ mod tests {
         }
     }
 
-    /// No pixel is wrong where roundings cannot make it so; and where a tenth of the picture is to be
-    /// wrong, the fight begins within 15 % of the depth that is predicted, and is half to twice as large.
+    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be wrong,
+    /// the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels is half to
+    /// twice the predicted number.
     #[test]
     fn roundings_predict_where_every_format_fights() {
         let cases: [(DepthFormat, &[f64]); 6] = [

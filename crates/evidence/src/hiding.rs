@@ -1,4 +1,4 @@
-//! Who hides whom: the partial order that a painter has to keep to, exactly.
+//! Which faces hide which: the exact partial order that a painter has to respect.
 
 mod components;
 mod cone;
@@ -16,8 +16,8 @@ use crate::place;
 /// Which faces hide parts of which from a viewpoint, for every direction of view, in big integers. For small
 /// scenes: every pair is tested, O(n²).
 ///
-/// A face hides another if a ray from the eye goes through the inside of both and meets it first.
-/// Faces that go through each other may hide parts of each other.
+/// A face hides another if a ray from the eye passes through the inside of both and meets it first. Faces
+/// that penetrate each other may hide parts of each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hiding {
     /// For each face, the faces that it hides parts of, in ascending order.
@@ -67,8 +67,8 @@ impl Hiding {
         (0..self.hidden.len() as u32).map(both).sum()
     }
 
-    /// The faces on cycles of hiding: each list is of faces that all hide each other, directly or
-    /// by way of others.
+    /// The faces on cycles of hiding (strongly connected components): in each list all faces hide each other,
+    /// directly or through others.
     pub fn cycles(&self) -> Vec<Vec<u32>> {
         components(&self.hidden)
     }

@@ -1,4 +1,4 @@
-//! A stand-in for scans of things: no scan is part of this project.
+//! A substitute for real scans: no scan is part of this project.
 
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
@@ -31,7 +31,7 @@ pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
 
 /// A corner of the sphere with a bulge and noise, which depend on nothing but where it is.
 fn moved(corner: DVec3, noise: f64, seed: u64) -> DVec3 {
-    // No corner has two signs of zero.
+    // No coordinate is a negative zero.
     let at = corner + DVec3::ZERO;
     let bits = at.to_array().map(f64::to_bits);
     let key = bits.into_iter().fold(seed, |key, bits| SplitMix64::new(key ^ bits).next());

@@ -203,8 +203,8 @@ mod tests {
         assert!(first_lit[1] > 10, "{first_lit:?}");
     }
 
-    /// The share that is lost or won, over several seeds: sixteen times as many sight lines, a fourth of it
-    /// or less.
+    /// The share that is lost or gained, over several seeds: sixteen times as many sight lines, a fourth of
+    /// it or less.
     #[test]
     fn the_balance_comes_nearer_to_1_with_more_sight_lines() {
         let off = [1, 4].map(|side| {

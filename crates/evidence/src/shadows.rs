@@ -1,5 +1,4 @@
-//! Shadows: which points of surfaces a lamp lights, and which it does not; and the parts of surfaces
-//! as pieces of polygons.
+//! Shadows: the points of surfaces that a lamp lights, and the lit parts of surfaces as pieces of polygons.
 
 mod casters;
 mod pieces;
@@ -23,7 +22,7 @@ pub enum Zone {
     Lit,
     /// It sees some of them.
     Penumbra,
-    /// It sees none of them.
+    /// It sees none of the tested points.
     Umbra,
 }
 

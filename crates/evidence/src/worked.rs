@@ -74,7 +74,7 @@ pub fn six_by_six() -> [[DVec3; 3]; 2] {
 ///
 /// # Errors
 ///
-/// None: the size is as it should be.
+/// No error: the size is valid.
 pub fn six_by_six_camera() -> Result<Camera, Error> {
     Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::new(3.0, 3.0, 0.0), 6.0, [6, 6])
 }

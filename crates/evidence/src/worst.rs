@@ -1,4 +1,4 @@
-//! Scenes that trees cut into as many pieces as can be.
+//! Scenes that trees cut into the maximal number of pieces.
 
 #[cfg(test)]
 mod tests;

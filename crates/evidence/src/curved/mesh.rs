@@ -76,7 +76,7 @@ fn triangles_of(patch: &Patch, count: u32, counts: &Counts) -> Vec<Triangle> {
 fn join(outer: &[Vertex], inner: &[Vertex], axis: usize, triangles: &mut Vec<Triangle>) {
     let (mut i, mut k) = (0, 0);
     while i + 1 < outer.len() || k + 1 < inner.len() {
-        // The one goes on whose next point comes first.
+        // Advances the side whose next point comes first.
         let next =
             |line: &[Vertex], at: usize| line.get(at + 1).map_or(f64::INFINITY, |v| v.0[axis]);
         if next(outer, i) <= next(inner, k) {
@@ -93,7 +93,7 @@ fn triangle(vertices: [Vertex; 3]) -> Triangle {
     Triangle { parameters: vertices.map(|v| v.0), corners: vertices.map(|v| v.1) }
 }
 
-/// An edge in the one of its two directions that stands for both, and whether that is the other one.
+/// An edge in its canonical direction, and whether that is the reverse direction.
 fn directed(mut line: [Corner; 4]) -> ([Corner; 4], bool) {
     let flips = line[3] < line[0];
     if flips {

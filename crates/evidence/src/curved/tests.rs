@@ -117,8 +117,8 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
     }
 }
 
-/// An edge is cut as the finer of its two patches needs: also where only one of them is bent across it, and
-/// whichever comes first.
+/// An edge is divided as finely as the finer of its two patches needs: also where only one of them is bent
+/// across it, in either order.
 #[test]
 fn shared_edges_are_as_fine_as_either_patch_needs() {
     let view = PlainView::new(SIZE);

@@ -75,8 +75,8 @@ pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// `count` bars along the sides of a regular polygon, each longer than the side: at its end it lies
-/// over the beginning of the next.
+/// `count` bars along the sides of a regular polygon, each longer than the side: its end lies over the
+/// beginning of the next.
 pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -97,7 +97,7 @@ pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     });
     push_shuffled(&mut scene, bars.collect(), &mut random);
     let mut looks = pose.looks(3.4, 0.6, &mut random);
-    // One from near by, as many bars are small.
+    // One view from near by, as many bars are small.
     let eye = DVec3::new(1.0 + 0.5 * side, 0.1 * side, 3.0 * side);
     looks[1] = pose.look(eye, DVec3::X);
     Trial::new(scene, looks)

@@ -69,7 +69,7 @@ pub(super) fn nesting(count: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// A triangle around a point of the plane z = 0 that has corners on both sides of it.
+/// A triangle around a point of the plane z = 0, with corners on both sides of the plane.
 fn loop_until_through(at: DVec3, size: f64, random: &mut SplitMix64) -> Vec<DVec3> {
     for _ in 0..1000 {
         let triangle = around(at, size, random);

@@ -78,7 +78,7 @@ pub(super) fn empty(name: &str, difficulty: f64) -> Scene {
     scene
 }
 
-/// Adds polygons in random order, so that the order of input is of no help.
+/// Adds polygons in random order, so that input order does not help.
 pub(super) fn push_shuffled(
     scene: &mut Scene,
     mut polygons: Vec<Vec<DVec3>>,

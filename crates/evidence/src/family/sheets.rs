@@ -1,4 +1,4 @@
-//! Thin differences: planes that all but coincide, and triangles that all but have no width.
+//! Thin differences: planes that almost coincide, and triangles that have almost no width.
 
 use glam::{DVec2, DVec3};
 

@@ -15,9 +15,8 @@ pub(super) struct Seen {
     corners: Vec<Quad>,
     /// The face's plane, with the eye in front.
     plane: Quad,
-    /// The planes through the eye and each edge, with the face in front. Inside of them all is the
-    /// cone of the eye's rays through the face, and nothing behind the eye: the cone comes to a
-    /// point there.
+    /// The planes through the eye and each edge, with the face in front. Their intersection is the cone of
+    /// the eye's rays through the face, and nothing behind the eye: the cone's apex is there.
     sides: Vec<Quad>,
 }
 

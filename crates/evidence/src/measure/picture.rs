@@ -167,7 +167,7 @@ mod tests {
         (faces, rays)
     }
 
-    /// Painted by mistake where its ray misses it, a face has no depth there.
+    /// A face painted by mistake where its ray misses it has no depth there.
     #[test]
     fn faces_that_are_not_met_have_no_depth_error() {
         let (faces, rays) = scene(&[(3.0, 0.0), (6.0, -3.0)], None);

@@ -6,7 +6,7 @@ use binspace::BspTree;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 use binspace::view::Camera;
 
-/// How attributes come from the vertices of a piece to the pixels within it.
+/// The interpolation of attributes from the vertices of a piece to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Across {
     /// As linear functions on the picture. That is right only for pieces across the view: others

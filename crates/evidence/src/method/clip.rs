@@ -101,7 +101,7 @@ fn keep(polygon: &[Vertex], inside: impl Fn(&Vertex) -> f64, kept: &mut Vec<Vert
         if a >= 0.0 {
             kept.push(*here);
         }
-        // From the inner end, whichever way the edge runs: neighbours get the same vertex.
+        // From the inner end, in either direction of the edge: neighbours get the same vertex.
         if a > 0.0 && b < 0.0 {
             kept.push(Vertex::between(here, next, a / (a - b)));
         } else if a < 0.0 && b > 0.0 {

@@ -28,7 +28,7 @@ const GROWTHS: u32 = 24;
 pub struct Seen {
     /// Whether each cell has a point that may be seen.
     pub cells: Vec<bool>,
-    /// Whether each polygon has.
+    /// Whether each polygon has such a point.
     pub polygons: Vec<bool>,
 }
 
@@ -109,7 +109,7 @@ struct Sight<'a> {
     /// The visible part of each portal, first to the back, then to the front; and the number of times that it
     /// grew.
     parts: Vec<[(Outline, u32); 2]>,
-    /// Portals whose part has grown, each with the side that they are seen from.
+    /// Portals whose part has grown, each with the side from which they are seen.
     pending: VecDeque<(usize, usize)>,
 }
 
@@ -144,7 +144,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Goes on through the portals out of a cell, as far as they are within some planes.
+    /// Continues through the portals out of a cell, as far as they are within some planes.
     fn pass(&mut self, cell: usize, planes: &[Plane]) {
         let noise = NOISE * self.cells.extent;
         for &(number, side) in &self.cells.cells[cell].portals {

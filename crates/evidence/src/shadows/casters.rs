@@ -8,8 +8,8 @@ use binspace::{BspTree, Frustum};
 /// Too large: more faces are tried without effect. Too small: a face that casts a shadow is lost.
 const WIDER: f64 = 1e-11;
 
-/// The faces of a tree that have a point between a lamp and a face whose corners are given, and some
-/// more, in ascending order.
+/// The faces of a tree that have a point between a lamp and a face with the given corners, and some more, in
+/// ascending order.
 ///
 /// Every caster of a shadow on a face intersects the pyramid between the lamp and the face. The tree's boxes
 /// find the candidates; doubtful ones are kept, so no shadow is lost.

@@ -144,8 +144,8 @@ pub(super) fn pieces_by(
     found
 }
 
-/// The pieces of one face. `shades` has, for each point of the lamp, the shade of each face, `casters`
-/// the faces that may throw one on this.
+/// The pieces of one face. `shades` holds, for each point of the lamp, the shade of each face; `casters`
+/// holds the faces that may cast a shadow on this one.
 fn pieces_of(
     faces: &Faces,
     whole: Piece,

@@ -20,7 +20,7 @@ fn side(wall: char, [x, y]: [f64; 2]) -> f64 {
 #[test]
 fn the_walls_stand_as_the_tree_says() {
     let ends = |wall: char| EIGHT.into_iter().find(|&(letter, _)| letter == wall).unwrap().1;
-    // Which walls are on the eye's side of a line, and which on the other.
+    // The walls on the eye's side of a line, and the walls on the other.
     let check = |line: char, near: &str, far: &str| {
         let eye = side(line, EYE_OF_EIGHT);
         assert_ne!(eye, 0.0);

@@ -15,8 +15,8 @@ use testkit::scenes::polygons;
 #[derive(Debug, Default)]
 struct Figures {
     vertices: usize,
-    /// For the tolerance as it is, and rounded down to an integer in the unit of each plane's
-    /// equation: the library's is the one or the other, or in between.
+    /// For the exact tolerance, and for it rounded down to an integer in the unit of each plane's equation:
+    /// the library's figure is one of these or in between.
     misplaced: [usize; 2],
     undefined: usize,
     torn: usize,
@@ -202,8 +202,7 @@ impl Tally {
     }
 }
 
-/// The library's tree, which misplaces nothing and keeps within three roundings, as rationals
-/// say.
+/// The library's tree, which misplaces nothing and keeps within three roundings, by rationals.
 fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), String> {
     let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
     let tree = tree_of(&options, &Tuning::DEFAULT, faces, Preparation::default())

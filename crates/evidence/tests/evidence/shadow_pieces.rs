@@ -186,7 +186,7 @@ fn the_pieces_of_a_face_have_its_area() {
                 let own = pieces.iter().filter(|piece| piece.face == face);
                 let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
                 let areas: Vec<RBig> = areas.collect();
-                // All run as the face does, so none is subtracted.
+                // All have the face's orientation, so none is subtracted.
                 let whole = area(&corners, axis);
                 assert!(areas.iter().all(|part| part.signum() == whole.signum()));
                 assert_eq!(testkit::rational::total(areas), whole, "face {face}");
@@ -245,8 +245,8 @@ fn a_shadow_by_hand() {
     assert!(corners.iter().all(|p| p.x.abs() == 4.0 && p.y.abs() == 4.0 && p.z == 0.0));
 }
 
-/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and lies in the umbra behind a
-/// wall all the same.
+/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and still lies in the umbra
+/// behind a wall.
 #[test]
 fn behind_a_wall_is_umbra_of_a_lamp_that_is_partly_seen_edge_on() {
     let mut scene = Scene::new("standing", DVec3::Z);

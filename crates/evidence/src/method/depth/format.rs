@@ -54,7 +54,7 @@ impl fmt::Display for DepthFormat {
     }
 }
 
-/// How depths come from the corners of a face to the pixels within it.
+/// The interpolation of depths from the corners of a face to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the left. The

@@ -53,8 +53,7 @@ impl Frame {
         Some(start + columns.start as usize..start + columns.end as usize)
     }
 
-    /// Shows a face in those pixels of a run where it passes the test. Of a pixel that is to be left
-    /// alone the key is `None`.
+    /// Shows a face in each pixel of a run where it passes the test. The key `None` skips a pixel.
     #[inline]
     pub(super) fn put(
         &mut self,

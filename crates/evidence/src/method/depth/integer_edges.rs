@@ -59,7 +59,7 @@ impl Edge {
         Some(Self { first, end, column, rest: column * unit - place, step, unit })
     }
 
-    /// Goes on to the next scanline.
+    /// Advances to the next scanline.
     fn advance(&mut self) {
         self.column += self.step[0];
         self.rest -= self.step[1] * PARTS;

@@ -33,11 +33,11 @@ pub struct DepthBuffer {
     pub format: DepthFormat,
     /// How depths are interpolated from the corners to the pixels.
     pub interpolation: Interpolation,
-    /// The least depth that is shown, in world units along the direction of view, from the eye, or
-    /// from the centre of a parallel camera's picture. Default: `None`, the least that the picture
-    /// shows, though no less than 2⁻⁴⁴ of the furthest.
+    /// The least depth that is shown, in world units along the direction of view, from the eye, or from the
+    /// centre of a parallel camera's picture. Default: `None`, the least visible depth, though no less than
+    /// 2⁻⁴⁴ of the furthest.
     pub near: Option<f64>,
-    /// The largest depth that is shown. Default: `None`, the largest that the picture shows.
+    /// The largest depth that is shown. Default: `None`, the largest visible depth.
     pub far: Option<f64>,
     /// The buffer's first value, its test and its writes.
     pub rules: DepthRules,

@@ -8,7 +8,7 @@ use binspace::internals::Faces;
 /// The nearest near plane that is chosen, as a share of the far plane's depth. Too small: one face at the eye
 /// takes all depths. Too large: it is cut off.
 const NEAREST: f64 = 1.0 / (1u64 << 44) as f64;
-/// The least range that is chosen, as a share of the larger depth, so that it can be divided by.
+/// The least range that is chosen, as a share of the larger depth, so that the range is a valid divisor.
 const SHALLOWEST: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// The range of depths of a picture, from the given limits; `None` if nothing is visible.

@@ -63,7 +63,7 @@ impl DepthRules {
         Self { test, ..self }
     }
 
-    /// Cleared to something else.
+    /// Cleared to another value.
     #[must_use]
     pub const fn with_clear(self, clear: Clear) -> Self {
         Self { clear, ..self }

@@ -13,8 +13,8 @@ use binspace::view::Camera;
 /// A number that is about to be stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unstored {
-    /// The number that the face's plane has in the pixel, as the pipeline set the plane up, corners and
-    /// slopes rounded; the smaller, the nearer.
+    /// The number of the face's plane in the pixel, as the pipeline set the plane up, with rounded corners
+    /// and slopes; the smaller, the nearer.
     pub value: f64,
     /// The difference of two stored numbers that are next to each other there.
     pub step: f64,
@@ -39,7 +39,7 @@ impl DepthBuffer {
     ///
     /// # Errors
     ///
-    /// If the near and the far plane do not suit the camera, or nothing is to be seen.
+    /// If the near and the far plane do not suit the camera, or nothing is visible.
     pub fn set_up(&self, camera: &Camera, faces: &Faces) -> Result<SetUp, MethodError> {
         if self.format.is_float() {
             self.set_up_in::<f32>(camera, faces, 2f64.powi(-24))

@@ -1,7 +1,7 @@
 //! The algorithm's definition, and its budgets.
 
-/// Sorts by depth, and makes sure of it: M. E. Newell, R. G. Newell & T. L. Sancha, "A solution to
-/// the hidden surface problem" (1972).
+/// Sorts by depth, and checks the order: M. E. Newell, R. G. Newell & T. L. Sancha, "A solution to the hidden
+/// surface problem" (1972).
 ///
 /// Faces are clipped to the picture and sorted by their furthest vertex. The furthest, P, may be painted if
 /// it hides no Q that reaches further than P's nearest vertex. That holds if one of these tests holds, each
@@ -18,10 +18,10 @@
 /// plane of a cycle cuts another face of it, one is cut along an edge of another as it is seen. If that does
 /// not help either, all faces are nearer than the epsilon, and P is painted.
 ///
-/// When Q is painted, its predecessor goes on where it was stopped, rather than beginning again: the
-/// order is the same, the comparisons are fewer.
+/// When Q is painted, its predecessor resumes its comparisons instead of beginning again. The order is the
+/// same, with fewer comparisons.
 ///
-/// Everything is `f64`. The time is quadratic in the faces that overlap in depth, and so are the
+/// Everything is `f64`. The time is quadratic in the faces that overlap in depth, and so is the number of
 /// pieces at worst: both have a budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newell {

@@ -14,7 +14,7 @@ pub(super) struct EyePlane {
 }
 
 impl EyePlane {
-    /// The plane of a face. One that the eye is on has it on either side.
+    /// The plane of a face. A face whose plane contains the eye has it on either side.
     fn of(space: &CameraSpace, faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
         // Differences of lattice points are exact.
@@ -92,7 +92,7 @@ impl Pieces {
         }
     }
 
-    /// Adds a piece of a face, and gives back its number.
+    /// Adds a piece of a face, and returns its number.
     pub(super) fn add(
         &mut self,
         space: &CameraSpace,

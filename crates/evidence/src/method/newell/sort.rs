@@ -18,8 +18,7 @@ enum State {
     Gone,
 }
 
-/// A piece that is to be painted next, unless it hides something; nothing from `place` in the list
-/// on is in its way.
+/// The next piece to paint, unless it hides something; no piece from `place` in the list on prevents it.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     piece: u32,
@@ -83,7 +82,7 @@ impl<'a> Sorter<'a> {
                 self.replace(piece, &halves)?;
                 self.decisions.cuts += 1;
             } else {
-                // All is within the epsilon: the search goes on past the pair.
+                // Everything is within the epsilon: the search continues past the pair.
                 self.decisions.passed += 1;
             }
         }
@@ -144,7 +143,7 @@ impl<'a> Sorter<'a> {
         if self.comparisons > limit { Err(MethodError::comparisons(limit)) } else { Ok(found) }
     }
 
-    /// Whether a plane says that Q, which P may hide, may be painted before P.
+    /// Whether a plane proves that Q, which P may hide, may be painted before P.
     fn may_precede(&self, q: u32, p: u32) -> bool {
         let epsilon = self.method.epsilon;
         is_behind(self.pieces, q, p, epsilon) || is_in_front(self.pieces, p, q, epsilon)

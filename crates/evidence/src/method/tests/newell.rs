@@ -113,7 +113,7 @@ fn three_bars() -> Polygons {
 fn a_cycle_of_three_is_cut() {
     for camera in from_above(2.5, [60, 60]) {
         let pieces = assert_right("three bars", &three_bars(), &[camera]);
-        // One cut would do, but each plane cuts both other bars, which counts as penetration.
+        // One cut would suffice, but each plane cuts both other bars, which counts as penetration.
         assert!((4..=7).contains(&pieces), "{pieces}");
     }
 }
@@ -199,7 +199,7 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
     }
 }
 
-/// The upper one reaches further down the slope, so that its depth alone would have it painted first.
+/// The upper one reaches further down the slope, so a sort by depth alone would paint it first.
 #[test]
 fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
     let slope = |half, lift: f64| square(half, |x, y| DVec3::new(x, y, x + lift));

@@ -23,7 +23,7 @@ pub(super) enum Meeting {
     Nothing,
     /// The distance along its direction, in lengths of the direction.
     At(f64),
-    /// It passes too near an edge, or too much along the polygon, to tell.
+    /// It passes too near an edge, or is too parallel to the polygon, to tell.
     Doubtful,
 }
 
@@ -59,7 +59,7 @@ pub(super) fn meet(polygon: &[DVec3], camera: &Camera, x: u32, y: u32) -> Meetin
     }
 }
 
-/// The nearest polygon in a pixel, if there is one; `None` if that is doubtful.
+/// The nearest polygon in a pixel, if there is one; `None` if that is uncertain.
 pub(super) fn nearest(polygons: &Polygons, camera: &Camera, x: u32, y: u32) -> Option<Option<u32>> {
     let mut hits: Vec<(f64, u32)> = Vec::new();
     for (polygon, number) in polygons.iter().zip(0..) {

@@ -145,8 +145,8 @@ fn translucent_fragments_over_opaque_polygons_are_the_exact_layers() {
         }
     }
     assert!(several > 2000, "{several}");
-    // Drawn from back to front, each is nearer than those before it: depths left behind do no harm
-    // until the order is wrong.
+    // Drawn from back to front, each is nearer than all before it: remaining depths have no effect until the
+    // order is wrong.
     assert_eq!(wrong[..2], [0, 0]);
     assert!(wrong[2] > 500 && wrong[3] > 500 && lost > 500, "{wrong:?} {lost}");
 }
