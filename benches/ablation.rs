@@ -154,7 +154,7 @@ fn compare(scene: &Scene, tunings: [&Tuning; 2]) -> [f64; 2] {
     let (mut spent, mut builds) = (Duration::ZERO, 0);
     while builds == 0 || builds < MOST_BUILDS && spent < ENOUGH {
         for turn in 0..2 {
-            // The one that comes first finds other caches.
+            // The first build of a turn finds other caches.
             let i = (turn + builds) % 2;
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");

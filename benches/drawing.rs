@@ -19,7 +19,7 @@ use std::time::Duration;
 use support::{Table, best_of, print_head, time, wanted};
 use testkit::shapes::fan;
 
-/// Scenes, and the direction that is up in them. Files are in the folder `BINSPACE_SCENES`, and are skipped without it.
+/// Scenes, and their up directions. Files are in the folder `BINSPACE_SCENES`, and are skipped without it.
 const SCENES: [(&str, DVec3); 17] = [
     ("terrain:10000", DVec3::Z),
     ("terrain:100000", DVec3::Z),

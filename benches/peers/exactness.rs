@@ -35,7 +35,7 @@ pub(crate) fn run() {
             None => scene(name),
         };
         let Some(scene) = found else { continue };
-        // The same for both, on scenes from files too.
+        // The same tolerance for both trees, on scenes from files too.
         let tolerance = Tolerance::Relative(EPSILON);
         let options = BuildOptions::DEFAULT
             .with_heuristic(Heuristic::Sampled { candidates: 16 })

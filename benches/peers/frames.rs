@@ -50,7 +50,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let (mut ours, mut theirs) = (Duration::MAX, Duration::MAX);
     let mut splitter = BspSplitter::<usize>::new();
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
-    // In turns, so that a slow moment of the machine meets both.
+    // In turns, so that a slow moment of the machine affects both.
     for _ in 0..4 {
         ours = ours.min(best_of(3, || our_frame(outlines, &mut builder, &mut order)).0);
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);
@@ -163,7 +163,7 @@ fn depth(outline: &Outline, [x, y]: [f64; 2]) -> Option<f64> {
     let [a, b, c] = [0, 1, 2].map(|k| binspace::glam::DVec3::from(outline[k]));
     let normal = (b - a).cross(c - a);
     let depth = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
-    // A layer seen along its edge has no depth that could be judged.
+    // A layer seen edge-on has no depth to judge.
     let is_steep = normal.z.abs() < 1e-3 * normal.length();
     (!is_steep && covers(&corners, [x, y], MARGIN)).then_some(depth)
 }

@@ -27,7 +27,7 @@ impl Path {
     fn eye(self, frame: usize) -> DVec3 {
         let frame = frame as f64;
         match self {
-            // A step to the side now and then, and the head goes up and down.
+            // Steps to the side now and then; the head moves up and down.
             Self::Walk(step) => {
                 let gone = frame * step;
                 DVec3::new(

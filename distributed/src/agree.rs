@@ -1,10 +1,10 @@
-//! Errors: if one rank has one, all stop.
+//! Errors: if one rank has an error, all stop.
 
 use mpi::collective::SystemOperation;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives};
 
-/// Some rank has failed, and has said why.
+/// Some rank has failed, and has reported why.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Failure;
 

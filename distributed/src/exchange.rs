@@ -20,7 +20,7 @@ pub(crate) fn sum(world: &SimpleCommunicator, own: u64) -> u64 {
 /// Merges the extents of all shares into the scene's extent.
 pub(crate) fn merge(world: &SimpleCommunicator, extent: &mut Extent) {
     let [low, high] = [extent.low, extent.high].map(|corner| corner.to_array());
-    // All of them are to be as small as can be.
+    // The reduction takes the minimum of each.
     let own = [low[0], low[1], low[2], -high[0], -high[1], -high[2], -extent.precision];
     let mut all = own;
     world.all_reduce_into(&own[..], &mut all[..], SystemOperation::min());

@@ -85,14 +85,14 @@ fn print(all: &[f64], each: usize, counts: usize) -> csv::Result<()> {
     Ok(out.flush()?)
 }
 
-/// The time that this process has had of a processor; 0 where the system does not tell.
+/// The processor time of this process; 0 where the system does not report it.
 pub(crate) fn processor_time() -> Duration {
     let status = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
     let nanoseconds = status.split_whitespace().next().and_then(|first| first.parse().ok());
     Duration::from_nanos(nanoseconds.unwrap_or(0))
 }
 
-/// The most memory that this process has had, in bytes; 0 where the system does not tell.
+/// The peak memory of this process, in bytes; 0 where the system does not report it.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -44,7 +44,7 @@ fn main() -> ExitCode {
     agree::abort_on_panic();
     match run(&world) {
         Ok(()) => ExitCode::SUCCESS,
-        // It has been reported, by the rank where it was.
+        // The rank where it occurred has reported it.
         Err(Failure) => ExitCode::from(2),
     }
 }
@@ -130,7 +130,7 @@ fn divide(
     share: &Share,
 ) -> Result<Partition, Failure> {
     let total = exchange::sum(world, share.polygons.len() as u64);
-    // Which polygons are samples does not depend on who has them, so neither do the cells.
+    // The choice of samples does not depend on the distribution of polygons, so neither do the cells.
     let stride = total.div_ceil(SAMPLES).max(1);
     let samples = share.polygons.iter().filter(|given| mixed(given.number).is_multiple_of(stride));
     let own: Vec<f64> = samples.flat_map(|given| given.corners[0].to_array()).collect();
@@ -148,7 +148,8 @@ fn divide(
     together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
 }
 
-/// Bits of a number, mixed: of numbers in any pattern, about as many are multiples of anything.
+/// A hash of a number: for any pattern of numbers, about the same share of hashes are multiples of a given
+/// divisor.
 fn mixed(number: u64) -> u64 {
     let bits = (number ^ number >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
@@ -167,7 +168,7 @@ fn send_polygons(
         partition.reached_by(given, &mut reached);
         reached.iter().for_each(|&cell| given.write(&mut outgoing[cell]));
     }
-    // The share is freed before others come.
+    // The share is freed before other polygons arrive.
     drop(share);
     let own = outgoing[rank(world)].len();
     let sent = outgoing.iter().map(Vec::len).sum::<usize>() - own;

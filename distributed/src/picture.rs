@@ -96,7 +96,7 @@ impl Painted {
     }
 }
 
-/// How a picture gets to its place.
+/// The way of a picture to its place.
 enum Place {
     /// It is written into a device or a pipe.
     Into,
@@ -132,7 +132,7 @@ fn unwritable(path: &Path, error: &io::Error) -> String {
 pub(crate) fn check(path: &Path) -> Result<(), String> {
     let check = || match Place::of(path)? {
         Place::Into => Ok(()),
-        // It has no name, so nothing is left if the program ends at once.
+        // It has no name, so nothing remains if the program ends at once.
         Place::Beside(path) => tempfile::tempfile_in(folder_of(&path)).map(drop),
     };
     check().map_err(|error| unwritable(path, &error))
@@ -147,7 +147,7 @@ pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), St
             }
             Place::Beside(target) => target,
         };
-        // As other files, it can be read by those whom the system's mask allows.
+        // The system's mask decides who can read it, as for other files.
         let file = tempfile::Builder::new()
             .permissions(Permissions::from_mode(0o666))
             .tempfile_in(folder_of(&target))?;

@@ -49,7 +49,7 @@ fn covered(picture: &[u8]) -> usize {
     picture.chunks(3).filter(|pixel| *pixel != [255; 3]).count()
 }
 
-/// A picture by each number of ranks is the one of a single tree, which has no cells.
+/// For each number of ranks, the picture equals the picture of a single tree without cells.
 fn same_on_all(folder: &Path, scene: &str, views: &[&str], least: usize) {
     for view in views {
         let arguments = format!("{scene} --size 128x96 {view}");
@@ -78,7 +78,7 @@ fn pictures_of_a_scene_in_one_corner_are_the_same() {
     same_on_all(folder.path(), "lump:3000", &["", "--eye=38,39,47 --target=40,40,40"], 30);
 }
 
-/// More ranks than polygons, one polygon, and none at all.
+/// More ranks than polygons, one polygon, and no polygon.
 #[test]
 #[ignore = "needs mpirun of Open MPI"]
 fn ranks_without_polygons_do_their_part() {
@@ -125,7 +125,7 @@ fn a_scene_in_one_cell_of_many_is_the_same() {
     }
 }
 
-/// Walls in the planes x = 0, 1, …, panes that go through them, and decals on both.
+/// Walls in the planes x = 0, 1, …, panes that penetrate them, and decals on both.
 fn write_parts(folder: &Path) {
     let mut corners = String::new();
     let mut square = |at: [f64; 3], u: [f64; 3], v: [f64; 3]| {

@@ -2,7 +2,7 @@
 //! makes vector pictures of OpenGL drawings, on the same triangles. The whole scene is seen from around it,
 //! in 1600×1200 pixels.
 //!
-//! Times of one thread are those for which it ran; only the gain of a second one is by the clock.
+//! Times of one thread are its running time; only the gain of a second one is by the clock.
 //!
 //! Drawings are filled at the centres of pixels in floats and compared with the tree's order painted by
 //! integers. Centres nearer than 4·10⁻⁵ of a pixel to an outline are not judged.
@@ -52,7 +52,7 @@ const fn level(scene: &'static str) -> Goal {
     Goal { is_whole: true, ..goal(scene, None, Some(1.0)) }
 }
 
-/// Models in parts that go through one another.
+/// Models in parts that penetrate each other.
 const fn model(scene: &'static str, up: DVec3) -> Goal {
     Goal { up, ..goal(scene, None, Some(1.15)) }
 }
@@ -205,8 +205,8 @@ fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, goal: &Goal) -> [Strin
     let visible = map.polygons().count();
     let mut score = Score::default();
     let mut checked = fill::check(tree, camera, &mut score);
-    // In real scenes, polygons lie within the tolerance of one another: there the tree's order says which
-    // of them shows, not the ray.
+    // In real scenes, polygons lie within the tolerance of one another: there the tree's order decides the
+    // visible one, not the ray.
     if !goal.scene.ends_with(".obj") {
         checked = checked.and_then(|()| fill::check_rays(tree, camera, &mut score));
     }

@@ -48,7 +48,7 @@ impl Case {
         let scene = triangulated(&scene(name)?);
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         check(&tree, &scene);
-        // As the tree has them, so that all see the same.
+        // As in the tree, so that all libraries get the same triangles.
         let (faces, lattice) = (tree.faces(), tree.faces().lattice());
         let triangle = |face: u32| {
             let corners = faces.corners(face);

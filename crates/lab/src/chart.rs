@@ -83,8 +83,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
     pub(crate) falls: bool,
-    /// Whether values may be 0: they are drawn in a lane of their own below the axis, side by
-    /// side, so that none hides another.
+    /// Whether values may be 0: they are drawn in a separate lane below the axis, side by side, so that none
+    /// hides another.
     pub(crate) zero: bool,
     pub(crate) series: Vec<Series>,
 }
@@ -114,7 +114,7 @@ impl Chart<'_> {
         Ok(svg)
     }
 
-    /// Both axes, and the place for zero at the foot of the second.
+    /// Both axes, and the lane for zero at the foot of the second.
     fn scales(&self) -> (Scale, Scale, Lane) {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let mut x = match &self.ticks {

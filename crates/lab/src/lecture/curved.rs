@@ -69,7 +69,7 @@ fn certain(surfaces: &Surfaces<'_>, view: &PlainView) -> Vec<Option<u32>> {
     pixels.map(|pixel| nearest(surfaces, view, pixel)).collect()
 }
 
-/// Certain pixels that show something else.
+/// Certain pixels that show another surface.
 fn differing(truth: &[Option<u32>], shown: &[u32]) -> usize {
     truth.iter().zip(shown).filter(|(truth, shown)| truth.is_some_and(|t| t != **shown)).count()
 }

@@ -44,7 +44,7 @@ pub(super) struct Row {
     pub(super) method: String,
     /// The space in which the method decides visibility.
     pub(super) space: Space,
-    /// The figures, or why there are none.
+    /// The figures, or the reason for their absence.
     pub(super) found: Result<Figures, String>,
 }
 

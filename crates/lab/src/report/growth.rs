@@ -26,7 +26,7 @@ pub(super) struct Growth {
     pub(super) scene: String,
     pub(super) polygons: usize,
     pub(super) method: &'static str,
-    /// The figures, or why there are none.
+    /// The figures, or the reason for their absence.
     pub(super) found: Result<Size, String>,
 }
 

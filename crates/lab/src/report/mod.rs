@@ -41,8 +41,7 @@ use binspace_cli::units::count;
 const MAX_PIECES: usize = 1 << 19;
 /// The budget per corner of a scene from a file.
 const PIECES_PER_CORNER: usize = 8;
-/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
-/// be quick.
+/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if `quick`.
 const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
 /// The time between two writes of the results. Too small: time for writing. Too large: an interruption loses
 /// more.

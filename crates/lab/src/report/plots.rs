@@ -96,7 +96,7 @@ pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
     })
 }
 
-/// The colours of scenes, from the first; as many as can be told apart.
+/// The colours of scenes, from the first; as many as are distinguishable.
 const COLOURS: [[u8; 3]; 9] = [
     [0, 140, 90],
     [30, 110, 220],

@@ -103,7 +103,7 @@ fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured(
     assert!(message.contains("/proc/report.md: cannot be written"), "{message}");
 }
 
-/// A report without a family named has all sections.
+/// A report without a named family has all sections.
 #[test]
 #[ignore = "takes a quarter of a minute"]
 fn culling_and_growth_stand_behind_the_families() {
