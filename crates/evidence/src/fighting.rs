@@ -242,9 +242,9 @@ mod tests {
         }
     }
 
-    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be wrong,
-    /// the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels is half to
-    /// twice the predicted number.
+    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be
+    /// wrong, the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels
+    /// is half to twice the predicted number.
     #[test]
     fn roundings_predict_where_every_format_fights() {
         let cases: [(DepthFormat, &[f64]); 6] = [
