@@ -1,5 +1,5 @@
-//! Each number that choosing is tuned by, off, halved and doubled: what that does to the fragments
-//! and to the time to build, over all scenes. Prints the table of ABLATION.md.
+//! Each tuning number of the heuristics, off, halved and doubled: its effect on the fragments and on the
+//! build time, over all scenes. Prints the table of ABLATION.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench ablation
@@ -47,15 +47,15 @@ const FILES: [&str; 11] = [
     "chessboard_63k.obj",
 ];
 
-/// The builds of a scene with one tuning take at least so long together, if there are not
-/// [`MOST_BUILDS`] before.
+/// The builds of a scene with one tuning take at least this long together, if there are not [`MOST_BUILDS`]
+/// before.
 const ENOUGH: Duration = Duration::from_millis(12);
 const MOST_BUILDS: usize = 9;
 
-/// A change to the tuning, with the name of what it changes and how.
+/// A change to the tuning, with the name of the changed field and the kind of change.
 type Change = (&'static str, &'static str, fn(&mut Tuning));
 
-/// For each field, what its change is named and what value it takes.
+/// For each field, the name of its change and the new value.
 macro_rules! changes {
     ($($field:ident: $($how:literal => $value:expr),+;)*) => {
         [$($((stringify!($field), $how, |t: &mut Tuning| t.$field = $value),)+)*]
@@ -79,7 +79,7 @@ const CHANGES: [Change; 31] = changes! {
     groups_per_box: "½" => 32, "×2" => 128, "all" => 1 << 30;
 };
 
-/// Those that frames have of their own.
+/// The changes of the tuning for frames.
 const OF_FRAMES: [Change; 9] = [
     ("crossings", "0", |t| t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
     ("crossings", "½", |t| t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
@@ -154,7 +154,7 @@ fn compare(scene: &Scene, tunings: [&Tuning; 2]) -> [f64; 2] {
     let (mut spent, mut builds) = (Duration::ZERO, 0);
     while builds == 0 || builds < MOST_BUILDS && spent < ENOUGH {
         for turn in 0..2 {
-            // The one that comes first finds other caches.
+            // The first build of a turn finds other caches.
             let i = (turn + builds) % 2;
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");

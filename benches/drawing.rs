@@ -1,5 +1,5 @@
-//! Drawings of one view: how many polygons show, in how many cells, and for how long a drawing takes, on one
-//! thread and on two, against building the tree in the same process. Fans show how cells grow with the
+//! Drawings of one view: the number of visible polygons and of cells, and the time of a drawing, on one
+//! thread and on two, against building the tree in the same process. Fans show the growth of cells with the
 //! triangles around one vertex.
 //!
 //! ```sh
@@ -19,7 +19,7 @@ use std::time::Duration;
 use support::{Table, best_of, print_head, time, wanted};
 use testkit::shapes::fan;
 
-/// Scenes, and the direction that is up in them. Files are in the folder `BINSPACE_SCENES`, and are skipped without it.
+/// Scenes, and their up directions. Files are in the folder `BINSPACE_SCENES`, and are skipped without it.
 const SCENES: [(&str, DVec3); 17] = [
     ("terrain:10000", DVec3::Z),
     ("terrain:100000", DVec3::Z),

@@ -1,5 +1,5 @@
-//! Every heuristic on every scene: pieces, depth, build, order; and what the default loses
-//! against the best. Prints the tables of HEURISTICS.md.
+//! Every heuristic on every scene: pieces, depth, build, order; and the loss of the default against the best.
+//! Prints the tables of HEURISTICS.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench heuristics

@@ -42,7 +42,7 @@ fn main() {
     );
     for name in SCENES {
         let Some(scene) = scene(name) else { continue };
-        // Counts what is allocated from here on: not the scene.
+        // Counts allocations from here on: the scene is not included.
         let profiler = Profiler::builder().testing().build();
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         let built = HeapStats::get();

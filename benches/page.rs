@@ -1,5 +1,5 @@
-//! How many pictures a second a page of the program paints in Chromium. Measures the processor alone: no graphics
-//! card paints.
+//! Pictures a second of a page of the program in Chromium. Measures the processor alone: no graphics card
+//! paints.
 
 #![allow(missing_docs, reason = "a program")]
 

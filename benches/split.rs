@@ -9,14 +9,14 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// How many faces lie in front of a plane, behind, on it, across.
+/// The numbers of faces in front of a plane, behind, on it, across.
 fn count(sides: impl Iterator<Item = Side>) -> [usize; 4] {
     let mut counts = [0; 4];
     sides.for_each(|side| counts[side as usize] += 1);
     counts
 }
 
-/// Cuts faces that span a plane; returns how many vertices the parts have.
+/// Cuts faces that span a plane; returns the number of vertices of the parts.
 fn cut(faces: &Faces, plane: &PreparedPlane, spanning: &[u32]) -> [usize; 2] {
     let (mut outline, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
     for &face in spanning {

@@ -1,6 +1,6 @@
-//! A build with every thread, against the surface area heuristic of the `bvh` crate with its
-//! rayon executor on the same triangles. It has their boxes at hand, in `f32` as most of its users
-//! would, and in `f64`.
+//! A build with every thread, against the surface area heuristic of the `bvh` crate with its rayon executor
+//! on the same triangles. Their boxes are computed beforehand, in `f32` as most of its users would, and in
+//! `f64`.
 
 use binspace::BspTree;
 use binspace::scene::Scene;

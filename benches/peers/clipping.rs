@@ -1,5 +1,5 @@
-//! What clipping to the viewport is for: pages with a floor that reaches behind the eye, where divided
-//! coordinates, and with them the scene's extent and its default tolerance, have no bound.
+//! The use of clipping to the viewport: pages with a floor that reaches behind the eye. There divided
+//! coordinates have no bound, and with them the scene's extent and its default tolerance.
 
 use crate::frames::{Painted, judge};
 use binspace::glam::{DMat4, DVec3, dvec3};
@@ -11,7 +11,8 @@ use support::{SEED, Table, best_of, time};
 use testkit::pages::{Page, PageLayer, SCREEN, camera};
 
 const COUNT: usize = 30;
-/// At how many points of the screen layers must lie over each other, so that a table shows something.
+/// The least number of points of the screen where layers must lie over each other, so that a table shows
+/// something.
 const LEAST_JUDGED: usize = 10;
 /// Without clipping, a layer is cut off at such a w. Where w is 1, a pixel is a pixel.
 const NEAR: [f64; 3] = [1e-2, 1e-6, 1e-9];
@@ -64,7 +65,7 @@ fn by_layers(layers: &[PageLayer], empty: Layers) -> (Duration, Vec<Painted>) {
     (frame, page.back_to_front().map(painted).collect())
 }
 
-/// What a program would do that knows only the tree, with its default tolerance.
+/// The way of a program that uses only the tree, with its default tolerance.
 fn by_tree(layers: &[PageLayer], near: f64) -> (Duration, Vec<Painted>) {
     let (frame, tree) = best_of(3, || {
         BspTree::build(layers.iter().map(|layer| divided(layer, near))).expect("within budget")

@@ -1,5 +1,5 @@
-//! Orders of what is in view, against whole orders: a level of rooms with about one in a hundred of
-//! its polygons in view, and a large one of 2.6 million.
+//! Orders of the fragments in view, against whole orders: a level of rooms with about one in a hundred of its
+//! polygons in view, and a large one of 2.6 million.
 
 use binspace::glam::DVec3;
 use binspace::raster::Rays;
@@ -75,8 +75,8 @@ pub(crate) fn run() {
 /// The size of the picture, in pixels.
 const PICTURE: [u32; 2] = [320, 180];
 
-/// How many fragments are left in view, of which the front is seen, and that own a pixel, each with
-/// the time that finding them took.
+/// The numbers of fragments that are in view, that show their front, and that own a pixel, each with the time
+/// to find them.
 fn what_is_left(tree: &BspTree, camera: &Camera, side: usize) -> [String; 8] {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
@@ -122,8 +122,8 @@ fn camera(side: usize, k: usize) -> Camera {
     Camera::perspective(eye, target, DVec3::Z, 0.065, PICTURE).expect("a camera")
 }
 
-/// How many fragments are in view; the shortest times of the whole order, of those in view, and of
-/// those of which the fronts are seen as well.
+/// The number of fragments in view; the shortest times of the whole order, of the order of fragments in view,
+/// and of the order without backs as well.
 fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
@@ -146,8 +146,8 @@ fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     (seen.len(), shortest)
 }
 
-/// The list is the whole order without the fragments whose vertices are all outside of one plane.
-/// What is so near to a plane that rounding decides may be in the list.
+/// The list is the whole order without the fragments whose vertices are all outside of one plane. A fragment
+/// may be in the list if it is so near to a plane that rounding decides.
 fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
     let [low, high] = tree.bounds().expect("a level");
     let margin = 1e-6 * (high - low).max_element();

@@ -1,4 +1,4 @@
-//! What exactness costs: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
+//! The cost of exactness: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
 //! candidates by `f64` and an epsilon.
 
 use binspace::internals::Faces;
@@ -35,7 +35,7 @@ pub(crate) fn run() {
             None => scene(name),
         };
         let Some(scene) = found else { continue };
-        // The same for both, on scenes from files too.
+        // The same tolerance for both trees, on scenes from files too.
         let tolerance = Tolerance::Relative(EPSILON);
         let options = BuildOptions::DEFAULT
             .with_heuristic(Heuristic::Sampled { candidates: 16 })

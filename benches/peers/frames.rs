@@ -50,7 +50,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let (mut ours, mut theirs) = (Duration::MAX, Duration::MAX);
     let mut splitter = BspSplitter::<usize>::new();
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
-    // In turns, so that a slow moment of the machine meets both.
+    // In turns, so that a slow moment of the machine affects both.
     for _ in 0..4 {
         ours = ours.min(best_of(3, || our_frame(outlines, &mut builder, &mut order)).0);
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);
@@ -78,7 +78,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     ]);
 }
 
-/// Builds, orders, reads; the sum of what is read, so that it is not left out.
+/// Builds, orders, reads; returns the sum of the values read, so that the reads are not optimised away.
 fn our_frame(outlines: &[Outline], builder: &mut FrameBuilder, order: &mut Vec<u32>) -> f64 {
     let tree = builder.build(outlines).expect("within budget");
     tree.back_to_front_into(Viewpoint::direction([0.0, 0.0, -1.0]), order);
@@ -130,8 +130,9 @@ fn their_pieces(outlines: &[Outline]) -> Vec<Painted> {
     splitter.sort(euclid::vec3(0.0, 0.0, 1.0)).iter().map(painted).collect()
 }
 
-/// Paints at points of a grid, given the depths of the layers there: how many points at least two layers cover, and at how many of those
-/// the layers come in another order than that of their depths.
+/// Paints at points of a grid, given the depths of the layers there. Returns the number of points that at
+/// least two layers cover, and the number of those at which the layers' order differs from the order of their
+/// depths.
 pub(crate) fn judge(
     depths: impl Fn([f64; 2]) -> Vec<Option<f64>>,
     pieces: &[Painted],
@@ -162,7 +163,7 @@ fn depth(outline: &Outline, [x, y]: [f64; 2]) -> Option<f64> {
     let [a, b, c] = [0, 1, 2].map(|k| binspace::glam::DVec3::from(outline[k]));
     let normal = (b - a).cross(c - a);
     let depth = a.z - (normal.x * (x - a.x) + normal.y * (y - a.y)) / normal.z;
-    // A layer seen along its edge has no depth that could be judged.
+    // A layer seen edge-on has no depth to judge.
     let is_steep = normal.z.abs() < 1e-3 * normal.length();
     (!is_steep && covers(&corners, [x, y], MARGIN)).then_some(depth)
 }

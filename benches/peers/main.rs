@@ -1,5 +1,5 @@
-//! What the library is measured against: what its users would take instead, on the same work, in
-//! the same run. Prints the tables of RESULTS.md.
+//! The library against its peers: the crates that its users would take instead, on the same work, in the same
+//! run. Prints the tables of RESULTS.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench peers            # all sections, some minutes
@@ -27,7 +27,7 @@ mod same;
 mod saved;
 mod threads;
 
-/// A section's name on the command line, and what it does.
+/// A section's name on the command line, and its function.
 type Section = (&'static str, fn());
 
 const SECTIONS: &[Section] = &[

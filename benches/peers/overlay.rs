@@ -1,5 +1,5 @@
-//! Polygons that move, lines, points and a body in a tree that stays: what a frame costs, against
-//! building the tree of all anew and against the order of the tree alone.
+//! Moving polygons, lines, points and a body in a fixed tree: the cost of a frame, against a full rebuild and
+//! against the order of the tree alone.
 
 use binspace::glam::{DMat3, DVec3};
 use binspace::overlay::{Overlay, Shapes};
@@ -19,7 +19,7 @@ const SCENES: [&str; 6] = [
 const MOVERS: usize = 200;
 const FRAMES: usize = 20;
 
-/// Lines of so many segments, and points.
+/// Lines of this many segments, and points.
 const LINES: usize = 200;
 const SEGMENTS: usize = 50;
 const POINTS: usize = 1000;
@@ -149,7 +149,7 @@ fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     assert!(order.into_iter().eq(0..(tree.len() + overlay.len()) as u32));
 }
 
-/// What an overlay of one kind costs, where its shapes are anywhere in a scene, or all in one leaf.
+/// The cost of an overlay of one kind, where its shapes are anywhere in a scene, or all in one leaf.
 fn lines_and_bodies() {
     let table = Table::new(
         "200 lines of 50 segments and 1000 points, and a body of 10 000 faces, each frame",

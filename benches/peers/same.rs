@@ -1,5 +1,5 @@
-//! How many frames of a camera's path need no new order, because no partition plane lies between
-//! the eye and that of the frame that was ordered last.
+//! The number of frames of a camera's path that need no new order, because no partition plane lies between
+//! the eye and the eye of the last ordered frame.
 
 use binspace::glam::DVec3;
 use binspace::{BspTree, Viewpoint};
@@ -12,7 +12,7 @@ const SCENES: [&str; 5] =
 /// Frames of a path; one of 60 a second.
 const FRAMES: usize = 1200;
 
-/// Through the middle third of a scene at eye height, so many extents a frame; and once around it.
+/// Through the middle third of a scene at eye height, this many extents a frame; and once around it.
 const PATHS: [(&str, Path); 3] =
     [("slow walk", Path::Walk(2e-5)), ("fast walk", Path::Walk(5e-4)), ("orbit", Path::Orbit)];
 
@@ -27,7 +27,7 @@ impl Path {
     fn eye(self, frame: usize) -> DVec3 {
         let frame = frame as f64;
         match self {
-            // A step to the side now and then, and the head goes up and down.
+            // Steps to the side now and then; the head moves up and down.
             Self::Walk(step) => {
                 let gone = frame * step;
                 DVec3::new(
@@ -70,7 +70,7 @@ pub(crate) fn run() {
     }
 }
 
-/// How many frames keep the order of an earlier one, and the times to ask and to order.
+/// The number of frames that keep the order of an earlier one, and the times of the test and of the order.
 fn walk(tree: &BspTree, eye: impl Fn(usize) -> Viewpoint) -> (usize, Duration, Duration) {
     let (mut order, mut other) = (Vec::new(), Vec::new());
     let (mut asking, mut ordering) = (Duration::ZERO, Duration::ZERO);
@@ -87,7 +87,7 @@ fn walk(tree: &BspTree, eye: impl Fn(usize) -> Viewpoint) -> (usize, Duration, D
             ordering += begin.elapsed();
             ordered = Some(eye(frame));
         }
-        // The order that was kept is that of this frame.
+        // The kept order equals the order of this frame.
         tree.back_to_front_into(eye(frame), &mut other);
         assert!(order == other, "frame {frame}");
     }

@@ -1,4 +1,4 @@
-//! What the tables of measured figures share: scenes by name, times, rows.
+//! Shared code of the tables of measured figures: scenes by name, times, rows.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
 
@@ -14,8 +14,7 @@ use testkit::dice::Dice;
 /// The seed of every generated scene.
 pub const SEED: u64 = 1;
 
-/// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A file that cannot be had is
-/// named and left out.
+/// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A missing file is named and left out.
 pub fn scene(name: &str) -> Option<Scene> {
     if !name.ends_with(".obj") {
         let spec: BuiltinSpec = name.parse().expect("the name of a scene");
@@ -34,8 +33,8 @@ pub fn scene(name: &str) -> Option<Scene> {
     }
 }
 
-/// Random triangles that shrink as there are more of them, so that each meets about as many
-/// others: edges of 2 to 6 tenths of the mean distance between neighbours.
+/// Random triangles that shrink as their number grows, so that each meets about as many others: edges of 2 to
+/// 6 tenths of the mean distance between neighbours.
 pub fn small_triangles(count: u32) -> Scene {
     let shrink = 2.0 * f64::from(count).powf(-1.0 / 3.0);
     map(&random_triangles(count, SEED), format!("small triangles:{count}"), |[a, b, c]| {
@@ -49,7 +48,7 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
-/// A heap of turned boxes that cross each other.
+/// Random turned boxes that cross each other.
 pub fn boxes(count: u32) -> Scene {
     let mut dice = Dice(SEED);
     let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
@@ -73,8 +72,8 @@ pub fn boxes(count: u32) -> Scene {
     scene
 }
 
-/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes
-/// hold one line, and many lines meet in one point. `strips`: of each patch, a multiple of 4.
+/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes hold one
+/// line, and many lines meet in one point. `strips`: number per patch, a multiple of 4.
 pub fn rulings(strips: i32, patches: i32) -> Scene {
     let half = strips / 4;
     let name = match patches {
@@ -217,7 +216,7 @@ pub fn against(measured: f64, target: Target) -> [String; 3] {
     [format!("{measured:.2}"), format!("{sign} {limit}"), verdict.to_owned()]
 }
 
-/// What a figure is to reach.
+/// The target of a figure.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
     /// At most this.

@@ -11,8 +11,8 @@ use crate::terminal::note;
 
 /// The longer side, in pixels, of the small picture by which backs are counted.
 const SIDE: u32 = 128;
-/// Note if more than 3 of 4 pixels show backs. A surface that is open, or triangles at random, may
-/// show as many backs as fronts. Smaller: notes on those; larger: rooms are missed.
+/// Note if more than 3 of 4 pixels show backs. Open surfaces and random triangles may show as many backs as
+/// fronts. Too small: notes on those scenes. Too large: rooms are missed.
 const MOSTLY: [usize; 2] = [4, 3];
 
 /// Notes that a picture from outside a scene shows mostly backs of faces, as of a room whose walls
@@ -32,8 +32,8 @@ pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
     }
 }
 
-/// How many pixels of a small picture show a back, and how many show anything; `None` if there is
-/// no such picture.
+/// The numbers of pixels of a small picture that show a back, and that show anything. `None` if there is no
+/// such picture.
 fn count(tree: &BspTree, camera: &Camera) -> Option<[usize; 2]> {
     let [width, height] = camera.size().map(u64::from);
     let longer = width.max(height).max(SIDE.into());

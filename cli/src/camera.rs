@@ -1,4 +1,4 @@
-//! Cameras that the user asks for, and default cameras for a scene.
+//! Cameras from the options, and default cameras for a scene.
 
 use binspace::Error;
 use binspace::glam::DVec3;
@@ -49,18 +49,18 @@ pub(crate) fn whole(
     size: [u32; 2],
 ) -> Result<Camera, Failure> {
     let camera = upright(scene, up, |up| {
-        // Of a suggested view, the direction is used; the distance depends on the picture's shape.
+        // A suggested view gives the direction; the distance depends on the picture's shape.
         let roughly = match scene.suggested_view() {
             Some((eye, target)) => Camera::perspective(eye, target, up, fov, size)?,
             None => Camera::looking_at_all(bounds(scene), up, size)?,
         };
-        // There is no better camera for a scene that is almost a point, or as large as numbers go.
+        // No camera is better for a scene that is almost a point, or as large as the largest floats.
         Ok(framing::near(&roughly, scene, fov).unwrap_or(roughly))
     });
     camera.map_err(|error| about(scene, &error))
 }
 
-/// The camera that the options ask for.
+/// The camera that the options describe.
 pub(crate) fn asked(args: &ViewArgs, scene: &Scene) -> Result<Camera, Failure> {
     let (up, fov, size) = (args.up.up, args.fov, args.size);
     let [low, high] = bounds(scene);
@@ -94,8 +94,8 @@ pub(crate) fn around_and_inside(
     cameras.map_err(|error| about(scene, &error))
 }
 
-/// Makes a camera with the up vector that the user asks for. By default it is the scene's, or
-/// another if the view is along that.
+/// Makes a camera with the up vector from the options. By default it is the scene's, or another if the view
+/// is along that.
 fn upright(
     scene: &Scene,
     up: Option<DVec3>,

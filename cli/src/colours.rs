@@ -7,7 +7,7 @@ use clap::ValueEnum;
 /// The background colour.
 pub const BACKGROUND: [u8; 3] = [255, 255, 255];
 
-/// Where the colours of polygons come from.
+/// The source of the colours of polygons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Colouring {
     /// From their materials; grey without one
@@ -27,12 +27,12 @@ pub struct Colours<'a> {
 }
 
 impl<'a> Colours<'a> {
-    /// Those of a scene.
+    /// The colours of a scene.
     pub fn new(scene: &'a Scene, by: Colouring) -> Self {
         Self { scene, by, numbers: None }
     }
 
-    /// The same for a part of a scene, in which its polygons have these numbers.
+    /// The same for a part of a scene, with the numbers of its polygons.
     pub fn numbered(self, numbers: &'a [usize]) -> Self {
         Self { numbers: Some(numbers), ..self }
     }

@@ -1,9 +1,9 @@
-//! Pictures of pixels by exact coverage: each polygon that shows in a pixel has the share of its colour
-//! that it has of the pixel's area; where something shows through, each region of blended colour.
+//! Pictures of pixels by exact coverage: each visible polygon contributes its colour by its share of the
+//! pixel's area. Where polygons are translucent, each region contributes its blended colour.
 //!
-//! Coverage comes from the sides of cells and regions: each adds, in the pixels that it passes through, the area
-//! between it and the right end of its row, counted up or down. (The sum along a row is then what the cell
-//! covers; as in the rasterizers of fonts.) Time goes with the pixels that cells have.
+//! Coverage comes from the sides of cells and regions. Each side adds, in the pixels that it crosses, the
+//! area between it and the right end of its row, counted up or down. (The sum along a row is then the cell's
+//! coverage, as in font rasterizers.) Time is proportional to the number of pixels of the cells.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,8 +13,8 @@ use binspace::drawing::{Region, VisibilityMap};
 use crate::colours::BACKGROUND;
 use crate::drawn::Style;
 
-/// How many pixels are summed up at once. Larger: more memory, 32 bytes each; smaller: more time, as all
-/// cells are looked at for each part of a picture.
+/// The number of pixels that are summed up at once. Too large: more memory, 32 bytes each. Too small: more
+/// time, as all cells are visited for each part of a picture.
 const AT_ONCE: usize = 1 << 21;
 
 /// The pixels of a map, row by row, with the colours of its polygons.
@@ -74,11 +74,11 @@ pub(crate) fn blank(size: [u32; 2]) -> Vec<u8> {
 struct Band {
     width: usize,
     top: usize,
-    /// How much more of a pixel is covered than of the one before, by the cell that is being added.
+    /// The coverage of a pixel minus that of the pixel before, for the cell that is being added.
     change: Vec<f64>,
-    /// From where to where each row has changes.
+    /// The first and last change of each row.
     changed: Vec<[usize; 2]>,
-    /// By how much each pixel differs from the background.
+    /// The difference of each pixel from the background.
     sums: Vec<[f64; 3]>,
 }
 
@@ -119,8 +119,8 @@ impl Band {
         }
     }
 
-    /// Adds the changes that a side makes, and says in which rows: where it goes up, what is to the right
-    /// of it is in the cell.
+    /// Adds the changes that a side makes, and returns their rows. Where the side goes up, the cell is on its
+    /// right.
     fn add_side(&mut self, from: [f64; 2], to: [f64; 2]) -> Range<usize> {
         let (low, high, sign) = if from[1] < to[1] { (from, to, -1.0) } else { (to, from, 1.0) };
         let [low_y, high_y] = [low, high].map(|end| end[1] - self.top as f64);
@@ -150,7 +150,7 @@ impl Band {
         for column in columns {
             let (from, to) = (left.max(column as f64), right.min(column as f64 + 1.0));
             let share = if left < right { (to - from) / (right - left) } else { 1.0 };
-            // How far into the pixel it is, on the average.
+            // Its mean distance into the pixel.
             let place = 0.5 * (from + to) - column as f64;
             change[column] += share * height * (1.0 - place);
             change[column + 1] += share * height * place;

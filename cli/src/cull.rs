@@ -20,7 +20,7 @@ impl Cull {
         self == Self::None || fragment.facing(viewpoint) == Facing::Front
     }
 
-    /// Rays that pass through what is left out.
+    /// Rays that pass through polygons that are left out.
     pub(crate) fn rays(self, rays: Rays) -> Rays {
         if self == Self::Back { rays.with_front_faces_only() } else { rays }
     }

@@ -14,7 +14,7 @@ pub(crate) const WIDTH: f64 = 1.0;
 /// The width of hidden lines, in pixels.
 pub(crate) const HIDDEN_WIDTH: f64 = 0.6;
 
-/// How long the dashes of hidden lines and the gaps between them are, in pixels, by the lines' depth.
+/// The lengths of the dashes of hidden lines and of their gaps, in pixels, by the lines' depth.
 pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
     match depth {
         0 | 1 => [3.0, 2.0],
@@ -24,7 +24,7 @@ pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
     }
 }
 
-/// Where the colours of paths come from.
+/// The source of the colours of paths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Style<'a> {
     pub(crate) scene: &'a Scene,
@@ -66,7 +66,7 @@ pub(crate) fn blank(camera: &Camera) -> VectorPicture {
     VectorPicture::new(camera.size()).with_background(BACKGROUND)
 }
 
-/// Adds regions, which viewers add up: those that look alike together.
+/// Adds regions, which viewers add up. Regions that look alike are added together.
 pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style: &Style<'_>) {
     let front = |region: &Region| region.polygons().first().copied().unwrap_or_default();
     let filled = regions.iter().map(|region| {
@@ -97,7 +97,7 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
     });
 }
 
-/// Adds the paths of a drawing: those that look alike together where nothing lies between them.
+/// Adds the paths of a drawing. Paths that look alike are added together if nothing lies between them.
 pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
     let opacity = |polygon| style.opacity(polygon);
     // Opacities from 0 to 1 are in the order of their bits.
@@ -138,7 +138,7 @@ pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], ids: boo
         let class = match depth {
             0 => "visible".to_owned(),
             1 => "hidden".to_owned(),
-            // A second class for those behind several polygons.
+            // A second class for lines behind several polygons.
             _ => format!("hidden layers-{depth}"),
         };
         picture.group(&[("class", &class)], |picture| {

@@ -15,7 +15,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A failure that names what it is about first.
+    /// A failure whose message begins with its subject.
     pub fn about(subject: impl Display, problem: impl Display) -> Self {
         Self::Message(format!("{subject}: {problem}"))
     }

@@ -10,7 +10,7 @@ use crate::unfinished;
 /// The most symbolic links that are followed: more count as a circle, as in most systems.
 const MOST_LINKS: usize = 40;
 
-/// Where output goes.
+/// The destination of output.
 #[derive(Debug)]
 pub(crate) enum Output {
     /// Standard output.
@@ -27,7 +27,7 @@ pub struct NewFile {
     place: Place,
 }
 
-/// How a complete file gets to its place.
+/// The way of a complete file to its place.
 #[derive(Debug)]
 enum Place {
     /// It is written in place: it is not a regular file, but one such as /dev/null.
@@ -36,7 +36,7 @@ enum Place {
     Later(Option<Permissions>),
 }
 
-/// What stands for standard input and standard output in place of a file's name.
+/// The name that stands for standard input and standard output.
 pub const STANDARD: &str = "-";
 
 impl Output {
@@ -48,7 +48,7 @@ impl Output {
         }
     }
 
-    /// Whether a person would see what is written.
+    /// Whether the output goes to a terminal.
     pub(crate) fn is_terminal(&self) -> bool {
         match self {
             Self::Standard(out) => out.get_ref().is_terminal(),
@@ -56,7 +56,7 @@ impl Output {
         }
     }
 
-    /// As [`write`](Self::write); says how many bytes were written.
+    /// As [`write`](Self::write); returns the number of bytes written.
     pub(crate) fn write_counted(
         self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -86,7 +86,7 @@ impl Output {
     }
 }
 
-/// Counts what is written.
+/// Counts the bytes written.
 struct Counted<'a> {
     out: &'a mut dyn Write,
     bytes: u64,
@@ -156,8 +156,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
 }
 
-/// Where a path leads, through links to files that need not be there: what is behind them is
-/// replaced, not they.
+/// The target of a path, through links to files that need not exist: the target is replaced, not the links.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -174,7 +173,7 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
     Failure::about(path.display(), format!("cannot be written: {error}"))
 }
 
-/// Makes a folder, and those above it, unless it is there.
+/// Makes a folder and its parents, unless they exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     if path == Path::new(STANDARD) {
         let problem = "it cannot hold several files: name a folder (./- if it is called so)";

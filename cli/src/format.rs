@@ -7,8 +7,8 @@ use clap::ValueEnum;
 use crate::failure::Failure;
 use crate::files::STANDARD;
 
-/// The format that is asked for, or that a file's name means. Without either, the first of all goes to
-/// standard output.
+/// The format of the option, or of the file's name. Without either, the first of all formats goes to standard
+/// output.
 pub(crate) fn format<F: ValueEnum + PartialEq + 'static>(
     output: &Path,
     asked: Option<F>,
@@ -30,14 +30,14 @@ pub(crate) fn format<F: ValueEnum + PartialEq + 'static>(
     }
 }
 
-/// All formats, each with its name, which is what files end in.
+/// All formats, each with its name, which is also the file extension.
 fn formats<F: ValueEnum + 'static>() -> impl Iterator<Item = (String, F)> {
     let named =
         |format: &F| Some((format.to_possible_value()?.get_name().to_owned(), format.clone()));
     F::value_variants().iter().filter_map(named)
 }
 
-/// A failure of what is written to a file, or to standard output.
+/// A failure to write to a file or to standard output.
 pub(crate) fn about_output(output: &Path, problem: &str) -> Failure {
     if output == Path::new(STANDARD) {
         return Failure::about("standard output", problem);

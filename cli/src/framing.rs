@@ -5,7 +5,7 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-/// How much of the picture the scene fills.
+/// The share of the picture that the scene fills.
 const FILL: f64 = 0.92;
 
 /// A perspective camera with the direction of another, moved so that the scene just fills the
@@ -32,8 +32,8 @@ pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Err
     Camera::perspective(eye, eye - back * furthest, up, fov, like.size())
 }
 
-/// Finds, by bisection between two limits along an axis, the eye from which the scene reaches
-/// equally far to both sides of the picture.
+/// Finds, by bisection between two limits along an axis, the eye at which the margins on both sides of the
+/// picture are equal.
 fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f64; 2]) -> f64 {
     let mut place = 0.5 * limits[0] + 0.5 * limits[1];
     // Twenty halvings are a thousandth of a pixel.
@@ -73,7 +73,7 @@ pub(crate) fn parallel(
     Camera::parallel(direction, up, centre, shown, size)
 }
 
-/// How far the scene reaches in a direction.
+/// The extent of the scene in a direction.
 fn reach(scene: &Scene, direction: DVec3) -> f64 {
     let corners = scene.polygons().flatten();
     corners.map(|corner| corner.dot(direction)).fold(f64::MIN, f64::max)

@@ -1,13 +1,13 @@
 //! Lines over pixels, by the share of each pixel's area that they cover.
 //!
 //! A wide line is a band along each segment and a disc at each joint and round end. A row of pixels is
-//! looked at along several levels; on each, what all bands and discs together cover is exact.
+//! sampled at several levels. On each level, the joint coverage of all bands and discs is exact.
 
 use crate::drawn::{HIDDEN_WIDTH, WIDTH, dashes};
 use crate::strokes::Strokes;
 
-/// Levels in a row of pixels: an edge along the row is off by at most half the distance of two. Smaller:
-/// level lines are lighter or darker by more than can be seen, one part in 64 now; larger: time.
+/// Levels in a row of pixels. An edge along the row is off by at most half the distance of two levels. Too
+/// small: level lines are lighter or darker by a visible amount (one part in 64 now). Too large: time.
 const LEVELS: usize = 32;
 
 /// A convex part of a wide line, in pixels from the picture's corner.
@@ -17,8 +17,8 @@ enum Part {
     Disc { centre: [f64; 2], radius: f64 },
 }
 
-/// Draws lines in black over RGB pixels: those of each depth together, so that where they meet they are no
-/// darker.
+/// Draws lines in black over RGB pixels. Lines of each depth are drawn together, so that they are no darker
+/// where they meet.
 pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes]) {
     for alike in strokes.chunk_by(|a, b| a.depth == b.depth) {
         let parts = alike.iter().flat_map(|strokes| {
@@ -67,11 +67,11 @@ fn add_bands(points: &[[f64; 2]], radius: f64, parts: &mut Vec<Part>) {
     }
 }
 
-/// The dashes of a line: so long, and so far apart.
+/// The dashes of a line: their length and distance.
 fn dashed(points: &[[f64; 2]], [dash, gap]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let Some(&first) = points.first() else { return vec![] };
     let mut dashes = vec![vec![first]];
-    // How much is left of the dash or of the gap that is being drawn.
+    // The remaining length of the dash or gap that is being drawn.
     let (mut is_dash, mut left) = (true, dash);
     for ends in points.windows(2) {
         let (from, to) = (ends[0], ends[1]);
@@ -98,7 +98,7 @@ fn dashed(points: &[[f64; 2]], [dash, gap]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 impl Part {
-    /// From which height to which it reaches.
+    /// Its lower and upper end.
     fn rows(&self) -> [f64; 2] {
         match self {
             Self::Disc { centre: [_, y], radius } => [y - radius, y + radius],
@@ -134,7 +134,7 @@ impl Part {
     }
 }
 
-/// Calls a function with each pixel that some parts cover, and how much of it all of them together do.
+/// Calls a function with each pixel that some parts cover, and the joint coverage of all of them.
 fn cover(mut parts: Vec<Part>, [width, height]: [u32; 2], mut see: impl FnMut(usize, f64)) {
     let width = width as usize;
     parts.sort_by(|a, b| a.rows()[0].total_cmp(&b.rows()[0]));
@@ -203,7 +203,7 @@ mod tests {
         distances.fold(f64::MAX, f64::min)
     }
 
-    /// A visible line has all points that are not further from it than half its width.
+    /// A visible line covers all points within half its width.
     #[test]
     fn coverage_is_the_area_within_half_a_width() {
         let lines: [&[[f64; 2]]; 5] = [

@@ -42,7 +42,7 @@ pub(crate) fn timed_scene_and_tree(
 pub(crate) struct Made {
     pub(crate) scene: Scene,
     pub(crate) tree: BspTree,
-    /// What it took to build the tree, or to read its file.
+    /// The time to build the tree, or to read its file.
     pub(crate) seconds: f64,
     /// How the tree was built; `None` if it was read.
     pub(crate) heuristic: Option<Heuristic>,
@@ -78,8 +78,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if a tree that is in a file, and so is not built, is to be built in a certain way, be it
-/// the default one.
+/// An error if build options are given for a tree in a file, even if they are the default ones.
 pub(crate) fn refuse_options(
     name: impl Display,
     has_heuristic: bool,
@@ -93,7 +92,7 @@ pub(crate) fn refuse_options(
     Err(Failure::about(name, problem))
 }
 
-/// A failure to build a scene's tree. It names the program's options, not those of the library.
+/// A failure to build a scene's tree. It names the program's options, not the library's.
 pub fn about(scene: &Scene, error: &Error) -> Failure {
     let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
     Failure::about(scene.name(), problem)
@@ -109,7 +108,7 @@ pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     }
 }
 
-/// Notes which faces were dropped or triangulated; `dropped` are the numbers of those dropped.
+/// Notes the dropped and triangulated faces; `dropped` are the numbers of the dropped faces.
 pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
     let faces = |number: usize| count(number, "face");
     let dropped = (found.dropped > 0).then(|| {
@@ -134,7 +133,7 @@ pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) 
     note_length(scene, limits, tolerance, tree.preparation(), quads);
 }
 
-/// The same of a tolerance, and of faces `quads` of which have four corners or more.
+/// The same with a tolerance, for faces of which `quads` have four corners or more.
 pub(crate) fn note_length(
     scene: &Scene,
     limits: &LimitArgs,
@@ -184,7 +183,7 @@ fn short(length: f64) -> String {
     }
 }
 
-/// The first of the faces that were dropped, and how many more there are.
+/// The first of the dropped faces, and the number of the others.
 fn some(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) -> String {
     let name = |face: usize| match scene.line(face) {
         Some(line) => format!("face {face} (line {line})"),

@@ -1,6 +1,6 @@
 //! The program `binspace`: orders, checks, measures and draws scenes of polygons.
 //!
-//! The public modules are those that `binspace-lab` uses as well.
+//! The public modules are also used by `binspace-lab`.
 
 mod args;
 mod backs;
@@ -55,7 +55,7 @@ use failure::Failure;
 pub enum Outcome {
     /// As it should.
     Done,
-    /// An image differs from what it should be.
+    /// An image differs from the expected one.
     Differs,
 }
 

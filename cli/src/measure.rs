@@ -9,8 +9,8 @@ use binspace::{BspTree, BuildOptions, Error, Viewpoint};
 
 use crate::progress::Progress;
 
-/// How long to repeat a short measurement. Smaller: the clock's resolution spoils the figures of
-/// small trees; larger: the command takes longer.
+/// The time during which a short measurement is repeated. Too small: the clock's resolution spoils the
+/// figures of small trees. Too large: the command takes longer.
 const LONG_ENOUGH: Duration = Duration::from_millis(20);
 
 /// Builds a tree of a scene.
@@ -81,6 +81,6 @@ fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
         .and_then(|(low, high)| views([low, high], scene.up(), 6, [640, 480], 1).ok())
         .unwrap_or_default();
     let eyes = cameras.iter().map(binspace::view::Camera::viewpoint);
-    // Around a scene as large as numbers go, positions overflow: they are left out.
+    // Around a scene as large as the largest floats, positions overflow: they are left out.
     eyes.chain([Viewpoint::direction([1.0, 2.0, -3.0])]).collect()
 }

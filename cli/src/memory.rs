@@ -5,20 +5,19 @@ use std::hint::black_box;
 use crate::failure::Failure;
 use crate::units::{bytes, count};
 
-/// Memory that a scene and its tree take per polygon, with a margin: some 480 bytes were measured
-/// for scenes in which nothing is cut. Smaller: the program ends without a message; larger: it
-/// refuses scenes that would fit.
+/// Memory that a scene and its tree take per polygon, with a margin: some 480 bytes were measured for scenes
+/// in which nothing is cut. Too small: the program ends without a message. Too large: it refuses scenes that
+/// would fit.
 const BYTES_EACH: usize = 800;
 
-/// The least memory that reading a file takes, per byte of the file: 6 to 9 bytes were measured for
-/// files of triangles, more if faces have many corners. Larger: files are refused that would fit;
-/// smaller: the program reads for a while, and then ends with a number of bytes instead of a
-/// message that names the file.
+/// The least memory that reading a file takes, per byte of the file. For files of triangles 6 to 9 bytes were
+/// measured, and more if faces have many corners. Too large: files that would fit are refused. Too small: the
+/// program reads for a while, and then ends with a number of bytes instead of a message that names the file.
 const READING: usize = 6;
 
 /// From now on, the program ends with exit status 2 if memory runs out.
 ///
-/// The standard library then prints how much was asked for, and aborts.
+/// The standard library then prints the requested size, and aborts.
 pub(crate) fn fail_when_exhausted() {
     #[cfg(unix)]
     {
@@ -26,7 +25,7 @@ pub(crate) fn fail_when_exhausted() {
         use std::sync::atomic::AtomicBool;
 
         static ALWAYS: AtomicBool = AtomicBool::new(true);
-        // If this fails, the exit status is that of the signal.
+        // If this fails, the signal determines the exit status.
         let _ = register_conditional_shutdown(SIGABRT, 2, &ALWAYS);
     }
 }
@@ -45,7 +44,7 @@ pub(crate) fn check_file(name: &str, size: u64) -> Result<(), Failure> {
     find_room(needed).ok_or_else(|| lacking(name, &format!("a file of {}", bytes(size)), needed))
 }
 
-/// Allocates memory and frees it; none of it is touched.
+/// Allocates memory and frees it, without writing to it.
 fn find_room(needed: usize) -> Option<()> {
     let mut room = Vec::<u8>::new();
     let result = room.try_reserve_exact(needed);

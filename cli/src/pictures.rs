@@ -13,8 +13,8 @@ use crate::cull::Cull;
 use crate::progress::Progress;
 use crate::samples::averaged;
 
-/// How many samples are drawn at once. Larger: more memory, some 20 bytes each; smaller: more time,
-/// as all fragments are looked at for each part of a picture, and all cells of a folder read.
+/// The number of samples drawn at once. Too large: more memory, some 20 bytes each. Too small: more time, as
+/// all fragments are visited for each part of a picture, and all cells of a folder are read.
 const AT_ONCE: u64 = 1 << 23;
 
 /// The kinds of pictures.
@@ -22,7 +22,7 @@ const AT_ONCE: u64 = 1 << 23;
 pub(crate) enum Kind {
     /// The fragments, painted over each other.
     Painter,
-    /// What a depth buffer shows.
+    /// The picture of a depth buffer.
     ZBuffer,
     /// Where the two differ.
     Difference,
@@ -30,7 +30,7 @@ pub(crate) enum Kind {
     Depth(Bright),
 }
 
-/// What is bright where depths are drawn.
+/// The bright end of a picture of depths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Bright {
     /// The nearer, the brighter
@@ -40,7 +40,7 @@ pub enum Bright {
 }
 
 impl Bright {
-    /// The greys of what is nearest and of what is furthest; both differ from nothing, which is black.
+    /// The greys of the nearest and of the furthest depth. Both differ from the background, which is black.
     pub fn greys(self) -> [u8; 2] {
         match self {
             Self::Near => [255, 40],
@@ -65,7 +65,7 @@ impl Kind {
     pub(crate) const ALL: [Self; 4] =
         [Self::Painter, Self::ZBuffer, Self::Difference, Self::Depth(Bright::Near)];
 
-    /// The kind that options ask for.
+    /// The kind that the options select.
     pub(crate) fn asked(args: &KindArgs) -> Self {
         match (args.z_buffer, args.difference, args.depth) {
             (true, ..) => Self::ZBuffer,
@@ -86,15 +86,14 @@ impl Kind {
     }
 }
 
-/// How many rows of samples are drawn at once, of a picture of so many columns and rows of them.
+/// The number of rows of samples drawn at once, for a picture of this many columns and rows of samples.
 pub(crate) fn rows_at_once([columns, rows]: [u32; 2], samples: u32) -> u32 {
     let at_once = (AT_ONCE / (u64::from(columns) * u64::from(samples))).max(1);
     at_once.min(u64::from(rows)) as u32 * samples
 }
 
 impl Drawing<'_> {
-    /// Its pixels. Transparency shows only in the painter's picture. A difference comes with the
-    /// figures of what differs.
+    /// Its pixels. Transparency shows only in the painter's picture. A difference comes with its figures.
     pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), Error> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),

@@ -1,11 +1,10 @@
 //! Several samples in each pixel, averaged.
 
-/// The largest number of samples each way in a pixel. More are not seen in 8 bits a channel: 16
-/// each way already give 256 levels along an edge.
+/// The largest number of samples each way in a pixel. More are not visible in 8 bits a channel: 16 each way
+/// already give 256 levels along an edge.
 pub(crate) const MOST: u32 = 16;
 
-/// The light of full white. Larger: it does not fit `u32`; smaller: two dark colours are the same
-/// light.
+/// The light of full white. Too large: it does not fit `u32`. Too small: two dark colours are the same light.
 const FULL: f64 = (1u32 << 24) as f64;
 
 /// Between the 8-bit numbers of colours (sRGB) and amounts of light.
@@ -26,7 +25,7 @@ impl Light {
         }
     }
 
-    /// The number whose light is nearest, as numbers go, to a sum of `count` lights over `count`.
+    /// The number whose light is nearest to a sum of `count` lights over `count`.
     fn number(&self, sum: u64, count: u64) -> u8 {
         self.above.partition_point(|&light| u64::from(light) * count <= sum) as u8
     }
@@ -40,9 +39,9 @@ pub(crate) fn linear(value: f64) -> f64 {
 /// Averages squares of `samples` by `samples` colours in a picture that is a multiple of
 /// `samples` wide and high: the light of each pixel is the mean of the light of its samples.
 ///
-/// Averages are of light and not of the numbers, as screens and eyes average light: dark edges on a
-/// bright ground would come out too thick. Sums of integers do not depend on their order. The table
-/// of light is rounded from `powf`, which on another machine may differ by 1 of 2²⁴ in a place.
+/// Averages are of light and not of sRGB values, as screens and eyes average light: otherwise dark edges on a
+/// bright ground would be too thick. Sums of integers do not depend on their order. The table of light is
+/// rounded from `powf`, which may differ by 1 of 2²⁴ on another machine.
 pub(crate) fn averaged(rgb: Vec<u8>, width: usize, samples: usize) -> Vec<u8> {
     if samples == 1 {
         return rgb;

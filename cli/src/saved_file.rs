@@ -1,4 +1,4 @@
-//! Files of `binspace build`: a tree, and behind it the scene that it is of.
+//! Files of `binspace build`: a tree, followed by its scene.
 
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -10,7 +10,7 @@ use binspace::{BspTree, Error};
 use crate::failure::Failure;
 use crate::progress::Progress;
 
-/// What such a file begins with.
+/// The magic bytes of such a file.
 pub(crate) const BEGINNING: &[u8] = b"binspace";
 
 /// Writes a file.
@@ -28,7 +28,7 @@ pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     read(&name, io::BufReader::new(file))
 }
 
-/// Reads a file; `name` is what messages call it.
+/// Reads a file; `name` is its name in messages.
 pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let (scene, tree) = read_pair(name, &mut input)?;
     let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;
@@ -43,7 +43,7 @@ pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree),
     Ok((scene, tree))
 }
 
-/// Reads a tree and its scene, with something else behind.
+/// Reads a tree and its scene, with more data behind.
 pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let about = |error: Error| Failure::about(name, error);
     let tree = BspTree::read(&mut input).map_err(about)?;
@@ -56,7 +56,8 @@ pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspT
     Ok((scene, tree))
 }
 
-/// Whether a tree can be of a scene: it has as many polygons, and no corners that these do not have.
+/// Whether a tree fits a scene: they have the same number of polygons, and the tree uses only corners of
+/// these.
 fn belong_together(tree: &BspTree, scene: &Scene) -> bool {
     let faces = tree.faces();
     let has_corners = |face: u32| {

@@ -18,7 +18,7 @@ use crate::saved_file;
 use crate::standard_input;
 use crate::terminal::note;
 
-/// A scene, called what the user calls it, and its tree if that came with it.
+/// A scene under the user's name for it, and its tree if the file holds one.
 #[derive(Debug)]
 pub struct Loaded {
     /// The scene.
@@ -35,14 +35,14 @@ impl From<Scene> for Loaded {
 }
 
 impl Loaded {
-    /// What was read from a file of `binspace build`, by the name that the user gave.
+    /// The content of a file of `binspace build`, under the name that the user gave.
     pub(crate) fn saved(name: &str, (scene, tree): (Scene, BspTree)) -> Self {
         let stored_name = stored_name(&scene);
         Self { scene: scene.with_name(name), tree: Some(tree), stored_name }
     }
 }
 
-/// The name without folders: a file goes to people whom these do not concern.
+/// The name without folders: other people may read the file.
 fn stored_name(scene: &Scene) -> String {
     let name = Path::new(scene.name()).file_name();
     name.map_or_else(|| scene.name().into(), OsStr::to_string_lossy).into_owned()
@@ -59,8 +59,8 @@ pub(crate) enum Source {
     Builtin(BuiltinSpec),
 }
 
-/// Reads or generates the scene that the user asks for, and notes what was left out. The seed is that of
-/// built-in scenes that are random.
+/// Reads or generates the scene on the command line, and notes the omitted data. The seed is used by random
+/// built-in scenes.
 pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
     let name = asked.to_string_lossy();
     match source(asked)? {
@@ -84,8 +84,8 @@ pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
     }
 }
 
-/// The kind of a file, and how it begins. What is not a regular file can be read only once, and is
-/// taken for an OBJ file.
+/// The kind of a file, and its first bytes. A file that is not regular can be read only once, and is taken
+/// for an OBJ file.
 pub(crate) fn kind(path: &Path) -> (Kind, Vec<u8>) {
     if path.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("bsp")) {
         return (Kind::Saved, Vec::new());

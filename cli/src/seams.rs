@@ -1,9 +1,9 @@
-//! What is done about seams between neighbours.
+//! The treatment of seams between neighbours.
 
 use clap::ValueEnum;
 
-/// Viewers blend each path with what is below it, so that along an edge of two polygons that both cover half
-/// of a pixel a quarter of the background shows.
+/// Viewers blend each path with the paint below it. Along an edge of two polygons that both cover half of a
+/// pixel, a quarter of the background shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Seams {
     /// Opaque polygons reach a little under later opaque neighbours; translucent ones have seams

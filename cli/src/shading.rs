@@ -1,8 +1,8 @@
 //! Shades of polygons in vector pictures: one brightness for each plane, so that neither the triangles of a
 //! flat wall nor the pieces of a polygon differ.
 //!
-//! Along a direction it is that of the painter's pictures, lit by a lamp at the eye. From an eye, such a lamp
-//! shades a plane unevenly, so there the lamp is far away, above the viewer's left shoulder.
+//! Along a direction it is the brightness of the painter's pictures, lit by a lamp at the eye. From an eye,
+//! such a lamp shades a plane unevenly. So there the lamp is far away, above the viewer's left shoulder.
 
 use binspace::glam::DVec3;
 use binspace::raster;
@@ -59,7 +59,7 @@ mod tests {
         let wall = [corner(-4.0, -2.0), corner(4.0, -2.0), corner(4.0, 3.0), corner(-4.0, 3.0)];
         let middle = corner(0.3, 0.7);
         let shades = [0, 1, 2, 3].map(|k| {
-            // Alternately from either side, as careless models have them.
+            // Alternately from either side, as in careless models.
             let [a, b] = [wall[k], wall[(k + 1) % 4]];
             let triangle = if k % 2 == 0 { [middle, a, b] } else { [middle, b, a] };
             shaded([200; 3], &triangle, &camera)

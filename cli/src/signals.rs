@@ -63,7 +63,7 @@ mod unix {
 
         use super::*;
 
-        /// A copy of the test program is what is ended.
+        /// The signal ends a copy of the test program.
         #[test]
         fn a_signal_ends_the_program_after_what_it_was_held_back_for() {
             const MARK: &str = "BINSPACE_TEST_SIGNAL";
@@ -74,7 +74,7 @@ mod unix {
                 });
                 unreachable!("{done:?}");
             }
-            // The program keeps to ignoring what its starter, such as `nohup`, had ignored.
+            // The program keeps ignoring the signals that its starter, such as `nohup`, had ignored.
             let heard = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|&signal| !is_ignored(signal));
             let heard: Vec<i32> = heard.collect();
             assert!(!heard.is_empty());

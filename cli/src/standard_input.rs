@@ -13,12 +13,12 @@ use crate::saved_file;
 use crate::scene_arg::Loaded;
 use crate::terminal::note;
 
-/// What messages call it.
+/// The name in messages.
 const NAME: &str = "standard input";
-/// How many bytes are asked for at a time.
+/// The number of bytes requested at a time.
 const CHUNK: usize = 1 << 20;
 
-/// Reads a file of any kind from standard input, and notes what was left out.
+/// Reads a file of any kind from standard input, and notes the omitted data.
 pub(crate) fn scene() -> Result<Loaded, Failure> {
     if io::stdin().is_terminal() {
         note("reading a scene from the terminal, up to an end of file (Ctrl-D)");
@@ -67,7 +67,7 @@ fn bytes() -> Result<Vec<u8>, Failure> {
     loop {
         let problem = |_| Failure::about(NAME, "too little memory to read it");
         bytes.try_reserve(CHUNK).map_err(problem)?;
-        // Fits the room that is there, so that reading itself asks for none.
+        // Fits the existing buffer, so that reading itself allocates nothing.
         let read = input.by_ref().take(CHUNK as u64).read_to_end(&mut bytes);
         if read.map_err(|error| Failure::about(NAME, format!("cannot be read: {error}")))? == 0 {
             return Ok(bytes);

@@ -4,8 +4,8 @@ use binspace::Error;
 use binspace::drawing::{self, EdgeKind, EdgeRun, Polyline, polylines};
 use clap::ValueEnum;
 
-/// The angle from which on a crease is drawn, in degrees, unless the user says. Larger: edges of parts
-/// with many sides are missing; smaller: the facets of curved surfaces are drawn.
+/// The default angle from which on a crease is drawn, in degrees. Too large: edges of parts with many sides
+/// are missing. Too small: the facets of curved surfaces are drawn.
 const CREASE: f64 = 30.0;
 
 /// Which edges are drawn as lines.
@@ -13,8 +13,8 @@ const CREASE: f64 = 30.0;
 pub(crate) enum EdgeChoice {
     None,
     All,
-    /// Those where polygons meet at this angle in radians or more, borders, silhouettes, and where
-    /// polygons go through each other.
+    /// Edges where polygons meet at this angle in radians or more, borders, silhouettes, and edges where
+    /// polygons penetrate each other.
     Creases(f64),
     /// Silhouettes and borders.
     Silhouettes,
@@ -44,12 +44,12 @@ impl From<Hidden> for drawing::Hidden {
 /// Lines that are drawn alike.
 #[derive(Debug)]
 pub(crate) struct Strokes {
-    /// How many polygons lie in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are hidden
-    /// and all drawn alike.
+    /// The number of polygons in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are
+    /// hidden and all drawn alike.
     pub(crate) depth: u32,
     /// The kind of the edges.
     pub(crate) class: &'static str,
-    /// What the segments of the lines are, by their numbers.
+    /// The edges of the lines' segments, by number.
     pub(crate) runs: Vec<EdgeRun>,
     pub(crate) lines: Vec<Polyline>,
 }
@@ -57,7 +57,7 @@ pub(crate) struct Strokes {
 impl EdgeChoice {
     pub(crate) const DEFAULT: Self = Self::Creases(CREASE.to_radians());
 
-    /// What `none`, `all`, `creases`, `creases=DEG` or `silhouettes` means.
+    /// The meaning of `none`, `all`, `creases`, `creases=DEG` or `silhouettes`.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         match text {
             "none" => return Ok(Self::None),
@@ -89,10 +89,10 @@ impl EdgeChoice {
     }
 }
 
-/// Lines behind more polygons are drawn as those behind so many.
+/// Lines behind more polygons are drawn as lines behind this many.
 pub(crate) const DEEPEST: u32 = 4;
 
-/// What edges are called in a file, in the order to draw them.
+/// The names of edges in a file, in the order to draw them.
 const CLASSES: [&str; 5] = ["other", "crossing", "crease", "border", "silhouette"];
 
 fn class(kind: EdgeKind) -> &'static str {
@@ -101,15 +101,15 @@ fn class(kind: EdgeKind) -> &'static str {
         EdgeKind::Silhouette => "silhouette",
         EdgeKind::Crease(_) => "crease",
         EdgeKind::Crossing(_) => "crossing",
-        // Kinds that the library may have one day.
+        // Kinds that the library may add later.
         _ => "other",
     }
 }
 
-/// The lines of some edges, hidden ones before visible ones, without those shorter than a length.
+/// The lines of some edges, hidden ones before visible ones, without lines shorter than a length.
 ///
-/// Lines of a kind are joined before the short ones are left out: what a crack shows of an edge is short,
-/// but so are the edges of a fine mesh.
+/// Lines of a kind are joined before the short ones are left out. The part of an edge seen through a crack is
+/// short, but so are the edges of a fine mesh.
 pub(crate) fn strokes(
     runs: &[EdgeRun],
     edges: EdgeChoice,

@@ -8,9 +8,9 @@ use crate::colours::BACKGROUND;
 use crate::pictures::Drawing;
 use crate::shading::{hex, shaded};
 
-/// The width of the outline that opaque fragments get in their own colour, in pixels. Smaller: the
-/// background shows through the seams between neighbours, as viewers blend each fragment with it;
-/// larger: thin fragments grow.
+/// The width of the outline that opaque fragments get in their own colour, in pixels. Too small: the
+/// background shows through the seams between neighbours, as viewers blend each fragment with it. Too large:
+/// thin fragments grow.
 const OUTLINE: f64 = 0.6;
 
 /// Writes the fragments of a scene's tree as a camera sees them, back to front.

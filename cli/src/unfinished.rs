@@ -1,9 +1,9 @@
-//! Files that have no name until they are complete. If the program ends before, by a signal, by
-//! lack of memory or killed, it leaves nothing behind.
+//! Files that have no name until they are complete. If the program ends earlier, by a signal, by lack of
+//! memory or killed, it leaves nothing behind.
 //!
-//! On the way to its place a complete file, or a folder of them, has a hidden name beside it,
-//! `.binspace-….part`. Signals wait for that moment to pass; only where the program is killed within, or
-//! the machine stops, is it left.
+//! While it is moved to its place, a complete file or folder has a hidden name beside it, `.binspace-….part`.
+//! Signals wait until the move ends. The hidden file remains only if the program is killed within the move,
+//! or the machine stops.
 
 use std::fs::{File, Permissions};
 use std::io::{self, Seek};
@@ -25,7 +25,7 @@ pub(crate) fn create_in(folder: &Path) -> io::Result<File> {
 /// Puts a complete file in its place, with the given permissions, or the usual ones if there are
 /// none.
 ///
-/// The file has a name of its own for the moment before it replaces what is there; signals wait.
+/// The file has its own name for the moment before it replaces an existing one; signals wait.
 pub(crate) fn place(
     mut file: File,
     folder: &Path,
@@ -33,7 +33,7 @@ pub(crate) fn place(
     permissions: Option<Permissions>,
 ) -> io::Result<()> {
     if let Some(permissions) = permissions.clone() {
-        // Best effort: the content is what matters.
+        // Best effort: only the content matters.
         let _ = file.set_permissions(permissions);
     }
     signals::hold_back(|| persist(&mut file, folder, target, permissions))
@@ -65,7 +65,7 @@ pub(crate) fn place_all(
         builder.permissions(Permissions::from_mode(0o777));
     }
     signals::hold_back(|| {
-        // Removed with all that is in it, unless it becomes the target.
+        // Removed with all its content, unless it becomes the target.
         let part = builder.tempdir_in(folder)?;
         for (name, mut file) in files {
             persist(&mut file, part.path(), &part.path().join(name), None)?;
@@ -77,7 +77,7 @@ pub(crate) fn place_all(
     })
 }
 
-/// A short name, as that of the file to replace may be as long as names can be.
+/// A short name, as the name of the replaced file may have the maximal length.
 fn builder() -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".binspace-").suffix(".part");
@@ -94,7 +94,7 @@ fn nameless(folder: &Path) -> io::Result<File> {
     Ok(open(folder, flags, Mode::from_raw_mode(0o666))?.into())
 }
 
-/// Gives such a file a name.
+/// Gives a name to a file without one.
 #[cfg(target_os = "linux")]
 fn named(file: &File, folder: &Path) -> io::Result<TempPath> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -148,7 +148,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("a");
         let names = || fs::read_dir(folder.path()).unwrap().count();
-        // The second has lost its name for ever, as where the file system has none without.
+        // The second cannot get a name again, as on file systems without nameless files.
         let files = [create_in(folder.path()), tempfile::tempfile_in(folder.path())];
         for (i, file) in files.into_iter().enumerate() {
             let mut file = file.unwrap();

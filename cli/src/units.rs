@@ -20,7 +20,7 @@ pub fn bytes(bytes: usize) -> String {
     }
 }
 
-/// A number with three digits, or all those before the point.
+/// A number with three digits, or all digits before the point.
 pub fn three_digits(value: f64) -> String {
     let decimals = match value {
         v if v >= 99.95 => 0,

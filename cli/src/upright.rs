@@ -6,25 +6,25 @@ use binspace::scene::Scene;
 use crate::args::UpArgs;
 use crate::terminal::note;
 
-/// How far from 0 the lowest point of something may be that stands on the ground, as a share of its
-/// height. Smaller: rounded files are missed; larger: what hangs somewhat above 0 counts as well.
+/// The largest distance from 0 of the lowest point of something on the ground, as a share of its height. Too
+/// small: rounded files are missed. Too large: things that hang somewhat above 0 count as well.
 const ON_GROUND: f64 = 0.01;
-/// What is lower than this share of its shorter side is flat. Larger: furniture counts as a
-/// building; smaller: rooms of usual proportions do not.
+/// Things lower than this share of their shorter side are flat. Too large: furniture counts as a building.
+/// Too small: rooms of usual proportions do not.
 const FLAT: f64 = 0.25;
-/// The least share of the bounding box's volume that faces which look inwards span. Smaller: open
-/// surfaces count as rooms because of rounding.
+/// The least share of the bounding box's volume that inward faces span. Too small: open surfaces count as
+/// rooms because of rounding.
 const INWARDS: f64 = 0.05;
-/// What is seen from above of a room or a town is at least this share of what is seen from a side.
-/// Larger: towns of high houses are missed; smaller: blinds count as rooms.
+/// The least ratio of the area of a room or town seen from above to the area seen from a side. Too large:
+/// towns of high houses are missed. Too small: blinds count as rooms.
 const SEEN_FROM_ABOVE: f64 = 0.8;
-/// A scene with more of its area than this perpendicular to z is a drawing in layers, which has no
-/// up.
+/// A scene with more of its area than this perpendicular to z is a drawing in layers, which has no up
+/// direction.
 const LAYERS: f64 = 0.98;
 /// The sine of the angle within which a face counts as perpendicular to z is below this.
 const PERPENDICULAR: f64 = 0.2;
 
-/// Notes that a file looks as if its up were z, unless the user has said what is up.
+/// Notes that a file seems to be z-up, unless the user has given the up direction.
 pub(crate) fn note_z_up(scene: &Scene, up: &UpArgs) {
     let is_file = !scene.is_empty() && scene.line(0).is_some();
     if let (true, None, Some(reason)) = (is_file, up.up, sign_of_z_up(scene)) {
@@ -38,14 +38,14 @@ pub(crate) fn note_z_up(scene: &Scene, up: &UpArgs) {
 
 /// Why a scene looks as if z pointed up, if it does. One of two signs suffices:
 ///
-/// - It stands on z = 0: that is its lowest z, while its y reach from below 0 to above. What is flat
-///   in z does not count: plates on walls look the same if y is up.
+/// - It stands on z = 0: that is its lowest z, while its y reach from below 0 to above. Things that are flat
+///   in z do not count: plates on walls look the same if y is up.
 /// - It is a room, a level or a town: flat in z, with hardly less area seen from above than from a
 ///   side, and its faces look inwards, as floors, ceilings and walls do.
 ///
-/// Nothing is a sign if it stands on y = 0 in the same way, or is a stack of layers across z.
+/// Neither counts as a sign if the scene stands on y = 0 in the same way, or is a stack of layers across z.
 ///
-/// What hangs, or was moved off the ground, shows no sign.
+/// A scene that hangs, or was moved off the ground, shows no sign.
 fn sign_of_z_up(scene: &Scene) -> Option<&'static str> {
     let (low, high) = scene.bounds()?;
     let size = high - low;
@@ -75,7 +75,7 @@ fn sign_of_z_up(scene: &Scene) -> Option<&'static str> {
 #[derive(Debug, Default)]
 struct Areas {
     total: f64,
-    /// Of the faces that are nearly perpendicular to z.
+    /// The area of faces that are nearly perpendicular to z.
     perpendicular: f64,
     /// As seen along each axis, from both sides.
     seen: DVec3,
@@ -143,7 +143,7 @@ mod tests {
             assert!(!is_z_up(&scene), "{}", scene.name());
         }
         let flat = moved(&teapot(2), |p| p.with_z(0.0));
-        // A niche in a wall, seen into along z: a room, but it stands on y = 0.
+        // A niche in a wall, seen along z: a room, but it stands on y = 0.
         let niche = moved(&cornell_box(), |p| DVec3::new(p.x, p.y, 0.1 * p.z - 20.0));
         assert!(!is_z_up(&niche) && is_z_up(&moved(&niche, |p| p - DVec3::Y * 300.0)));
         let vast = moved(&teapot(2), |p| p * 1e305);

@@ -1,15 +1,15 @@
-//! Errors: if one rank has one, all stop.
+//! Errors: if one rank has an error, all stop.
 
 use mpi::collective::SystemOperation;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives};
 
-/// Some rank has failed, and has said why.
+/// Some rank has failed, and has reported why.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Failure;
 
-/// What all ranks have, if all have it. Otherwise the first of those that do not says why. Every rank has
-/// to call this, at the same place.
+/// The values of all ranks, if all have one. Otherwise the first rank without a value reports why. Every rank
+/// has to call this, at the same place.
 pub(crate) fn together<T>(
     world: &SimpleCommunicator,
     result: Result<T, String>,
@@ -44,7 +44,7 @@ mod tests {
 
     use super::abort_on_panic;
 
-    /// What a rank does in the test below. By itself, it is one rank of one, and does nothing.
+    /// The work of a rank in the test below. Alone, it is one rank of one, and does nothing.
     #[test]
     #[ignore = "it is run by mpirun"]
     fn one_rank_of_several_panics() {

@@ -1,8 +1,8 @@
-//! Direct send: each pixel has an owner, who is sent what all cells show there, and blends it.
+//! Direct send: each pixel has an owner, which receives the layers of all cells there, and blends them.
 //!
-//! Blending "over" is associative in real numbers, but not in rounded ones: cells that were blended each by
-//! itself, and then with each other, would differ from the picture of one process in the last bits. So what
-//! is sent is not blended: the owner paints layer over layer, as one process does.
+//! Blending "over" is associative in real numbers, but not in rounded ones. Cells that were blended
+//! separately, and then with each other, would differ from the picture of one process in the last bits. So
+//! ranks send layers before blending: the owner paints layer over layer, as one process does.
 
 use binspace::raster::blend;
 use mpi::topology::SimpleCommunicator;
@@ -11,8 +11,8 @@ use mpi::traits::Communicator;
 use crate::exchange;
 use crate::picture::{BACKGROUND, LAYER, Layer};
 
-/// The picture, on rank 0, of what each rank paints of its cell, with the cells in an order, the furthest
-/// first. And how many bytes of layers this rank has sent to others.
+/// The picture, on rank 0, of the layers that each rank paints of its cell, with the cells in an order, the
+/// furthest first. Also returns the number of bytes of layers that this rank has sent to others.
 pub(crate) fn blended(
     world: &SimpleCommunicator,
     size: [u32; 2],
@@ -21,7 +21,7 @@ pub(crate) fn blended(
 ) -> (u64, Option<Vec<u8>>) {
     let pixels = size[0] as usize * size[1] as usize;
     let (rank, ranks) = (world.rank() as usize, world.size() as usize);
-    // Rows in turn: neighbours differ little in how much there is to blend.
+    // Rows in turn: neighbours differ little in the amount of blending.
     let owner = |pixel: u32| (pixel / size[0]) as usize % ranks;
     let mut outgoing = vec![Vec::new(); ranks];
     for layer in &layers {

@@ -1,4 +1,4 @@
-//! What ranks send to each other.
+//! The messages between ranks.
 
 use binspace::partition::Extent;
 use mpi::collective::SystemOperation;
@@ -6,8 +6,8 @@ use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Root};
 
-/// So many bytes, at most, go from one rank to all others at a time. Larger: more memory, and counts that
-/// do not fit MPI's `int`; smaller: more rounds.
+/// The most bytes that go from one rank to all others at a time. Too large: more memory, and counts that do
+/// not fit MPI's `int`. Too small: more rounds.
 const AT_ONCE: usize = 1 << 26;
 
 /// The sum of a number over all ranks.
@@ -17,10 +17,10 @@ pub(crate) fn sum(world: &SimpleCommunicator, own: u64) -> u64 {
     total
 }
 
-/// Makes extents of all shares that of the scene.
+/// Merges the extents of all shares into the scene's extent.
 pub(crate) fn merge(world: &SimpleCommunicator, extent: &mut Extent) {
     let [low, high] = [extent.low, extent.high].map(|corner| corner.to_array());
-    // All of them are to be as small as can be.
+    // The reduction takes the minimum of each.
     let own = [low[0], low[1], low[2], -high[0], -high[1], -high[2], -extent.precision];
     let mut all = own;
     world.all_reduce_into(&own[..], &mut all[..], SystemOperation::min());
@@ -56,7 +56,7 @@ pub(crate) fn broadcast(world: &SimpleCommunicator, own: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Sends each rank a list of bytes, and gives those that the ranks have sent to this one.
+/// Sends each rank a list of bytes, and returns the lists that the ranks have sent to this one.
 pub(crate) fn all_to_all(world: &SimpleCommunicator, outgoing: Vec<Vec<u8>>) -> Vec<Vec<u8>> {
     let ranks = outgoing.len();
     let each = (AT_ONCE / ranks).max(1);
@@ -92,8 +92,8 @@ pub(crate) fn all_to_all(world: &SimpleCommunicator, outgoing: Vec<Vec<u8>>) -> 
     incoming
 }
 
-/// An empty list with memory, even for nothing: lists of bytes without memory are at address 1, which
-/// Open MPI takes for `MPI_IN_PLACE`.
+/// An empty list with memory, even for no bytes: lists without memory are at address 1, which Open MPI takes
+/// for `MPI_IN_PLACE`.
 fn buffer(len: usize) -> Vec<u8> {
     Vec::with_capacity(len.max(1))
 }

@@ -1,4 +1,4 @@
-//! What each rank has done, how long it took, and with how much memory.
+//! The work, time and memory of each rank.
 
 use std::time::Duration;
 
@@ -6,10 +6,10 @@ use mpi::topology::SimpleCommunicator;
 
 use crate::exchange;
 
-/// Of one rank.
+/// The figures of one rank.
 #[derive(Debug, Default)]
 pub(crate) struct Figures {
-    /// Polygons of its share, polygons that it was sent, and those that have part in its cell.
+    /// Polygons of its share, polygons that it received, and polygons that reach into its cell.
     pub(crate) given: u64,
     pub(crate) received: u64,
     pub(crate) polygons: u64,
@@ -19,7 +19,7 @@ pub(crate) struct Figures {
     /// Sent to other ranks.
     pub(crate) polygon_bytes: u64,
     pub(crate) layer_bytes: u64,
-    /// Of the processor, without waiting for others.
+    /// Processor time, without waiting for others.
     pub(crate) read: Duration,
     pub(crate) build: Duration,
     pub(crate) paint: Duration,
@@ -72,7 +72,7 @@ const COLUMNS: [&str; 15] = [
     "all_s",
 ];
 
-/// Prints rows of so many figures, of which the first ones are counts, and the others seconds.
+/// Prints rows of figures: the first ones are counts, and the others seconds.
 fn print(all: &[f64], each: usize, counts: usize) -> csv::Result<()> {
     let mut out = csv::Writer::from_writer(std::io::stdout().lock());
     out.write_record(COLUMNS)?;
@@ -85,14 +85,14 @@ fn print(all: &[f64], each: usize, counts: usize) -> csv::Result<()> {
     Ok(out.flush()?)
 }
 
-/// The time that this process has had of a processor; 0 where the system does not tell.
+/// The processor time of this process; 0 where the system does not report it.
 pub(crate) fn processor_time() -> Duration {
     let status = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
     let nanoseconds = status.split_whitespace().next().and_then(|first| first.parse().ok());
     Duration::from_nanos(nanoseconds.unwrap_or(0))
 }
 
-/// The most memory that this process has had, in bytes; 0 where the system does not tell.
+/// The peak memory of this process, in bytes; 0 where the system does not report it.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -2,8 +2,8 @@
 //!
 //! Each MPI rank reads or generates a share of the polygons. All agree on the extent and, from samples, on
 //! the planes between cells, one cell a rank. Polygons go to the ranks whose cells they reach; each rank
-//! builds the tree of its cell, and paints it. What shows in a pixel goes to the rank that owns the pixel,
-//! which blends it in the order of the cells.
+//! builds the tree of its cell, and paints it. The visible layers of a pixel go to the rank that owns the
+//! pixel, which blends them in the order of the cells.
 
 mod agree;
 mod arguments;
@@ -31,7 +31,8 @@ use figures::{Figures, processor_time};
 use polygon::Given;
 use share::Share;
 
-/// About so many samples choose the planes between cells. More: time; fewer: cells differ in size.
+/// The approximate number of samples that choose the planes between cells. Too large: time. Too small: cells
+/// differ in size.
 const SAMPLES: u64 = 1 << 16;
 
 fn main() -> ExitCode {
@@ -43,15 +44,15 @@ fn main() -> ExitCode {
     agree::abort_on_panic();
     match run(&world) {
         Ok(()) => ExitCode::SUCCESS,
-        // It has been reported, by the rank where it was.
+        // The rank where it occurred has reported it.
         Err(Failure) => ExitCode::from(2),
     }
 }
 
-/// All that a rank does. After an error on any rank, all of them return.
+/// The work of a rank. After an error on any rank, all of them return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let arguments = match Arguments::try_parse() {
-        // What was asked for, such as help, is no error: rank 0 says it.
+        // Requested output, such as help, is no error: rank 0 prints it.
         Err(answer) if !answer.use_stderr() => {
             if rank(world) == 0 {
                 print!("{answer}");
@@ -107,7 +108,7 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is wrong with a command line.
+/// The error of a command line.
 fn plain(error: &clap::Error) -> String {
     let text = error.to_string();
     text.strip_prefix("error: ").unwrap_or(&text).trim_end().to_owned()
@@ -129,7 +130,7 @@ fn divide(
     share: &Share,
 ) -> Result<Partition, Failure> {
     let total = exchange::sum(world, share.polygons.len() as u64);
-    // Which polygons are samples does not depend on who has them, so neither do the cells.
+    // The choice of samples does not depend on the distribution of polygons, so neither do the cells.
     let stride = total.div_ceil(SAMPLES).max(1);
     let samples = share.polygons.iter().filter(|given| mixed(given.number).is_multiple_of(stride));
     let own: Vec<f64> = samples.flat_map(|given| given.corners[0].to_array()).collect();
@@ -147,14 +148,15 @@ fn divide(
     together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
 }
 
-/// Bits of a number, mixed: of numbers in any pattern, about as many are multiples of anything.
+/// A hash of a number: for any pattern of numbers, about the same share of hashes are multiples of a given
+/// divisor.
 fn mixed(number: u64) -> u64 {
     let bits = (number ^ number >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
 }
 
-/// Sends each polygon to the ranks whose cells it reaches. Gives how many bytes this rank has sent, and the
-/// polygons that it has been sent, in the order of their numbers.
+/// Sends each polygon to the ranks whose cells it reaches. Returns the number of bytes that this rank has
+/// sent, and the polygons that it has received, in the order of their numbers.
 fn send_polygons(
     world: &SimpleCommunicator,
     partition: &Partition,
@@ -166,7 +168,7 @@ fn send_polygons(
         partition.reached_by(given, &mut reached);
         reached.iter().for_each(|&cell| given.write(&mut outgoing[cell]));
     }
-    // The share is freed before others come.
+    // The share is freed before other polygons arrive.
     drop(share);
     let own = outgoing[rank(world)].len();
     let sent = outgoing.iter().map(Vec::len).sum::<usize>() - own;

@@ -1,4 +1,4 @@
-//! What a rank paints of its cell, and pictures in files.
+//! A rank's painting of its cell, and pictures in files.
 
 use std::fs::{self, Permissions};
 use std::io;
@@ -15,7 +15,7 @@ use crate::polygon::Given;
 /// The colour behind everything.
 pub(crate) const BACKGROUND: [u8; 3] = [255; 3];
 
-/// What one polygon adds to one pixel.
+/// The contribution of one polygon to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layer {
     /// Its number, row by row from the top left.
@@ -44,8 +44,8 @@ impl Layer {
     }
 }
 
-/// What shows of a cell in each pixel: of each, the furthest first. Nothing that an opaque polygon hides is
-/// among it.
+/// The visible layers of a cell in each pixel, the furthest first. Layers that an opaque polygon hides are
+/// left out.
 pub(crate) fn layers(
     tree: &BspTree,
     camera: &Camera,
@@ -66,9 +66,9 @@ pub(crate) fn layers(
 /// Layers in the order in which they were painted.
 struct Painted {
     layers: Vec<Layer>,
-    /// Of each pixel, the place of the first layer that is not hidden.
+    /// For each pixel, the place of the first layer that is not hidden.
     first: Vec<usize>,
-    /// At how many layers to remove the hidden ones.
+    /// The number of layers at which the hidden ones are removed.
     sweep_at: usize,
 }
 
@@ -84,23 +84,23 @@ impl Painted {
         }
     }
 
-    /// Removes what is hidden.
+    /// Removes hidden layers.
     fn sweep(&mut self) {
         let (first, mut place) = (&self.first, 0);
         self.layers.retain(|layer| {
             place += 1;
             place > first[layer.pixel as usize]
         });
-        // What is left of each pixel shows.
+        // The remaining layers of each pixel show.
         self.first.fill(0);
     }
 }
 
-/// How a picture gets to its place.
+/// The way of a picture to its place.
 enum Place {
     /// It is written into a device or a pipe.
     Into,
-    /// It is written beside this name, and replaces what is there when it is complete.
+    /// It is written beside this name, and replaces an existing file when it is complete.
     Beside(PathBuf),
 }
 
@@ -109,7 +109,7 @@ impl Place {
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if !found.is_file() => Ok(Self::Into),
-            // What a link leads to is replaced, not the link. (One that leads nowhere is replaced itself.)
+            // The target of a link is replaced, not the link. (A link without a target is replaced itself.)
             Ok(_) => fs::canonicalize(path).map(Self::Beside),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
@@ -132,7 +132,7 @@ fn unwritable(path: &Path, error: &io::Error) -> String {
 pub(crate) fn check(path: &Path) -> Result<(), String> {
     let check = || match Place::of(path)? {
         Place::Into => Ok(()),
-        // It has no name, so nothing is left if the program ends at once.
+        // It has no name, so nothing remains if the program ends at once.
         Place::Beside(path) => tempfile::tempfile_in(folder_of(&path)).map(drop),
     };
     check().map_err(|error| unwritable(path, &error))
@@ -147,7 +147,7 @@ pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), St
             }
             Place::Beside(target) => target,
         };
-        // As other files, it can be read by those whom the system's mask allows.
+        // The system's mask decides who can read it, as for other files.
         let file = tempfile::Builder::new()
             .permissions(Permissions::from_mode(0o666))
             .tempfile_in(folder_of(&target))?;

@@ -48,7 +48,7 @@ impl Given {
         );
     }
 
-    /// All that were written one after the other.
+    /// All polygons that were written one after the other.
     pub(crate) fn read_all(mut bytes: &[u8]) -> impl Iterator<Item = Self> {
         std::iter::from_fn(move || {
             let (head, rest) = bytes.split_first_chunk::<HEAD>()?;

@@ -1,4 +1,4 @@
-//! What a rank has of a scene before all exchange: generated, or read from files.
+//! A rank's share of a scene before all exchange: generated, or read from files.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -24,10 +24,10 @@ struct Generated {
     is_lump: bool,
 }
 
-/// The bits of a number that are the place in a file; those above are the number of the file.
+/// The bits of a number that hold the place in a file; the bits above hold the number of the file.
 const IN_FILE: u32 = 32;
 
-/// What the names of generated scenes begin with, and whether they are lumps.
+/// The prefixes of the names of generated scenes, and whether they are lumps.
 const KINDS: [(&str, bool); 2] = [("cloud:", false), ("lump:", true)];
 
 fn is_generated(scene: &str) -> bool {
@@ -35,8 +35,8 @@ fn is_generated(scene: &str) -> bool {
 }
 
 impl Share {
-    /// The share of a rank: `cloud:N` and `lump:N` are generated; all else is an OBJ file, or a folder of
-    /// them, of which rank k of n reads numbers k, k + n, …, in the order of their names.
+    /// The share of a rank: `cloud:N` and `lump:N` are generated; any other name is an OBJ file, or a folder
+    /// of them, of which rank k of n reads numbers k, k + n, …, in the order of their names.
     pub(crate) fn load(scene: &str, rank: usize, ranks: usize) -> Result<Self, String> {
         for (name, is_lump) in KINDS {
             if let Some(count) = scene.strip_prefix(name) {
@@ -62,13 +62,13 @@ impl Share {
         extent
     }
 
-    /// Adds the polygons of a file. Numbers go by files, and then by places in them.
+    /// Adds the polygons of a file. Numbers are ordered by files, and then by places in them.
     fn read(&mut self, path: &Path, file: usize) -> Result<(), String> {
         let about = |error: binspace::Error| error.to_string();
         let stream = ObjStream::open(path).map_err(about)?;
         let (precision, mut number) = (stream.scene().precision(), (file as u64) << IN_FILE);
         let flow = stream.read(|corners, material| {
-            // There are fewer if the file changes while it is read, which is an error at its end.
+            // Fewer remain if the file changes while it is read, which is an error at its end.
             let look = stream.scene().materials().get(material as usize);
             let colour = look.map_or([0.0; 3], |look| look.color);
             let colour = colour.map(|channel| (channel * 255.0).round() as u8);
@@ -84,8 +84,8 @@ impl Share {
     }
 }
 
-/// What is wrong with a tree of some of a scene's polygons, with the polygon to blame as the scene has it:
-/// a generated one by its number, one of a file by its place there.
+/// The error of a tree of some of a scene's polygons. It names the polygon as the scene has it: a generated
+/// one by its number, one of a file by its place there.
 pub(crate) fn about(scene: &str, polygons: &[Given], error: Error) -> String {
     let Some(given) = error.polygon().and_then(|place| polygons.get(place)) else {
         return error.to_string();
@@ -137,8 +137,8 @@ impl Generated {
         Some(Share { polygons })
     }
 
-    /// A triangle at a place by chance, of a size that leaves each about as many neighbours however many
-    /// there are.
+    /// A triangle at a random place. Its size leaves each triangle about the same number of neighbours for
+    /// any number of triangles.
     fn polygon(self, number: u64) -> Given {
         let mut dice = Dice(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let mut point = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));
@@ -196,7 +196,7 @@ mod tests {
         assert!(Share::load("cloud:1e9", 0, 1).unwrap_err().contains("no number"));
     }
 
-    /// A polygon of a wrong corner is named as the scene has it.
+    /// A polygon with a wrong corner is named by its number in the scene.
     #[test]
     fn errors_name_polygons_by_their_numbers_in_the_scene() {
         let folder = tempfile::tempdir().unwrap();

@@ -8,7 +8,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug)]
 struct Run {
     status: Option<i32>,
@@ -44,12 +44,12 @@ fn figures(run: &Run) -> Vec<Vec<f64>> {
     rows.map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect()
 }
 
-/// How many pixels are not white.
+/// The number of pixels that are not white.
 fn covered(picture: &[u8]) -> usize {
     picture.chunks(3).filter(|pixel| *pixel != [255; 3]).count()
 }
 
-/// A picture by each number of ranks is the one of a single tree, which has no cells.
+/// For each number of ranks, the picture equals the picture of a single tree without cells.
 fn same_on_all(folder: &Path, scene: &str, views: &[&str], least: usize) {
     for view in views {
         let arguments = format!("{scene} --size 128x96 {view}");
@@ -78,7 +78,7 @@ fn pictures_of_a_scene_in_one_corner_are_the_same() {
     same_on_all(folder.path(), "lump:3000", &["", "--eye=38,39,47 --target=40,40,40"], 30);
 }
 
-/// More ranks than polygons, one polygon, and none at all.
+/// More ranks than polygons, one polygon, and no polygon.
 #[test]
 #[ignore = "needs mpirun of Open MPI"]
 fn ranks_without_polygons_do_their_part() {
@@ -88,8 +88,8 @@ fn ranks_without_polygons_do_their_part() {
     }
 }
 
-/// All polygons in the cell of one rank: they share their first corners, so all samples are in one place
-/// but for a far one, of a face without area, which makes the room large.
+/// All polygons in the cell of one rank: they share their first corners, so all samples are in one place. The
+/// exception is a far one, of a face without area, which makes the room large.
 #[test]
 #[ignore = "needs mpirun of Open MPI"]
 fn a_scene_in_one_cell_of_many_is_the_same() {
@@ -125,7 +125,7 @@ fn a_scene_in_one_cell_of_many_is_the_same() {
     }
 }
 
-/// Walls in the planes x = 0, 1, …, panes that go through them, and decals on both.
+/// Walls in the planes x = 0, 1, …, panes that penetrate them, and decals on both.
 fn write_parts(folder: &Path) {
     let mut corners = String::new();
     let mut square = |at: [f64; 3], u: [f64; 3], v: [f64; 3]| {
@@ -205,7 +205,7 @@ fn figures_have_a_line_for_each_rank() {
     let rows = figures(&run);
     assert_eq!(rows.len(), 3, "{run:?}");
     let sum = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>();
-    // Each is given once, and has part in one cell or more.
+    // Each is given once, and reaches into one cell or more.
     assert_eq!(sum(1), 2000.0);
     assert!(sum(2) >= sum(3) && sum(3) > 2000.0 && sum(4) >= sum(3), "{run:?}");
 }

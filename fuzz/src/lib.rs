@@ -1,5 +1,5 @@
-//! What the fuzz targets do with their bytes: the code that the library's own tests replay
-//! crash inputs with.
+//! The checks of the fuzz targets on their bytes: the library's own tests replay crash inputs with the same
+//! code.
 
 /// Cuts a face of a scene again and again, and compares with exact rationals.
 pub fn split(data: &[u8]) {
@@ -26,7 +26,7 @@ pub fn large(data: &[u8]) {
     testkit::targets::large::run(data);
 }
 
-/// Reads files of trees, forged ones and any bytes, and uses what is read.
+/// Reads files of trees, forged ones and any bytes, and uses the result.
 pub fn saved(data: &[u8]) {
     testkit::targets::saved::run(data);
 }
@@ -36,12 +36,12 @@ pub fn faces(data: &[u8]) {
     testkit::targets::faces::run(data);
 }
 
-/// Asks what rays hit, and where points are, and compares with exact rationals.
+/// Finds hits of rays and positions of points, and compares with exact rationals.
 pub fn query(data: &[u8]) {
     testkit::targets::query::run(data);
 }
 
-/// Draws views of small scenes, and compares with what the tree paints.
+/// Draws views of small scenes, and compares with the tree's picture.
 pub fn drawing(data: &[u8]) {
     testkit::targets::drawing::run(data);
 }

@@ -1,10 +1,10 @@
 //! `gl2ps`: triangles drawn by OpenGL as a vector picture, by a driver in C that is compiled here.
 //!
-//! It sorts by a tree of its own (`bsp`) or by depths (`simple`). It has `f32`, and its SVG files have six
-//! digits of a coordinate. So its pixels are judged twice: all, but for those with an outline of its own
-//! within 4·10⁻⁵ of a pixel, and those alone around which all eight neighbours show the same. Its time is
-//! that of a page, from its beginning to the file; ours is that of the tree, the map and the paths. Both are
-//! times for which one thread ran.
+//! It sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six digits
+//! of a coordinate. So its pixels are judged twice. The first count covers all pixels except those with one
+//! of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose eight neighbours all
+//! show the same polygon. Its time is the time of a page, from its beginning to the file; ours is the time of
+//! the tree, the map and the paths. Both are times for which one thread ran.
 
 use super::fill::{Picture, Pixel};
 use super::{SIZE, camera, cpu_time, drawn, scene, threads};
@@ -122,7 +122,7 @@ impl Ours {
 struct Theirs {
     /// The time of its page.
     time: Duration,
-    /// What is filled, in the order in which it is painted.
+    /// The filled triangles, in paint order.
     filled: Vec<Filled>,
 }
 
@@ -136,10 +136,10 @@ impl Theirs {
     }
 }
 
-/// A filled triangle: the number of what was drawn, and corners in pixels.
+/// A filled triangle: the number of its polygon, and corners in pixels.
 type Filled = (usize, Vec<[f64; 2]>);
 
-/// The compiled driver, in a folder of its own.
+/// The compiled driver, in its own folder.
 struct Driver {
     folder: PathBuf,
 }
@@ -168,7 +168,7 @@ impl Driver {
         self.folder.join("driver")
     }
 
-    /// What it draws, by one of its ways to sort.
+    /// The driver's drawing, by one of its ways to sort.
     fn draw(&self, scene: &Scene, camera: &Camera, sort: &str) -> io::Result<Theirs> {
         let [input, output] = ["triangles", "drawing.svg"].map(|name| self.folder.join(name));
         fs::write(&input, seen(scene, camera))?;
@@ -192,7 +192,7 @@ impl Drop for Driver {
     }
 }
 
-/// What the driver reads: the picture's size, the view volume, and triangles as the camera sees them.
+/// The driver's input: the picture's size, the view volume, and triangles as the camera sees them.
 fn seen(scene: &Scene, camera: &Camera) -> String {
     let Viewpoint::Eye(eye) = camera.viewpoint() else { panic!("a perspective camera") };
     let corner = |p: &DVec3| {
@@ -228,8 +228,8 @@ fn filled_of(line: &str) -> Option<Filled> {
     Some((number, corners?))
 }
 
-/// What each pixel shows, where a depth buffer and the tree's order agree, which know nothing of each
-/// other.
+/// The visible polygon of each pixel, where a depth buffer and the tree's order agree; these are independent
+/// of each other.
 struct Truth {
     pixels: Vec<Option<Pixel>>,
 }
@@ -272,7 +272,7 @@ impl Truth {
         judged
     }
 
-    /// Whether the neighbours of a pixel, as far as they are in the picture, show what it shows.
+    /// Whether the neighbours of a pixel within the picture show the same polygon as the pixel.
     fn is_off_edges(&self, i: usize) -> bool {
         let [width, height] = SIZE.map(|side| side as usize);
         let [x, y] = [i % width, i / width];

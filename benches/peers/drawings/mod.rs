@@ -1,8 +1,8 @@
-//! Drawings of one view: how many paths, and how long they take, against building the tree; and `gl2ps`,
-//! which makes vector pictures of what OpenGL draws, on the same triangles. The whole scene is seen from
-//! around it, in 1600×1200 pixels.
+//! Drawings of one view: the number of paths, and their time, against building the tree; and `gl2ps`, which
+//! makes vector pictures of OpenGL drawings, on the same triangles. The whole scene is seen from around it,
+//! in 1600×1200 pixels.
 //!
-//! Times of one thread are those for which it ran; only the gain of a second one is by the clock.
+//! Times of one thread are its running time; only the gain of a second one is by the clock.
 //!
 //! Drawings are filled at the centres of pixels in floats and compared with the tree's order painted by
 //! integers. Centres nearer than 4·10⁻⁵ of a pixel to an outline are not judged.
@@ -22,10 +22,10 @@ use support::{Table, Target, against, best, check, time, triangles_in_cubes};
 use testkit::fill::{self, Score};
 
 const SIZE: [u32; 2] = [1600, 1200];
-/// Work is repeated for so long, for the mean of its times.
+/// Work is repeated for this long, for the mean of its times.
 const ENOUGH: Duration = Duration::from_secs(1);
 
-/// A scene, and what is to be reached.
+/// A scene, and its targets.
 struct Goal {
     scene: &'static str,
     /// The direction that points up in it.
@@ -42,7 +42,7 @@ const fn goal(scene: &'static str, time: Option<f64>, pieces: Option<f64>) -> Go
     Goal { scene, up: DVec3::Z, is_whole: false, time, pieces }
 }
 
-/// Scans, and what is as simple.
+/// Scans, and scenes of similar simplicity.
 const fn scan(scene: &'static str, up: DVec3) -> Goal {
     Goal { scene, up, is_whole: true, time: Some(0.9), pieces: Some(1.0) }
 }
@@ -52,7 +52,7 @@ const fn level(scene: &'static str) -> Goal {
     Goal { is_whole: true, ..goal(scene, None, Some(1.0)) }
 }
 
-/// Models in parts that go through one another.
+/// Models in parts that penetrate each other.
 const fn model(scene: &'static str, up: DVec3) -> Goal {
     Goal { up, ..goal(scene, None, Some(1.15)) }
 }
@@ -150,8 +150,8 @@ fn print_times(rows: &[Vec<String>]) {
     rows.iter().for_each(|row| table.row(row));
 }
 
-/// For how long threads of this program ran, the mean of some runs: unlike the clock, that does not
-/// count what others do meanwhile on a shared machine. Where the system does not tell, by the clock.
+/// The time for which threads of this program ran, the mean of some runs. Unlike the clock, it does not count
+/// the work of others on a shared machine. Where the system does not report it, by the clock.
 fn cpu_time<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
     let begin = Instant::now();
     let before = ran();
@@ -166,7 +166,7 @@ fn cpu_time<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-/// For how long the threads that there are have run, if the system tells.
+/// The time for which the existing threads have run, if the system reports it.
 fn ran() -> Option<Duration> {
     let mut sum = 0;
     for thread in fs::read_dir("/proc/self/task").ok()? {
@@ -180,7 +180,7 @@ fn threads(count: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(count).build().expect("threads")
 }
 
-/// A scene by name; those of triangles in cubes are no built-in ones.
+/// A scene by name; scenes of triangles in cubes are not built in.
 fn scene(name: &str) -> Option<Scene> {
     match name.strip_prefix("triangles in cubes:") {
         Some(count) => Some(triangles_in_cubes(count.parse().expect("a number"))),
@@ -205,14 +205,14 @@ fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, goal: &Goal) -> [Strin
     let visible = map.polygons().count();
     let mut score = Score::default();
     let mut checked = fill::check(tree, camera, &mut score);
-    // In real scenes, polygons lie within the tolerance of one another: there the tree's order says which
-    // of them shows, not the ray.
+    // In real scenes, polygons lie within the tolerance of one another: there the tree's order decides the
+    // visible one, not the ray.
     if !goal.scene.ends_with(".obj") {
         checked = checked.and_then(|()| fill::check_rays(tree, camera, &mut score));
     }
     checked.unwrap_or_else(|fault| panic!("{}: {fault}", goal.scene));
     assert_eq!(score.paths, visible, "{}", goal.scene);
-    // Of each pixel, the drawing and the map are judged.
+    // For each pixel, the drawing and the map are judged.
     assert!(score.unsure * 50 < score.pixels, "{}: {score:?}", goal.scene);
     let (target, met) = match (goal.is_whole, score.clipped) {
         (false, _) => ("–", "–"),

@@ -57,8 +57,8 @@ pub(super) fn print(rows: &[Vec<String>]) {
     rows.iter().for_each(|row| table.row(row));
 }
 
-/// How many pixels were judged: the paths that cover it are as many as the fragments of the tree, and the
-/// last of them is what the tree paints last.
+/// The number of judged pixels. In each, the number of covering paths equals the number of fragments of the
+/// tree, and the last path is the polygon that the tree paints last.
 fn check(tree: &BspTree, camera: &Camera, rays: &Rays, drawing: &Drawing, name: &str) -> usize {
     let truth = paint_tree(tree, camera.viewpoint(), rays);
     let layers = layers(tree, rays);
@@ -80,7 +80,7 @@ fn check(tree: &BspTree, camera: &Camera, rays: &Rays, drawing: &Drawing, name: 
     judged
 }
 
-/// How many fragments cover each pixel.
+/// The number of fragments that cover each pixel.
 fn layers(tree: &BspTree, rays: &Rays) -> Vec<u32> {
     let [width, height] = rays.size().map(|side| side as usize);
     let mut layers = vec![0; width * height];

@@ -1,6 +1,6 @@
 //! Rays: the nearest hit, and whether a line of sight is blocked, against the ray casts of `parry3d` (in
 //! `f64` and in `f32`) and of `bvh` (in `f64`), on the same triangles with the same rays, one thread. A
-//! second table has rays through corners and edges, and how many answers are wrong.
+//! second table has rays through corners and edges, and the number of wrong answers.
 
 mod peers;
 
@@ -48,7 +48,7 @@ impl Case {
         let scene = triangulated(&scene(name)?);
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         check(&tree, &scene);
-        // As the tree has them, so that all see the same.
+        // As in the tree, so that all libraries get the same triangles.
         let (faces, lattice) = (tree.faces(), tree.faces().lattice());
         let triangle = |face: u32| {
             let corners = faces.corners(face);
@@ -150,7 +150,7 @@ fn times(cases: &[Case]) {
     }
 }
 
-/// The shortest times of a question in nanoseconds, ours and those of the peers, taken in turns.
+/// The shortest times of a query in nanoseconds, ours and the peers', taken in turns.
 fn measure(
     questions: &[[DVec3; 2]],
     ours: impl Fn([DVec3; 2]) -> bool,
@@ -173,7 +173,7 @@ fn measure(
             *shortest = shortest.min(each);
         }
     }
-    // They answer the same, but for a few rays.
+    // Their answers agree, except for a few rays.
     let off = yes[1..].iter().map(|&other| other.abs_diff(yes[0])).max().unwrap_or(0);
     assert!(off * 100 <= questions.len(), "{yes:?}");
     shortest
@@ -229,7 +229,7 @@ fn errors(cases: &[Case]) {
     }
 }
 
-/// Both hit nothing, or at the same place but for far more than rounding: the ray's length to the target
+/// Both hit nothing, or the same place within a tolerance far above rounding: the ray's length to the target
 /// is 1.
 fn agree(expected: Option<f64>, found: Option<f64>) -> bool {
     match (expected, found) {

@@ -121,7 +121,7 @@ impl Peer for Bvh {
         let length = ray[1].length();
         let ray = Self::ray(ray);
         let mut best = f64::INFINITY;
-        // By the distance of their boxes: what comes behind the best hit cannot be nearer.
+        // By the distance of their boxes: a box behind the best hit cannot hold a nearer one.
         for triangle in self.hierarchy.nearest_traverse_iterator(&ray, &self.triangles) {
             let entry = ray.intersection_slice_for_aabb(&triangle.bounds);
             if entry.is_some_and(|(entry, _)| entry > best) {

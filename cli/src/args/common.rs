@@ -1,4 +1,4 @@
-//! What several commands are told.
+//! The common arguments of several commands.
 
 use std::ffi::OsString;
 

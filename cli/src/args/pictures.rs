@@ -1,4 +1,4 @@
-//! What the commands are told that make pictures.
+//! The arguments of commands that make pictures.
 
 use std::path::PathBuf;
 

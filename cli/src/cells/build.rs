@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::job;
 use crate::progress::Progress;
 
-/// How many bytes wait to be written, for each cell. Smaller: more calls; larger: more memory.
+/// Bytes buffered for each cell. Too small: more calls. Too large: more memory.
 const WAITING: usize = 1 << 14;
 
 /// Builds the trees of a scene's cells, in memory for one at a time and for the vertices of the scene.
@@ -51,9 +51,9 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     folder.finish()
 }
 
-/// What became of the polygons of all cells.
+/// The preparation figures of the polygons of all cells.
 struct Found {
-    /// Each polygon counts in one cell, the first of those that its least corner is in.
+    /// Each polygon counts in one cell: the first cell that contains its least corner.
     sum: Preparation,
     /// The polygons that are in some cell, one a bit.
     shown: Vec<u64>,
@@ -67,7 +67,7 @@ impl Found {
         Self { sum, shown: vec![0; polygons.div_ceil(64)] }
     }
 
-    /// Adds a cell, and what became of the polygons that count in it.
+    /// Adds a cell, and the preparation figures of the polygons that count in it.
     fn add(&mut self, cell: &Cell, counted: &Preparation) {
         let Self { sum, shown } = self;
         for fragment in cell.tree.fragments() {
@@ -88,7 +88,8 @@ impl Found {
     }
 }
 
-/// Writes the polygons that reach each cell to a file without a name. Counts those of four corners or more.
+/// Writes the polygons that reach each cell to a file without a name. Counts polygons of four corners or
+/// more.
 fn divide(
     polygons: &Polygons,
     partition: &Partition,

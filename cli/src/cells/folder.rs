@@ -18,17 +18,17 @@ use crate::{job, saved_file, unfinished};
 /// of the bounding box.
 const PARTITION: &str = "partition.bsp";
 
-/// The name of a cell's file: its tree, the scene of what the tree was built of, and the numbers of these
-/// polygons in the whole scene, ascending, as `u64`.
+/// The name of a cell's file. The file holds the cell's tree, the scene that the tree was built from, and the
+/// numbers of these polygons in the whole scene, ascending, as `u64`.
 fn cell_name(cell: usize) -> String {
     format!("cell-{cell:04}.bsp")
 }
 
-/// What is kept of a cell.
+/// The data kept of a cell.
 pub(crate) struct Cell {
     pub(crate) tree: BspTree,
     pub(crate) scene: Scene,
-    /// The numbers that its polygons have in the whole scene.
+    /// The numbers of its polygons in the whole scene.
     pub(crate) numbers: Vec<usize>,
 }
 
@@ -157,7 +157,7 @@ pub(crate) fn named(name: &std::ffi::OsStr) -> Option<&Path> {
     Some(Path::new(name)).filter(|path| path.is_dir())
 }
 
-/// The same, with an error if its trees are to be built in a certain way.
+/// The same, with an error if build options are given for its trees.
 pub(crate) fn asked<'a>(
     scene: &'a SceneArgs,
     build: &BuildArgs,

@@ -1,4 +1,4 @@
-//! Where the polygons of a scene come from that need not fit into memory.
+//! The source of the polygons of a scene that need not fit into memory.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -17,7 +17,8 @@ use crate::terminal::note;
 
 /// The problem with a tree in place of a scene.
 const BUILT: &str = "its tree is built already: give the scene that it was built of";
-/// So many corners choose the planes between cells, at most. More: memory; fewer: cells differ in size.
+/// The most corners that are sampled to choose the planes between cells. Too large: memory. Too small: cells
+/// differ in size.
 const SAMPLES: usize = 1 << 20;
 
 /// Polygons that are read one after the other.
@@ -28,7 +29,7 @@ pub(crate) enum Polygons {
 }
 
 impl Polygons {
-    /// Reads what comes before the polygons, or generates a scene.
+    /// Reads the part before the polygons, or generates a scene.
     pub(crate) fn open(args: &SceneArgs) -> Result<Self, Failure> {
         let name = args.name.to_string_lossy();
         match scene_arg::source(&args.name)? {
@@ -144,7 +145,7 @@ fn extent_and_samples(
         extent.include(&[corner]);
         count += 1;
     }
-    // Not that of a list of corners, but what the file's decimals say.
+    // The precision of the file's decimals, not of a list of corners.
     extent.precision = precision;
     (extent, corners.step_by(count.div_ceil(SAMPLES).max(1)).collect())
 }

@@ -54,7 +54,7 @@ impl AddAssign for Sum {
     }
 }
 
-/// A view of a scene with what a depth buffer shows in it.
+/// A view of a scene with its depth-buffer picture.
 struct View {
     camera: Camera,
     rays: Rays,
@@ -134,8 +134,8 @@ fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure
     Ok(total)
 }
 
-/// The views, the whole scene first. Trees of different heuristics have the same faces, so one
-/// depth buffer does for all.
+/// The views, the whole scene first. Trees of different heuristics have the same faces, so one depth buffer
+/// suffices for all.
 fn make_views(args: &DemoArgs, scene: &Scene, tree: &BspTree) -> Result<Vec<View>, Failure> {
     let count = args.views as usize;
     let mut cameras = vec![camera::whole(scene, None, FIELD_OF_VIEW, args.size)?];

@@ -28,9 +28,9 @@ use crate::terminal::{note, say};
 use crate::upright::note_z_up;
 use crate::{camera, coverage, ink, job, png_file};
 
-/// The side of the square, in pixels, that a polygon has to show, unless the user says.
+/// The default side of the square, in pixels, that a polygon has to show.
 const MIN_SIZE: f64 = 0.01;
-/// The longest side of a PDF's page, in points, as the standard has it (ISO 32000-1, annex C).
+/// The longest side of a PDF's page, in points, by the standard (ISO 32000-1, annex C).
 const LONGEST: u32 = 14_400;
 
 /// Runs the command.
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     };
     let start = Instant::now();
     let about = |error| job::about(&scene, &error);
-    // Where nothing is hidden, the map is for lines and regions alone.
+    // Where nothing is hidden, only lines and regions need the map.
     let needs_map = !args.translucent
         || format == DrawFormat::Png
         || seams == Seams::PlusLighter
@@ -118,7 +118,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// What is drawn, and how.
+/// The content of the drawing, and its style.
 struct View<'a> {
     args: &'a DrawArgs,
     style: Style<'a>,
@@ -127,7 +127,7 @@ struct View<'a> {
     options: ViewOptions<'a>,
 }
 
-/// How far a step is.
+/// The progress of a step.
 fn go_on(bar: &Mutex<Option<Progress>>, progress: binspace::Progress) -> ControlFlow<()> {
     if let Some(bar) = &*bar.lock().unwrap_or_else(PoisonError::into_inner) {
         bar.set(progress.done, progress.total);
@@ -151,13 +151,13 @@ fn options<'a>(
     if args.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
 }
 
-/// The side of the square that a polygon, and the length that a line, has to show to be drawn.
+/// The least visible size to be drawn: the side of a square for a polygon, a length for a line.
 fn min_size(args: &DrawArgs) -> f64 {
     args.min_size.unwrap_or(MIN_SIZE)
 }
 
 impl<'a> View<'a> {
-    /// Shows what is done next, if it takes long.
+    /// Shows the next step, if it takes long.
     fn show(&self, phase: Option<&'static str>) {
         *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
     }
@@ -170,7 +170,7 @@ impl<'a> View<'a> {
         tree.visibility(self.style.camera, &self.options)
     }
 
-    /// Adds the filled paths, counted, to a picture; none if there are to be lines alone.
+    /// Adds the filled paths, counted, to a picture; none if only lines are drawn.
     fn fill(
         &self,
         picture: &mut VectorPicture,
@@ -251,7 +251,7 @@ impl Figures {
     }
 }
 
-/// Which edges are drawn: those of a line drawing that are seen best, unless the user says.
+/// The edges that are drawn. By default they are the edges of a line drawing that are seen best.
 fn edges(args: &DrawArgs) -> EdgeChoice {
     let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
     args.edges.unwrap_or(default)

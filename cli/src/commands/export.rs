@@ -58,7 +58,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The format that is asked for, or else that of the file's name.
+/// The format of the option; by default, the format of the file's name.
 fn format(args: &ExportArgs) -> Result<ExportFormat, Failure> {
     let named = |ext: &OsStr| match ext.to_ascii_lowercase().to_str()? {
         "obj" => Some(ExportFormat::Obj),
@@ -78,7 +78,7 @@ fn library(output: &Path) -> Option<PathBuf> {
     (output != Path::new(STANDARD)).then(|| output.with_extension("mtl"))
 }
 
-/// What is written.
+/// The data to write.
 struct Export<'a> {
     scene: &'a Scene,
     mesh: &'a Mesh,
@@ -167,7 +167,7 @@ impl Export<'_> {
     }
 
     /// The JSON and the buffer of a glTF file. Vertices have the colour and the number of their polygon, so
-    /// that vertices of several polygons are in one place.
+    /// vertices of several polygons coincide.
     fn glb(&self) -> (String, Vec<u8>) {
         let mut buffer = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -198,7 +198,7 @@ impl Export<'_> {
             little(&mut self.mesh.vertices().flat_map(|vertex| light(vertex.polygon))),
             json!({"componentType": 5126, "count": count, "type": "VEC4"}),
         );
-        // Whole numbers of 32 bits are for indices alone; these are exact up to 2²⁴.
+        // Integers of 32 bits are for indices alone; floats are exact up to 2²⁴.
         let polygons = add(
             little(&mut self.mesh.vertices().map(|vertex| vertex.polygon as f32)),
             json!({"componentType": 5126, "count": count, "type": "SCALAR"}),

@@ -1,4 +1,4 @@
-//! `binspace page`: a scene as a page of its own, to be turned in a browser.
+//! `binspace page`: a scene as a self-contained page, to be turned in a browser.
 
 use crate::Outcome;
 use crate::args::PageArgs;
@@ -16,8 +16,8 @@ use crate::{camera, format};
 
 /// The shape of the picture for which the first view is chosen.
 const SIZE: [u32; 2] = [1280, 720];
-/// With more fragments than this, a page draws a few pictures a second. Smaller: notes on pages that turn
-/// well; larger: people wait and do not know why.
+/// With more fragments than this, a page draws a few pictures a second. Too small: notes on pages that turn
+/// well. Too large: people wait and do not know why.
 const MANY: usize = 200_000;
 
 /// Runs the command.

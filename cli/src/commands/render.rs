@@ -73,7 +73,7 @@ fn check_kind(args: &RenderArgs, format: Format, kind: Kind) -> Result<(), Failu
     Err(about_output(&args.output, &problem))
 }
 
-/// Says how many pixels of a picture are wrong, and whether it differs.
+/// Reports the number of wrong pixels of a picture, and whether it differs.
 fn judge(scene: &Scene, seen: &Verification) -> Outcome {
     let found = &seen.comparison;
     note(&format!(

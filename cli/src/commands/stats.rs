@@ -24,9 +24,9 @@ const NAME: usize = 13;
 
 /// The figures of one tree.
 struct Figures {
-    /// None of a tree from a file.
+    /// `None` for a tree from a file.
     heuristic: Option<Heuristic>,
-    /// The number of the cell that it is of.
+    /// The number of its cell.
     cell: Option<usize>,
     prepared: Preparation,
     duplicates: usize,
@@ -200,7 +200,7 @@ fn row(table: &Table, figures: &Figures) -> String {
     ])
 }
 
-/// The name of a heuristic in the table: `weighted` with its default weights goes without them.
+/// The name of a heuristic in the table: `weighted` with its default weights is written without them.
 fn name(heuristic: Heuristic) -> String {
     let name = match heuristic {
         _ if "weighted".parse() == Ok(heuristic) => "weighted".to_owned(),

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     Ok(if all_right { Outcome::Done } else { Outcome::Differs })
 }
 
-/// The faults of a view other than those of the picture painted back to front, as phrases.
+/// The faults of a view, without faults of the picture painted back to front, as phrases.
 pub(crate) fn unseen_faults(seen: &Verification) -> Vec<String> {
     let mut faults = Vec::new();
     let wrong = seen.front_to_back.wrong();
@@ -106,7 +106,7 @@ fn add(total: &mut Comparison, found: &Comparison) {
     total.spills += found.spills;
 }
 
-/// The command that draws what is wrong in a view.
+/// The command that draws the wrong pixels of a view.
 fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     let (eye, fov) = match *camera.projection() {
         Projection::Perspective { eye, half_height } => (eye, 2.0 * half_height.atan()),
@@ -114,7 +114,7 @@ fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     };
     let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
     let (build, limits) = (&args.build, &args.build.limits);
-    // Those that were given alone: trees in files take none.
+    // Options that were given alone: trees in files take none.
     let heuristic = build.heuristic.map_or(String::new(), |h| format!(" --heuristic='{h}'"));
     let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
     let most = limits.max_fragments.map_or(String::new(), |n| format!(" --max-fragments={n}"));

@@ -35,7 +35,7 @@ const GEOMETRIC: [&str; 4] = [
     "EXT_mesh_gpu_instancing",
 ];
 
-/// Keys of a document. They stand in any order, and one may be long.
+/// Keys of a document. They occur in any order, and one may be long.
 const KEYS: [&[u8]; 5] =
     [b"\"asset\"", b"\"buffers\"", b"\"meshes\"", b"\"accessors\"", b"\"scenes\""];
 
@@ -46,13 +46,13 @@ pub(crate) fn is_gltf(beginning: &[u8]) -> bool {
     beginning.starts_with(b"glTF") || text.starts_with(b"{") && KEYS.into_iter().any(names)
 }
 
-/// What was read, and what was left out.
+/// The scene that was read, and notes on omitted data.
 pub(crate) struct Read {
     pub(crate) scene: Scene,
     pub(crate) left_out: Vec<String>,
 }
 
-/// Reads a file. Its buffers, if they are files of their own, are in `folder`.
+/// Reads a file. Its buffers, if they are separate files, are in `folder`.
 pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Read, Failure> {
     let about = |problem: String| Failure::about(name, problem);
     let gltf = parsed(bytes).map_err(about)?;
@@ -156,7 +156,7 @@ fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Rc<Vec<
             Failure::about(name, format!("buffer {} (from 0): {problem}", buffer.index()))
         };
         let bytes = match buffer.source() {
-            // That of a binary file is the first, and no other.
+            // Only the first buffer is in a binary file.
             Source::Bin => match &gltf.blob {
                 Some(blob) if buffer.index() == 0 => Rc::new(blob.clone()),
                 _ => return Err(about("it has no bytes".into())),
@@ -203,8 +203,8 @@ fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     read().map_err(|error: io::Error| format!("cannot be read: {error}"))
 }
 
-/// The nodes of the scene, with where they are. A node that is not in one place alone is an error: it
-/// might have itself as an ancestor.
+/// The nodes of the scene, with their transforms. A node with several parents is an error: it might be its
+/// own ancestor.
 fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
     let mut is_child = vec![false; document.nodes().len()];
     document
@@ -251,7 +251,7 @@ fn local(transform: &Transform) -> DMat4 {
 
 /// The triangles of a mesh.
 struct Model<'a> {
-    /// Those that have any.
+    /// The primitives that have any.
     parts: Vec<Part<'a>>,
     triangles: usize,
 }
@@ -279,7 +279,7 @@ impl<'a> Model<'a> {
 
 /// The triangles of a primitive.
 struct Part<'a> {
-    /// What messages call it.
+    /// The name in messages.
     place: String,
     positions: Values<'a>,
     indices: Option<Values<'a>>,
@@ -371,7 +371,7 @@ impl<'a> Part<'a> {
         Ok(())
     }
 
-    /// The colour of a face, given those of its corners.
+    /// The colour of a face, given the colours of its corners.
     fn face_colour(&self, corners: [Option<[f64; 4]>; 3]) -> Option<Colour> {
         let of_corners = mean(corners.into_iter().map(|c| c.map(|c| c.map(|c| c as f32))));
         if of_corners.is_none() && !self.has_material {
@@ -400,7 +400,7 @@ fn encoded(light: f32) -> f32 {
     if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// The values of an accessor, decoded when they are asked for.
+/// The values of an accessor, decoded on demand.
 struct Values<'a> {
     /// From the first on.
     bytes: &'a [u8],
@@ -435,8 +435,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// A value, its first four numbers; missing ones are 1, as opacities are. Whole numbers of colours are
-    /// shares of the largest.
+    /// A value, its first four numbers; missing ones are 1, as for opacities. Integer colours are shares of
+    /// the largest integer.
     fn get(&self, index: usize) -> Option<[f64; 4]> {
         if index >= self.count {
             return None;
@@ -469,7 +469,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// What is in a file besides triangles and base colours.
+/// The content of a file besides triangles and base colours.
 #[derive(Default)]
 struct LeftOut {
     without_faces: usize,

@@ -46,12 +46,12 @@ impl Mesh {
 
     /// The scene of coordinates that were rounded to multiples of `unit`.
     pub(crate) fn finish(self, unit: f64) -> Scene {
-        // As of OBJ files: corners off by half a unit put one off the plane of others by up to four.
+        // As for OBJ files: corners off by half a unit move one off the plane of others by up to four.
         self.scene.with_precision(4.0 * unit)
     }
 }
 
-/// How precise the coordinates are that a reader has seen.
+/// The precision of the coordinates read.
 #[derive(Default)]
 pub(crate) struct Precision {
     decimals: Decimals,

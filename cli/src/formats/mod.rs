@@ -19,18 +19,19 @@ use crate::failure::Failure;
 use crate::saved_file;
 use crate::terminal::note;
 
-/// So much of a file tells its kind. Smaller: the first line of an OBJ file may be behind a long comment.
+/// The number of leading bytes by which a file's kind is detected. Too small: the first line of an OBJ file
+/// may be behind a long comment.
 pub(crate) const BEGINNING: usize = 1 << 16;
-/// What is read.
+/// The supported formats.
 const READ: &str =
     "binspace reads OBJ, STL, PLY, OFF and glTF 2.0 files, and those of `binspace build`";
 
-/// What a file is.
+/// The kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     /// One of `binspace build`.
     Saved,
-    /// Whatever is nothing else.
+    /// Any other file.
     Obj,
     Mesh(MeshKind),
     /// A file that is not read, by its name.
@@ -77,7 +78,7 @@ impl Kind {
 }
 
 impl MeshKind {
-    /// Reads a file, and notes what was left out. Files that belong to it are in `folder`.
+    /// Reads a file, and notes the omitted data. Files that belong to it are in `folder`.
     pub(crate) fn read(
         self,
         name: &str,
@@ -110,7 +111,7 @@ pub(crate) fn refused(name: &str, kind: &str) -> Failure {
     Failure::about(name, format!("this is {kind}; {READ}"))
 }
 
-/// The error of an OBJ file, or that it is none.
+/// The error of an OBJ file, or an unknown format.
 pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure {
     let text = narrowed(beginning);
     if beginning.is_empty() || other::is_like_obj(&text) {
@@ -120,7 +121,7 @@ pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure 
     Failure::about(name, format!("this {what} is of no known kind; {READ}"))
 }
 
-/// The letters of a text in UTF-16, with those of ASCII as they are in UTF-8; other bytes as they are.
+/// The letters of a UTF-16 text, with ASCII letters as in UTF-8; other bytes are not changed.
 fn narrowed(beginning: &[u8]) -> Cow<'_, [u8]> {
     let marks: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
     let text = marks.iter().find_map(|mark| beginning.strip_prefix(*mark)).unwrap_or(beginning);

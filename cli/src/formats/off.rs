@@ -6,14 +6,14 @@ use binspace::scene::Scene;
 use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
-/// What stands in each vertex line, as the first word of a file says: `OFF` behind these letters.
+/// The content of each vertex line, as the first word of a file gives it: `OFF` behind these letters.
 struct Kind {
     has_colours: bool,
     has_normals: bool,
 }
 
 impl Kind {
-    /// `None` if it is another word. Vertices of four or more coordinates are none of a scene's.
+    /// `None` if it is another word. Vertices of four or more coordinates do not occur in scenes.
     fn of(word: &[u8]) -> Option<Self> {
         let rest = word.strip_suffix(b"OFF")?;
         let rest = rest.strip_prefix(b"ST").unwrap_or(rest);
@@ -51,7 +51,8 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let (Some(vertices), Some(faces)) = (count(0), count(1)) else {
         return Err("expected the numbers of vertices and faces behind `OFF`".into());
     };
-    // Each line of a vertex or a face has two bytes at least. What is asked for later is as large as the file.
+    // Each line of a vertex or a face has two bytes at least. So the memory requested later is at most
+    // proportional to the file's size.
     if vertices.saturating_add(faces) > bytes.len() / 2 {
         return Err(format!(
             "it says that it has {vertices} vertices and {faces} faces, more than fit into it"
@@ -70,7 +71,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         positions.push(DVec3::new(x, y, z));
         if kind.has_colours {
             let words: Vec<&str> = words.skip(if kind.has_normals { 3 } else { 0 }).collect();
-            // Texture coordinates stand behind colours of four numbers.
+            // Texture coordinates follow colours of four numbers.
             colours.push(colour(words.get(..4).unwrap_or(&words)));
         }
     }

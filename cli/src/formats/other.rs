@@ -1,6 +1,6 @@
 //! Files that are not read, by how they begin, so that messages can name them.
 
-/// What begins with these bytes.
+/// The kind of files that begin with these bytes.
 const BEGINNINGS: [(&[u8], &str); 26] = [
     (b"ISO-10303-21", "a STEP or IFC file"),
     (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
@@ -30,7 +30,7 @@ const BEGINNINGS: [(&[u8], &str); 26] = [
     (b"\x7fELF", "a program"),
 ];
 
-/// What XML with such an element, in small letters, is. The first that is found counts.
+/// The kind of XML files with such an element, in small letters. The first that is found counts.
 const ELEMENTS: [(&[u8], &str); 5] = [
     (b"<collada", "a COLLADA file"),
     (b"<x3d", "an X3D file"),
@@ -45,7 +45,7 @@ const OBJ: [&[u8]; 14] = [
     b"curv",
 ];
 
-/// What a file of `length` bytes is that is not read, if that is known.
+/// The kind of a file of `length` bytes that cannot be read, if the kind is known.
 pub(crate) fn name(beginning: &[u8], length: u64) -> Option<&'static str> {
     let begins = |&(bytes, _): &(&[u8], &str)| beginning.starts_with(bytes);
     if let Some((_, name)) = BEGINNINGS.iter().find(|entry| begins(entry)) {
@@ -77,7 +77,7 @@ pub(crate) fn name(beginning: &[u8], length: u64) -> Option<&'static str> {
     (beginning.get(72..80) == Some(b"S      1")).then_some("an IGES file")
 }
 
-/// Whether a line begins as those of OBJ files do.
+/// Whether a line begins as lines of OBJ files do.
 pub(crate) fn is_like_obj(beginning: &[u8]) -> bool {
     let mut lines = beginning.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii_start);
     lines.any(|line| {

@@ -18,7 +18,7 @@ pub(crate) fn is_ply(beginning: &[u8]) -> bool {
 const NO_POSITION: &str = "it has no x, y and z";
 const NOT_FINITE: &str = "a coordinate is not a finite number";
 
-/// A vertex or a face: what is known of it.
+/// The known properties of a vertex or a face.
 #[derive(Default)]
 struct Element {
     position: [Option<Number>; 3],
@@ -154,7 +154,7 @@ impl Element {
     }
 }
 
-/// The fewest bytes of an element. Zero: nothing bounds how many of them a file may say that it has.
+/// The fewest bytes of an element. At zero, nothing bounds the number of elements that a file may declare.
 fn least_size(definition: &ElementDef, encoding: Encoding) -> usize {
     if encoding == Encoding::Ascii {
         return 2 * definition.properties.len();
@@ -170,17 +170,17 @@ fn least_size(definition: &ElementDef, encoding: Encoding) -> usize {
     definition.properties.values().map(|property| size(&property.data_type)).sum()
 }
 
-/// What the crate says of an error, in one short line.
+/// The crate's message for an error, in one short line.
 fn short(error: &ParseError) -> String {
     let text = error.to_string();
     text.lines().next().unwrap_or_default().trim_end_matches('.').chars().take(120).collect()
 }
 
-/// What a file has. Faces may stand before the vertices, so their corners are known only at the end.
+/// The content of a file. Faces may stand before the vertices, so their corners are known only at the end.
 #[derive(Default)]
 struct Contents {
     vertices: Vec<Vertex>,
-    /// Of all faces.
+    /// The corners of all faces.
     corners: Vec<f64>,
     /// Where the corners of each face end, and its colour.
     faces: Vec<(usize, Option<Colour>)>,

@@ -183,7 +183,7 @@ fn glb() -> Vec<u8> {
     bytes
 }
 
-/// All files, with what they are and whether coordinates are text.
+/// All files, each with its kind and whether its coordinates are text.
 fn files() -> Vec<(&'static str, Vec<u8>, MeshKind, bool)> {
     vec![
         ("STL as text", stl_text(), MeshKind::Stl, true),
@@ -214,7 +214,7 @@ fn what_was_written_is_read() {
         assert_eq!(scene.len(), if is_gltf { 8 } else { 4 }, "{what}");
         assert_eq!(scene.up(), if is_gltf { DVec3::Y } else { DVec3::Z }, "{what}");
         for (number, face) in FACES.iter().enumerate() {
-            // As text says it, or as 32 bits have it.
+            // As in text, or as rounded to 32 bits.
             let number_of =
                 |c: f32| if is_text { c.to_string().parse().unwrap() } else { f64::from(c) };
             let corners = face.map(|corner| DVec3::from(VERTICES[corner].map(number_of)));
@@ -434,7 +434,7 @@ fn damaged_files_are_read_or_refused() {
     }
 }
 
-/// A file may place what it has as often as it has nodes.
+/// A file may place its content as often as it has nodes.
 #[test]
 fn many_places_of_many_empty_primitives_take_no_time() {
     let primitives = vec![r#"{"attributes":{"POSITION":0}}"#; 20_000].join(",");

@@ -46,7 +46,7 @@ impl<'a> Line<'a> {
         words.map(|word| std::str::from_utf8(word).unwrap_or(""))
     }
 
-    /// What is wrong with something in the line.
+    /// An error about something in the line.
     pub(crate) fn about(self, what: &str, problem: &str) -> String {
         format!("line {}, {what}: {problem}", self.number)
     }

@@ -21,22 +21,22 @@ const INNER: u32 = 2;
 pub(super) struct Arrays {
     /// Points of the grid, three numbers each.
     points: Packed,
-    /// Of each plane three of these points, counter-clockwise seen from its front; or, if it is
-    /// perpendicular to an axis, one point twice, and the axis. The planes of nodes come first.
+    /// For each plane, three of these points, counter-clockwise seen from its front. A plane perpendicular to
+    /// an axis has one point twice, and the axis. The planes of nodes come first.
     plane_points: Packed,
-    /// Of each node, depth first: its plane, how many fragments are on it and in the leaves beside it,
-    /// and the numbers of the nodes beside it, or 0.
+    /// For each node, depth first: its plane, the numbers of fragments on it and in the leaves beside it, and
+    /// the numbers of the nodes beside it, or 0.
     node_planes: Packed,
     own: Packed,
     front_leaf: Packed,
     back_leaf: Packed,
     front_node: Packed,
     back_node: Packed,
-    /// Of each fragment: its polygon, its plane, and how many corners it has.
+    /// For each fragment: its polygon, its plane, and its number of corners.
     polygons: Packed,
     fragment_planes: Packed,
     corner_counts: Packed,
-    /// Of each of these corners: its vertex, and the kind of the edge from there to the next.
+    /// For each of these corners: its vertex, and the kind of the edge from there to the next.
     corners: Packed,
     edge_kinds: Packed,
     /// Three numbers each.
@@ -45,7 +45,7 @@ pub(super) struct Arrays {
 }
 
 impl Arrays {
-    /// The arrays, and how many of the planes are those of nodes.
+    /// The arrays, and the number of planes of nodes.
     pub(super) fn of(tree: &BspTree, polygon_materials: &[u32]) -> (Self, usize) {
         let mut planes = Planes::default();
         let nodes = Nodes::of(tree, &mut planes);
@@ -111,12 +111,12 @@ struct Nodes {
     back: Side,
 }
 
-/// What is on one side of each node.
+/// The two sides of each node.
 #[derive(Default)]
 struct Side {
-    /// How many fragments, if it is a leaf.
+    /// The number of fragments, if it is a leaf.
     leaves: Vec<u32>,
-    /// Its number, if it is a node; else 0, which is the root's.
+    /// Its number, if it is a node; otherwise 0, the root's number.
     nodes: Vec<u32>,
 }
 
@@ -148,7 +148,7 @@ impl Nodes {
     }
 }
 
-/// The fragments of a tree in the order of their numbers, in which those of a node come behind those of
+/// The fragments of a tree in the order of their numbers. Fragments of a node come behind the fragments of
 /// all nodes before it: on its plane, in its front leaf, in its back leaf.
 #[derive(Default)]
 struct Fragments {

@@ -1,4 +1,4 @@
-//! What a page holds of a scene and its tree.
+//! A page's data of a scene and its tree.
 
 use binspace::BspTree;
 use binspace::glam::DVec3;
@@ -20,7 +20,7 @@ pub(super) struct Data {
     materials: Vec<Colour>,
     /// Steps of the grid in a unit.
     steps: f64,
-    /// How many of the planes are those of nodes: the first ones.
+    /// The number of planes that are planes of nodes: the first ones.
     #[serde(rename = "nodePlaneCount")]
     node_planes: usize,
     arrays: Arrays,
@@ -46,7 +46,7 @@ struct Colour {
 }
 
 impl Data {
-    /// `up` is the direction that points up on the page, unless the camera had to take another.
+    /// `up` is the direction that points up on the page, unless the camera had to use another.
     pub(super) fn new(
         scene: &Scene,
         tree: &BspTree,
@@ -86,7 +86,7 @@ impl View {
     }
 }
 
-/// The different looks of a scene's materials, and which of them each polygon has.
+/// The different looks of a scene's materials, and the look of each polygon.
 fn materials(scene: &Scene) -> (Vec<Colour>, Vec<u32>) {
     let colours = Colours::new(scene, Colouring::Material);
     let mut looks = Numbered::default();

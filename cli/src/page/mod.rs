@@ -1,9 +1,8 @@
-//! A page that stands alone: a tree with the scripts that order and paint its fragments, for people to
-//! turn.
+//! A self-contained page: a tree with the scripts that order and paint its fragments, for people to turn.
 //!
-//! The script decides as the library does, on the same grid: a plane goes through three points of it, an eye
-//! is rounded to it. Floats tell the eye's side of most planes, with a bound for their error; integers tell
-//! the rest. So both have the same order for the same eye, wherever it is.
+//! The script decides like the library, on the same grid: a plane goes through three grid points, and an eye
+//! is rounded to the grid. Floats decide the eye's side of most planes, with an error bound; integers decide
+//! the rest. So script and library have the same order for the same eye, wherever it is.
 
 mod arrays;
 mod data;
@@ -29,7 +28,7 @@ const SCRIPTS: [&str; 4] = [
     include_str!("controls.js"),
 ];
 
-/// What is shown of a scene.
+/// The displayed data of a scene.
 #[derive(Debug)]
 pub(crate) struct Page<'a> {
     pub(crate) scene: &'a Scene,
@@ -46,7 +45,7 @@ pub(crate) struct Page<'a> {
 pub(crate) fn write(out: &mut dyn Write, page: Page<'_>) -> io::Result<()> {
     let Page { scene, tree, camera, up, culls_backs, figures } = page;
     let data = Data::new(scene, tree, camera, up, figures);
-    // `<` is only in texts, where this stands for it; so no text can end the data.
+    // `<` occurs only in texts, where this replaces it; so no text can end the data.
     let data = serde_json::to_string(&data)?.replace('<', "\\u003c");
     for (i, part) in TEMPLATE.split("{{").enumerate() {
         let (name, text) =

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Different things, numbered as they come.
+/// Distinct values, numbered in the order of their first occurrence.
 #[derive(Debug)]
 pub(super) struct Numbered<T> {
     numbers: HashMap<T, u32>,

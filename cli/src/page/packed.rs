@@ -1,4 +1,5 @@
-//! Arrays of numbers in a page: in base64, little-endian, in as few bytes as their largest number needs.
+//! Arrays of numbers in a page: in base64, little-endian, in the minimal number of bytes for their largest
+//! number.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

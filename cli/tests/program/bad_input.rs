@@ -138,7 +138,7 @@ fn run_within(kilobytes: u32, folder: &Folder, arguments: &str) -> (Option<i32>,
     let program = env!("CARGO_BIN_EXE_binspace");
     let line = format!("ulimit -v {kilobytes}; exec {program} {arguments}");
     let mut command = std::process::Command::new("sh");
-    // Threads take room of their own, as many as there are processors.
+    // Threads need memory, as many threads as there are processors.
     command.env("RAYON_NUM_THREADS", "2").args(["-c", &line]);
     let output = command.current_dir(folder.path("")).output().unwrap();
     (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())

@@ -46,7 +46,7 @@ fn pictures_of_cells_are_those_of_one_tree() {
                 folder.run(&format!("render {name} -o p.png {view}")).good();
                 fs::read(folder.path("p.png")).unwrap()
             };
-            // With a parallel camera the scene's box decides how much is shown.
+            // With a parallel camera the scene's box decides the visible extent.
             let of_one = if k == 2 { picture("d1") } else { picture("s.bsp") };
             assert_eq!(picture(&format!("d{cells}")), of_one, "{cells} cells, {view}");
         }
@@ -139,8 +139,8 @@ fn a_folder_is_written_completely_or_not_at_all() {
     folder.run("render empty -o p.png --size 20x20").good();
 }
 
-/// What `build` says of a scene is said of its cells too: each polygon counts once, however many cells it
-/// reaches.
+/// Every note of `build` on a scene is also written for its cells. Each polygon counts once, however many
+/// cells it reaches.
 #[test]
 fn notes_on_cells_are_those_on_the_whole() {
     let folder = Folder::new("cells_notes");
@@ -172,7 +172,7 @@ fn notes_on_cells_are_those_on_the_whole() {
         let run = folder.run(command);
         assert_eq!(run.status, Some(0), "{run:?}");
         let notes = run.err.lines().filter(|line| line.contains("s.obj"));
-        // A folder does not know lines.
+        // A folder has no line numbers.
         let known = |part: &str| part.split_once(')').map_or("", |(_, rest)| rest).to_owned();
         notes
             .map(|note| {
@@ -184,7 +184,7 @@ fn notes_on_cells_are_those_on_the_whole() {
     };
     let mut expected = notes("build s.obj -o s.bsp");
     assert!(expected.len() >= 5, "{expected:?}");
-    // Duplicates are counted within a tree, so cells do not tell.
+    // Duplicates are counted within a tree, so cells do not report them.
     expected.retain(|note| !note.contains("given more than once"));
     for cells in [1, 2, 3, 5, 9, 16] {
         let found = notes(&format!("build s.obj --cells {cells} -o d{cells}"));
@@ -244,7 +244,7 @@ fn memory_is_that_of_one_cell() {
             format!("ulimit -d {MEMORY}; exec {program} build s.obj --cells {cells} -o d{cells}");
         let mut command = std::process::Command::new("sh");
         command.args(["-c", &line]).current_dir(folder.path(""));
-        // One list of free memory and one thread, so that what is counted is what is in use.
+        // One list of free memory and one thread, so that the counted memory is the memory in use.
         let output = command.env("MALLOC_ARENA_MAX", "1").env("RAYON_NUM_THREADS", "1").output();
         let output = output.unwrap();
         let message = String::from_utf8_lossy(&output.stderr);

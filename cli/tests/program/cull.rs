@@ -7,8 +7,8 @@ use serde_json::Value;
 use crate::png_picture::Picture;
 use crate::run::Folder;
 
-/// A room from 0 to 1, its six walls facing inwards: floor 0 and ceiling 1 across y, x = 0 and
-/// x = 1, z = 0 and z = 1. Nothing in it stands on the ground.
+/// A room from 0 to 1, its six walls facing inwards: floor 0 and ceiling 1 across y, x = 0 and x = 1, z = 0
+/// and z = 1. Nothing in it stands on the ground.
 const ROOM: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n\
 f 1 4 3 2\nf 5 6 7 8\nf 1 5 8 4\nf 2 3 7 6\nf 1 2 6 5\nf 4 8 7 3\n";
@@ -40,7 +40,7 @@ fn an_order_without_backs_has_the_walls_that_face_the_eye() {
 fn a_picture_without_backs_shows_the_inside() {
     let folder = Folder::new("cull_render");
     folder.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-    // The floor is red, all else blue.
+    // The floor is red, everything else blue.
     let room = ROOM.replace("f 1 4 3 2\n", "usemtl red\nf 1 4 3 2\nusemtl blue\n");
     folder.write("room.obj", format!("mtllib m.mtl\n{room}"));
     let picture = |options: &str| {
@@ -79,7 +79,7 @@ fn a_picture_of_backs_says_so() {
             assert!(!said(&format!("room.obj -o {file} {view} --cull back")), "{file} {view}");
         }
     }
-    // From inside, and for what shows fronts, or both sides.
+    // From inside, and for pictures of fronts or of both sides.
     assert!(!said("room.obj -o p.png --eye=0.5,0.5,0.2"));
     for scene in ["teapot:3", "city:300", "random:100", "crossing:4", "newell", "terrain:200"] {
         assert!(!said(&format!("{scene} -o p.png")), "{scene}");

@@ -37,7 +37,7 @@ impl View {
         Self { scene, size, eye, target, up: DVec3::Z, fov: 45.0, pixels: [150, 110] }
     }
 
-    /// The command-line arguments that ask for it.
+    /// The equivalent command-line arguments.
     pub(crate) fn arguments(&self) -> String {
         let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
         let scene = match self.size {
@@ -60,7 +60,7 @@ impl View {
         BspTree::build(self.scene.build(size, 1).polygons()).unwrap()
     }
 
-    /// How many corners a polygon has.
+    /// The number of corners of a polygon.
     pub(crate) fn corners_of(&self, number: usize) -> usize {
         let size = (self.size > 0).then_some(self.size);
         self.scene.build(size, 1).polygon(number).len()
@@ -71,7 +71,7 @@ impl View {
         Camera::perspective(self.eye, self.target, self.up, fov, self.pixels).unwrap()
     }
 
-    /// What shows, by the library.
+    /// The visible polygons, by the library.
     fn shown(&self) -> Vec<VisiblePolygon> {
         let tree = self.tree();
         tree.visibility(&self.camera(), &ViewOptions::DEFAULT).unwrap().polygons().collect()
@@ -321,13 +321,12 @@ fn views_of_nothing_and_of_one_pixel_are_drawn() {
     assert!(on["visible"].as_u64() > Some(0));
 }
 
-/// A wall of many parts, all of one colour: where they meet, neither the background nor what was
-/// painted before shows.
+/// A wall of many parts, all of one colour. Where they meet, neither the background nor earlier paint shows.
 #[test]
 fn the_background_does_not_show_in_seams() {
     let folder = Folder::new("draw_seams");
     folder.write("m.mtl", "newmtl grey\nKd 0.2 0.4 0.3\n");
-    // Rows of quads, triangles and darts, with corners of one row between those of the next.
+    // Rows of quads, triangles and darts. Corners of one row lie between the corners of the next.
     let mut text = String::from("mtllib m.mtl\nusemtl grey\n");
     let mut face = |corners: &[[f64; 2]]| {
         corners.iter().for_each(|[x, y]| text += &format!("v {x} {y} 0\n"));
@@ -373,7 +372,7 @@ fn the_background_does_not_show_in_seams() {
     assert!(f64::from(sum) < 0.2 * f64::from(pixels), "{sum} in {pixels} pixels, {worst}");
 }
 
-/// What `docs/guide/drawings.md` says.
+/// The statements of `docs/guide/drawings.md`.
 #[test]
 fn figures_of_the_guide_are_so() {
     let folder = Folder::new("draw_guide");

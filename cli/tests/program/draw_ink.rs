@@ -1,4 +1,5 @@
-//! Lines in pictures of pixels, against those that a viewer shows; and hidden lines by how much hides them.
+//! Lines in pictures of pixels, against a viewer's lines; and hidden lines by the number of polygons in
+//! front.
 
 use crate::draw::views;
 use crate::png_picture::Picture;

@@ -7,15 +7,14 @@ use crate::png_picture::Picture;
 use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
-/// Whether the exact picture has different polygons, or an edge that it is not sure of, within some
-/// pixels of a pixel.
+/// Whether the exact picture has different polygons, or an uncertain edge, within some pixels of a pixel.
 fn is_near_edge(truth: &[Option<Option<usize>>], size: [u32; 2], at: usize, reach: i64) -> bool {
     let [width, height] = size.map(i64::from);
     let (x, y) = (at as i64 % width, at as i64 / width);
     let mut around =
         (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (x + dx, y + dy)));
     around.any(|(x, y)| {
-        // What is beyond the picture's border may have edges.
+        // There may be edges beyond the picture's border.
         let is_inside = (0..width).contains(&x) && (0..height).contains(&y);
         let found = if is_inside { truth[(y * width + x) as usize] } else { None };
         found.is_none() || found != truth[at]
@@ -44,7 +43,7 @@ fn lines_lie_where_polygons_meet_in_the_exact_picture() {
         let truth = view.truth();
         for at in 0..truth.len() {
             let ink = 255 - pixel(&picture, at)[0];
-            // A line a pixel wide puts so much ink only into pixels less than a pixel away.
+            // A line a pixel wide puts this amount of ink only into pixels less than a pixel away.
             if ink > 60 {
                 inked += 1;
                 stray += usize::from(!is_near_edge(&truth, view.pixels, at, 1));
@@ -61,7 +60,7 @@ fn lines_lie_where_polygons_meet_in_the_exact_picture() {
     }
     let counts = format!("{inked} {stray} {meeting} {missing}");
     assert!(inked > 2_500 && meeting > 2_500, "{counts}");
-    // Of polygons narrower than a pixel the exact picture may have no centre.
+    // The exact picture may have no centre of polygons narrower than a pixel.
     assert!(500 * stray < inked && missing == 0, "{counts}");
 }
 
@@ -88,7 +87,7 @@ fn lines_over_fills_change_nothing_away_from_edges() {
     assert!(2_000 * wrong < compared, "{wrong} of {compared}");
 }
 
-/// The numbers of a path's data that is one step: from where, and by how much.
+/// The numbers of a path's data that is one step: its start and its offset.
 fn step(data: &str, units: f64) -> [f64; 4] {
     let text = data.trim_matches(['m', 'z']).replace('-', " -");
     let numbers: Vec<f64> = text.split_whitespace().map(|n| n.parse().unwrap()).collect();
@@ -144,10 +143,10 @@ fn hidden_parts_are_dashed_below_what_is_visible_and_lie_behind_something() {
         let begun =
             joined_svg.lines.iter().map(|path| path.data.matches('m').count()).sum::<usize>();
         assert_eq!(joined["lines"], begun);
-        // Of triangles at random, seven in ten lines join no other.
+        // Among random triangles, seven in ten lines join no other.
         assert!(joined_svg.lines.len() <= 8 && 4 * begun < 3 * svg.lines.len().max(30));
         assert!(joined["bytes"].as_u64() < figures["bytes"].as_u64());
-        // What is visible alone is not dashed.
+        // A drawing of visible lines alone has no dashes.
         let (_, visible) = drawn(&folder, &view, "--lines --edges all --hidden none");
         assert!(!visible.text.contains("dash") && !visible.text.contains("hidden"));
     }
@@ -175,7 +174,7 @@ fn edges_are_chosen_by_kind_and_angle() {
         let count = |class: &str| svg.lines.iter().filter(|line| line.classes[1] == class).count();
         ["border", "silhouette", "crease"].map(count)
     };
-    // Of the border two edges are cut by the cube, which hides their corner.
+    // The cube cuts two edges of the border, and hides their corner.
     assert_eq!(classes(""), [4, 6, 3]);
     assert_eq!(classes("--edges all"), [4, 6, 3]);
     assert_eq!(classes("--edges creases=90"), [4, 6, 3]);

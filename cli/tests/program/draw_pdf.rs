@@ -1,4 +1,4 @@
-//! Drawings as PDF: the file's structure, and what its operators paint.
+//! Drawings as PDF: the file's structure, and the effect of its operators.
 
 use std::fs;
 
@@ -50,7 +50,7 @@ fn page(bytes: &[u8], [width, height]: [u32; 2]) -> String {
     String::from_utf8(decompress_to_vec_zlib(&bytes[start..start + length]).unwrap()).unwrap()
 }
 
-/// What is painted, as SVG, and how many fills and strokes there are. Pages are turned upside down.
+/// The painted content, as SVG, and the numbers of fills and strokes. Pages are turned upside down.
 fn as_svg(operators: &str, [width, height]: [u32; 2]) -> (String, [usize; 2]) {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\

@@ -60,7 +60,7 @@ fn pixels_are_the_means_of_many_samples() {
                 edges += 1;
                 sum += error;
             } else {
-                // All samples have one colour: what else there is lies between two rows of samples.
+                // All samples have one colour: everything else lies between two rows of samples.
                 assert!(error < 255.0 / 16.0, "{command}: {found:?} {expected:?}");
                 inner += 1;
                 inner_sum += error;
@@ -80,7 +80,7 @@ fn a_wall_of_one_colour_has_no_seams() {
     let folder = Folder::new("png_seams");
     folder.write("m.mtl", "newmtl grey\nKd 0.2 0.4 0.3\n");
     let mut text = String::from("mtllib m.mtl\nusemtl grey\n");
-    // Rows whose corners lie between those of the next, in triangles.
+    // Rows of triangles. Their corners lie between the corners of the next row.
     for row in 0..12 {
         for column in 0..12 {
             let (x, y) = (f64::from(column) + 0.25 * f64::from(row % 4), f64::from(row));
@@ -140,7 +140,7 @@ fn pngs_go_to_standard_output_and_are_as_large_as_asked() {
         assert_eq!(format!("{}x{}", picture.size[0], picture.size[1]), size);
         assert!(picture.rgb.chunks_exact(3).any(|pixel| pixel != WHITE), "{size}");
     }
-    // Of nothing there is the background.
+    // An empty drawing shows the background.
     folder.run("draw s.obj --eye=0,0,50 --target=0,0,90 -o a.png").good();
     assert_eq!(Picture::read(&folder.path("a.png")).count(WHITE), 640 * 480);
 }

@@ -1,4 +1,4 @@
-//! What `binspace draw` cannot draw, and says so.
+//! Scenes and options that `binspace draw` refuses, and its messages.
 
 use std::fs;
 
@@ -13,7 +13,7 @@ use crate::svg_picture::Svg;
 fn opacities_that_are_none_are_refused_or_left_out() {
     let folder = Folder::new("draw_opacities");
     folder.write("s.obj", format!("mtllib m.mtl\nusemtl odd\n{CROSSING}"));
-    // When a file is read, what is no number is skipped, and others are brought between 0 and 1.
+    // When a file is read, NaN is skipped, and other values are clamped to 0 to 1.
     for (opacity, is_drawn) in
         [("nan", true), ("inf", true), ("-1", false), ("7", true), ("0", false), ("1", true)]
     {
@@ -23,7 +23,7 @@ fn opacities_that_are_none_are_refused_or_left_out() {
         assert_eq!(!svg.paths.is_empty(), is_drawn, "{opacity}");
         assert!(!svg.text.contains("opacity"), "{opacity}");
     }
-    // A saved scene has whatever its maker wrote.
+    // A saved scene may hold any value.
     for wrong in [f32::NAN, 1.5, -0.5] {
         let mut scene = Scene::new("odd", DVec3::Z);
         let odd = scene.add_material(Material::new("odd", [1.0; 3]).with_opacity(wrong));

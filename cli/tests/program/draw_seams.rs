@@ -19,16 +19,16 @@ use testkit::fragment_pixels::for_each_pixel;
 /// Samples each way in a pixel of the exact picture.
 const SAMPLES: usize = 16;
 
-/// What is seen at samples, blended one over the other.
+/// The visible polygons at samples, blended one over the other.
 struct Sampled {
     size: [usize; 2],
     /// The mean colour of each pixel.
     means: Vec<[f64; 3]>,
-    /// How many lists of polygons, one behind the other, show in each pixel.
+    /// The number of lists of polygons, one behind the other, that show in each pixel.
     kinds: Vec<usize>,
     /// Whether the background alone shows in a part of it.
     is_open: Vec<bool>,
-    /// How much the colours in it differ, at most.
+    /// The largest difference of colours in it.
     contrasts: Vec<f64>,
 }
 
@@ -43,14 +43,14 @@ impl Sampled {
         let rays = Rays::sampled(camera, tree.faces(), SAMPLES as u32).unwrap();
         let size = camera.size().map(|side| side as usize);
         let across = size[0] * SAMPLES;
-        // Lists of polygons, one behind the other, have numbers; that of the background alone is 0.
+        // Lists of polygons, one behind the other, have numbers; the background alone is number 0.
         let mut colours = vec![WHITE.map(f32::from)];
         let mut longer: HashMap<(u32, usize), u32> = HashMap::new();
         let mut samples = vec![0; across * size[1] * SAMPLES];
         for fragment in tree.back_to_front(camera.viewpoint()) {
             let polygon = fragment.polygon();
             let opacity = (look.opacity)(polygon) as f32;
-            // Of what is seen edge-on, and hidden in the drawing, there is no sample.
+            // Polygons that are seen edge-on, and hidden in the drawing, have no sample.
             let Some(fill) = look.fills.get(&polygon) else { continue };
             let mut last = (u32::MAX, 0);
             for_each_pixel(tree, &fragment, &rays, |sample| {
@@ -142,7 +142,7 @@ impl Errors {
         self.sum / self.pixels as f64
     }
 
-    /// As a share of how much colours differ there.
+    /// As a share of the difference of colours there.
     fn share(&self) -> f64 {
         self.sum / self.contrast
     }
@@ -175,7 +175,7 @@ fn fills(folder: &Folder, scene: &str) -> HashMap<usize, [u8; 3]> {
     paths.iter().map(|path| (path.polygon.unwrap(), path.fill)).collect()
 }
 
-/// A scene, and what the exact picture of a view of it is.
+/// A scene, and the exact picture of a view of it.
 struct Case {
     arguments: String,
     sampled: Sampled,
@@ -227,8 +227,8 @@ fn regions_that_are_added_up_have_no_seams() {
     }
 }
 
-/// Where colours differ much, viewers round what an edge covers, here on both of its sides, at silhouettes on
-/// one.
+/// Where colours differ much, viewers round the coverage of an edge: here on both of its sides, at
+/// silhouettes on one.
 #[test]
 fn regions_of_many_colours_are_as_exact_as_silhouettes() {
     let folder = Folder::new("seams_colours");

@@ -10,7 +10,7 @@ use crate::run::Folder;
 use crate::svg_picture::Svg;
 use testkit::dice::Dice;
 
-/// Triangles that go through one another, of glass, of smoke and of wood.
+/// Triangles that penetrate each other, of glass, of smoke and of wood.
 pub(crate) fn write_scene(folder: &Folder, count: usize) {
     let materials = "newmtl glass\nKd .1 .3 .9\nd 0.25\nnewmtl smoke\nKd .4 .4 .4\nd 0.625\n\
                      newmtl wood\nKd .8 .5 .2\n";
@@ -72,7 +72,7 @@ fn what_shines_through_is_what_the_painter_blends() {
         }
     }
     assert!(compared > 20_000 && colours.len() > 50, "{compared} {}", colours.len());
-    // Of slivers between the centres of pixels a viewer shows some.
+    // A viewer shows some slivers that lie between the centres of pixels.
     assert!(2_000 * wrong < compared, "{wrong} of {compared}");
 }
 
@@ -108,7 +108,7 @@ fn options_that_do_not_fit_are_refused() {
         assert!(message.contains(expected), "{options}: {message}");
     }
     assert_eq!(folder.files(), ["m.mtl", "s.obj"]);
-    // Lines above them are of what shows.
+    // Lines above them are visible lines.
     folder.run("draw s.obj -o a.svg --translucent --edges all --hidden dashed").good();
     let svg = Svg::read(&folder.path("a.svg"));
     assert!(!svg.lines.is_empty() && !svg.paths.is_empty());

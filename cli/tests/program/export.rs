@@ -1,4 +1,4 @@
-//! `binspace export`: what is written, read again.
+//! `binspace export`: reads the written files back.
 
 use std::collections::HashMap;
 use std::fs;
@@ -37,7 +37,7 @@ fn area(corners: &[DVec3]) -> f64 {
     0.5 * fan.sum::<DVec3>().length()
 }
 
-/// How many edges of faces do not run once in each direction.
+/// The number of face edges that do not run once in each direction.
 fn open_edges(faces: &[[usize; 3]]) -> usize {
     let mut edges: HashMap<[usize; 2], i32> = HashMap::new();
     for &[a, b, c] in faces {

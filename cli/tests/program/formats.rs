@@ -63,7 +63,7 @@ fn gltf(uri: &str) -> (String, Vec<u8>) {
     (json, bytes(corners.flatten()))
 }
 
-/// Whatever the files are called.
+/// The kind does not depend on the file's name.
 #[test]
 fn all_formats_have_the_same_order() {
     let folder = Folder::new("formats_order");
@@ -78,7 +78,7 @@ fn all_formats_have_the_same_order() {
     folder.write("a buffer.bin", buffer);
     let order = |scene: &str| folder.run(&format!("order {scene} --eye=1,2,9"));
     let expected = order("s.obj").good();
-    // The floor goes through the wall.
+    // The floor penetrates the wall.
     assert!(expected.lines().count() > 4);
     for scene in ["s.stl", "stl.obj", "s.ply", "noname", "s.off", "s.gltf"] {
         assert_eq!(order(scene).good(), expected, "{scene}");
@@ -87,7 +87,7 @@ fn all_formats_have_the_same_order() {
         let run = Run::new(&folder.pipe("order - --eye=1,2,9", file));
         assert_eq!(run.good(), expected);
     }
-    // What is built of them is what they are.
+    // Trees built from them hold the same polygons.
     folder.run("build s.gltf -o s.bsp").good();
     assert_eq!(order("s.bsp").good(), expected);
     folder.run("build s.stl --cells 2 -o cells").good();
@@ -99,7 +99,7 @@ fn all_formats_have_the_same_order() {
     }
 }
 
-/// What is up in a picture: the wall is at the top if y is.
+/// The up direction of a picture: the wall is at the top if y is up.
 #[test]
 fn up_is_that_of_the_format() {
     let folder = Folder::new("formats_up");
@@ -168,7 +168,7 @@ fn buffers_beside_a_file_are_found_or_named() {
     }
 }
 
-/// Files that say that they have far more than they have, read with little memory.
+/// Files that declare far more data than they hold, read with little memory.
 #[cfg(target_os = "linux")]
 #[test]
 fn counts_that_lie_ask_for_no_memory() {

@@ -14,7 +14,7 @@ fn help_has_examples_and_fits() {
     assert_eq!(version, format!("binspace {}\n", env!("CARGO_PKG_VERSION")));
 }
 
-/// What somebody sees who has just installed the program.
+/// The first output for somebody who has just installed the program.
 #[test]
 fn without_arguments_help_is_printed() {
     let folder = Folder::new("help_alone");

@@ -93,7 +93,7 @@ fn an_endless_device_is_refused() {
     }
 }
 
-/// What a shell passes for `<(…)`, for `/dev/stdin` and for `-`: somebody writes to these.
+/// The paths that a shell passes for `<(…)`, for `/dev/stdin` and for `-`: somebody writes to these.
 #[cfg(target_os = "linux")]
 #[test]
 fn pipes_without_names_are_read() {

@@ -39,7 +39,7 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
         format!("render y.obj {render}"),
         format!("verify y.obj {verify}"),
         format!("render hangs.obj {render}"),
-        // Built-in scenes know their up; orders and figures need none.
+        // Built-in scenes have a known up direction; orders and figures need none.
         format!("render teapot:2 {render}"),
         "order z.obj --eye=9,9,9".to_owned(),
         "stats z.obj".to_owned(),

@@ -69,7 +69,7 @@ fn parallel_squares_come_in_the_order_of_their_depth() {
     assert_eq!(order("--direction 0,0,-1"), [1, 2, 0]);
     assert_eq!(order("--direction=0,0,1"), [0, 2, 1]);
     assert_eq!(order("--direction -0,0,1 --front-to-back"), [1, 2, 0]);
-    // Whole polygons as they stand in the file.
+    // Whole polygons as in the file.
     let first = &parse(&folder.run("order s.obj --eye=0,0,9").good())[0];
     let corners = vec![[0.1, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.1, 1.0, 0.0]];
     assert_eq!(*first, Line { polygon: 1, vertices: corners });
@@ -122,7 +122,7 @@ fn fragments_have_the_area_of_their_polygons() {
 #[test]
 fn polygons_are_numbered_by_their_line_in_the_file() {
     let folder = Folder::new("order_numbers");
-    // A point, a line, a face without area and one of two corners come between.
+    // A point, a line, a face without area and one of two corners lie between them.
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nf 1 2 4\nl 1 2 3\nf 1 2\nf 1 2 3\n";
     folder.write("s.obj", text);
     let run = folder.run("order s.obj --eye=0,0,1");
@@ -201,7 +201,7 @@ fn there_is_no_negative_zero() {
         "render s.obj -o - --format svg --direction=-0,-0,-1 --target=-0,-0,-0",
         "stats s.obj --json",
     ] {
-        // No number is 0 with a sign; "-0.5" and "1e-05" are not meant.
+        // No number is a negative zero; "-0.5" and "1e-05" are not meant.
         let output = folder.run(command).good();
         let numbers = output.split(|c: char| !(c.is_ascii_alphanumeric() || "-+.".contains(c)));
         let zeros = numbers.filter(|word| word.starts_with('-') && word.parse() == Ok(0.0));

@@ -109,7 +109,7 @@ fn a_program_that_is_ended_by_a_signal_leaves_no_file_behind() {
     use std::os::unix::process::ExitStatusExt;
 
     let folder = Folder::new("output_signal");
-    // What the tests were started with as ignored, as by `nohup`, stays so.
+    // Signals that were ignored when the tests started, as by `nohup`, stay ignored.
     let signals = [("-HUP", 1), ("-INT", 2), ("-TERM", 15), ("-KILL", 9)];
     for (signal, number) in signals.into_iter().filter(|&(_, number)| !is_ignored(number)) {
         let mut child = start_writing(&folder, "");
@@ -120,7 +120,7 @@ fn a_program_that_is_ended_by_a_signal_leaves_no_file_behind() {
     }
 }
 
-/// As `nohup` does with SIGHUP, and shells with SIGINT for what runs in the background.
+/// As `nohup` does with SIGHUP, and shells with SIGINT for background processes.
 #[cfg(target_os = "linux")]
 #[test]
 fn signals_that_are_ignored_stay_ignored() {

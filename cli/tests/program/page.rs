@@ -1,4 +1,4 @@
-//! Pages: what they hold.
+//! The content of pages.
 
 use std::fs;
 

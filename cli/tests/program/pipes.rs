@@ -24,7 +24,7 @@ fn a_scene_on_standard_input_is_that_of_the_file() {
     }
     let stats = Run::new(&folder.pipe("stats -", CROSSING)).good();
     assert!(stats.starts_with("standard input: 3 polygons"), "{stats}");
-    // A file of that name has a folder.
+    // A path with a folder refers to a file of that name.
     fs::write(folder.path("-"), CROSSING).unwrap();
     assert!(folder.run("order ./- --eye=3,2,6").good().lines().count() > 3);
 }
@@ -87,7 +87,7 @@ fn a_picture_on_standard_output_is_that_of_the_file() {
         folder.run(&format!("{command} {file}")).good();
         assert_eq!(piped.stdout, fs::read(folder.path(file)).unwrap(), "{options}");
     }
-    // A name that says nothing, with a format.
+    // A name without a known extension, with a format.
     folder.run("render s.obj --size 40x30 --format svg -o drawing").good();
     assert!(fs::read_to_string(folder.path("drawing")).unwrap().starts_with("<svg"));
     assert_eq!(folder.files(), ["a.png", "a.svg", "drawing", "s.obj"]);

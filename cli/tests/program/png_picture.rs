@@ -25,12 +25,12 @@ impl Picture {
         Self { size: [info.width, info.height], rgb }
     }
 
-    /// How many pixels have a colour.
+    /// The number of pixels that have a colour.
     pub(crate) fn count(&self, colour: [u8; 3]) -> usize {
         self.rgb.chunks_exact(3).filter(|pixel| *pixel == colour).count()
     }
 
-    /// How many colours there are.
+    /// The number of colours.
     pub(crate) fn colours(&self) -> usize {
         let all: std::collections::HashSet<&[u8]> = self.rgb.chunks_exact(3).collect();
         all.len()

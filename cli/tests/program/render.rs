@@ -134,7 +134,7 @@ fn svg_has_the_fragments_in_order() {
     assert!(svg.contains("viewBox=\"0 0 200 100\""), "{svg}");
     let paths: Vec<&str> = svg.lines().filter(|line| line.starts_with("<path")).collect();
     assert!(paths.len() > 3, "{svg}");
-    // What is furthest comes first, opaque; the rest shines through.
+    // The furthest polygon comes first, opaque; the rest shines through.
     assert!(paths[0].contains("fill=\"#f") && paths[0].contains("stroke="), "{svg}");
     assert!(paths.iter().filter(|path| path.contains("fill-opacity=\"0.5\"")).count() > 2, "{svg}");
     for number in paths.iter().flat_map(|path| {

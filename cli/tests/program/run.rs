@@ -49,7 +49,7 @@ impl Folder {
         command
     }
 
-    /// Runs the program with something on standard input; what it writes may be no text.
+    /// Runs the program with data on standard input; the output need not be text.
     pub(crate) fn pipe(&self, arguments: &str, input: impl AsRef<[u8]>) -> Output {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -71,7 +71,7 @@ impl Folder {
     }
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug)]
 pub(crate) struct Run {
     pub(crate) status: Option<i32>,
@@ -85,13 +85,13 @@ impl Run {
         Self { status: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
     }
 
-    /// The output of a run that must have gone well.
+    /// The output of a run that must succeed.
     pub(crate) fn good(self) -> String {
         assert_eq!(self.status, Some(0), "{self:?}");
         self.out
     }
 
-    /// The message of a run that must have been refused, with nothing on standard output.
+    /// The message of a run that must be refused, with nothing on standard output.
     pub(crate) fn refused(self) -> String {
         assert_eq!(self.status, Some(2), "{self:?}");
         assert_eq!(self.out, "", "{self:?}");

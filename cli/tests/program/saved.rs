@@ -36,11 +36,11 @@ fn every_command_says_the_same_of_a_scene_and_of_its_tree_s_file() {
     ] {
         let scene = folder.run(&command.replace("SCENE", "s.obj"));
         let file = folder.run(&command.replace("SCENE", "s.bsp"));
-        // A tree that is there had its tolerance chosen before.
+        // The tolerance of an existing tree was chosen before.
         let notes = |text: &str| -> Vec<String> {
             text.lines().filter(|line| !line.contains("tolerance")).map(str::to_owned).collect()
         };
-        // Each is called what the user calls it.
+        // Each has the user's name for it.
         let renamed = |text: &str| text.replace("s.bsp", "s.obj");
         assert_eq!(notes(&renamed(&file.err)), notes(&scene.err), "{command}");
         assert!(!file.err.contains("s.obj"), "{}", file.err);

@@ -26,7 +26,7 @@ pub(crate) struct DrawnLines {
 pub(crate) struct DrawnPath {
     /// `data-polygon`.
     pub(crate) polygon: Option<usize>,
-    /// Its own, or that of the groups around it.
+    /// Its own attribute, or the attribute of the groups around it.
     pub(crate) fill: [u8; 3],
     pub(crate) material: Option<String>,
 }
@@ -55,17 +55,17 @@ impl Svg {
         Self { paths, lines, text: text.to_owned() }
     }
 
-    /// What a viewer shows, one sample a pixel at its centre.
+    /// A viewer's picture, one sample a pixel at its centre.
     pub(crate) fn picture(&self) -> Picture {
         self.rendered(ShapeRendering::CrispEdges)
     }
 
-    /// What a viewer shows, with edges blended.
+    /// A viewer's picture, with edges blended.
     pub(crate) fn smooth_picture(&self) -> Picture {
         self.rendered(ShapeRendering::GeometricPrecision)
     }
 
-    /// The red of each pixel, as the mean of so many pixels each way of a larger picture.
+    /// The red of each pixel, as the mean of this many pixels each way of a larger picture.
     pub(crate) fn averaged(&self, each: u32) -> Vec<f64> {
         let tree = Tree::from_str(&self.text, &Options::default()).unwrap();
         let size = tree.size().to_int_size();
@@ -95,7 +95,7 @@ impl Svg {
     }
 }
 
-/// An attribute of a node or of the nearest group around it that has it.
+/// An attribute of a node or of the nearest enclosing group that has it.
 fn inherited<'d>(node: &Node<'d, '_>, name: &str) -> Option<&'d str> {
     node.ancestors().find_map(|node| node.attribute(name))
 }

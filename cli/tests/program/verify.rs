@@ -1,6 +1,6 @@
 use crate::run::{CROSSING, Folder};
 
-/// The figures of a line: what stands between the place and the verdict.
+/// The figures of a line, between the place and the verdict.
 fn figures(line: &str) -> Vec<usize> {
     line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
 }
@@ -68,7 +68,7 @@ fn a_scene_without_area_is_not_called_right() {
         assert!(message.contains("1 face without area dropped: face 0 (line 4)"), "{message}");
     }
     assert_eq!(folder.files(), ["s.obj"]);
-    // What there is to count is counted.
+    // Everything that can be counted is counted.
     let run = folder.run("stats s.obj --json");
     assert!(run.err.contains("1 face without area dropped: face 0 (line 4)"), "{run:?}");
     assert!(run.err.contains("s.obj: nothing is left to draw"), "{run:?}");

@@ -20,12 +20,11 @@ pub struct Accuracy {
     pub misplaced: usize,
     /// Vertices without a position, because the planes that define them are parallel.
     pub undefined: usize,
-    /// Faces whose fragments do not add up to the face's own area, by the definitions of their
-    /// vertices, exactly (but for odds of 2⁻⁶¹ that a difference goes unseen).
+    /// Faces whose fragments do not add up to the face's own area. Areas follow from the definitions of the
+    /// vertices, exactly (except for a probability of 2⁻⁶¹ that a difference is missed).
     pub torn: usize,
-    /// The largest difference between a vertex's coordinate and the exact one, in units of the
-    /// scene's lattice, 2⁻⁵² to 2⁻⁵⁰ of the extent: units in the last place of a coordinate at the
-    /// scene's rim.
+    /// The largest difference between a vertex's coordinate and the exact one, in units of the scene's
+    /// lattice, 2⁻⁵² to 2⁻⁵⁰ of the extent: units in the last place of a coordinate at the scene's boundary.
     pub drift_max: f64,
     /// The mean over all vertices of the largest such difference among the vertex's coordinates.
     pub drift_mean: f64,
@@ -54,10 +53,10 @@ struct Vertex {
 /// Compares every vertex with its definition, and its definition with every plane above it,
 /// exactly: O(n · mean depth).
 ///
-/// The library's tree misplaces nothing, and its vertices are off only by their last rounding. This
-/// function computes planes and vertices in big integers of its own, with a filter of its own in
-/// front, so a mistake in the library's arithmetic is counted and not repeated. Tests count the same
-/// in rationals, on hard scenes of up to some hundred faces.
+/// The library's tree misplaces nothing, and its vertices are off only by their last rounding. This function
+/// computes planes and vertices in its own big integers, behind its own filter. So a mistake in the library's
+/// arithmetic is counted and not repeated. Tests count the same in rationals, on hard scenes of up to some
+/// hundred faces.
 pub fn accuracy(tree: &Tree) -> Accuracy {
     let mut count = Count::new(&tree.faces);
     let mut path: Vec<Above> = Vec::new();
@@ -86,7 +85,7 @@ fn extend_path(faces: &Faces, path: &mut Vec<Above>, node: &Node) {
     path.push(Above::new(faces, node.plane));
 }
 
-/// What has been counted so far.
+/// The counts of the faces visited.
 struct Count<'a> {
     faces: &'a Faces,
     result: Accuracy,
@@ -173,7 +172,7 @@ impl Above {
         if self.id == own {
             return self.side != Side::Coplanar;
         }
-        // What a plane defines lies on it.
+        // A vertex lies on the planes that define it.
         if vertex.vertex_id.is_on(self.id) {
             return false;
         }

@@ -1,5 +1,5 @@
-//! Anti-aliasing: the areas of what is visible in each pixel, against samples, and against coverages
-//! blended in paint order.
+//! Anti-aliasing: the visible areas in each pixel, against samples, and against coverages blended in paint
+//! order.
 
 use binspace::drawing::VisibilityMap;
 use binspace::glam::DVec3;
@@ -10,10 +10,10 @@ use binspace::{BspTree, Error};
 
 use crate::translucent::Colour;
 
-/// What shows in each pixel: polygons with the shares of the pixel that they own.
+/// The visible polygons of each pixel with the shares of the pixel that they own.
 ///
 /// The cells of a visibility map are clipped to the pixels (E. Catmull, "A hidden-surface algorithm with
-/// anti-aliasing", 1978). Which cells there are, and between which lines, is exact; areas are rounded.
+/// anti-aliasing", 1978). The set of cells and their lines are exact; areas are rounded.
 #[derive(Clone, Debug)]
 pub struct Areas {
     pixels: Vec<Vec<(usize, f64)>>,
@@ -37,12 +37,12 @@ impl Areas {
         Self { pixels }
     }
 
-    /// For each pixel, row by row, the polygons that show in it, and how much of it they own.
+    /// For each pixel, row by row, the visible polygons and their shares of it.
     pub fn pixels(&self) -> impl ExactSizeIterator<Item = &[(usize, f64)]> {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// The picture: each pixel is the mean of what shows in it.
+    /// The picture: each pixel is the mean of its visible polygons.
     pub fn picture(&self, colour: impl Fn(usize) -> Colour, background: Colour) -> Vec<Colour> {
         let pixel = |shares: &[(usize, f64)]| {
             let rest = 1.0 - shares.iter().map(|(_, area)| area).sum::<f64>();
@@ -86,9 +86,9 @@ pub fn supersampled(
 /// The fragments of a tree painted back to front, each blended with the share of the pixel that it covers
 /// as its opacity.
 ///
-/// This is what painting programs do, and wrong along edges that fragments share: the share says how much
-/// of a pixel is covered, not which part (T. Porter and T. Duff, "Compositing digital images", 1984, take
-/// the parts to be independent).
+/// Painting programs do this. It is wrong along edges that fragments share: the share is the covered area of
+/// a pixel, not the covered part (T. Porter and T. Duff, "Compositing digital images", 1984, take the parts
+/// to be independent).
 pub fn blended(
     tree: &BspTree,
     camera: &Camera,

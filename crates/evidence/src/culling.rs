@@ -1,4 +1,4 @@
-//! What is left of a scene by each step of culling.
+//! The remainder of a scene after each step of culling.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -10,22 +10,22 @@ use binspace::raster::{Rays, compare, zbuffer};
 use binspace::view::Camera;
 use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part};
 
-/// What a step leaves.
+/// The result of a step.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What it leaves out, in words.
+    /// The polygons it leaves out, in words.
     pub name: &'static str,
     /// The fragments that are left, back to front.
     pub left: Vec<u32>,
-    /// How long this step and those before it take together.
+    /// The time for this step and the steps before it together.
     pub time: Duration,
 }
 
-/// The steps of culling for a camera, each after those before it: none, what is outside of the view
-/// volume, what is seen from behind, and what is hidden.
+/// The steps of culling for a camera, each after the steps before it: none, polygons outside the view volume,
+/// back faces, and hidden polygons.
 ///
-/// Backs may only be left out of closed bodies that are seen from outside. What is hidden is found
-/// on one walk from front to back, which skips subtrees that the others leave out.
+/// Backs may only be left out of closed bodies that are seen from outside. Hidden polygons are found on one
+/// front-to-back traversal, which skips subtrees that the other steps leave out.
 pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
     // Boxes are made once, before the frames that are timed.
     tree.bounds();
@@ -52,18 +52,18 @@ pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
     ]
 }
 
-/// What a step leaves, in figures.
+/// The figures of a step.
 #[derive(Clone, Debug)]
 pub struct Left {
-    /// What it leaves out, in words.
+    /// The polygons it leaves out, in words.
     pub name: &'static str,
     /// The polygons that are left.
     pub polygons: usize,
-    /// How long this step and those before it take together.
+    /// The time for this step and the steps before it together.
     pub time: Duration,
-    /// How many pixels are drawn to paint them.
+    /// The number of pixels drawn to paint them.
     pub drawn: u64,
-    /// How many pixels of this picture are wrong.
+    /// The number of wrong pixels of this picture.
     pub wrong: usize,
 }
 
@@ -84,17 +84,17 @@ pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
 ///
 /// # Errors
 ///
-/// None is known.
+/// No error is known.
 pub fn over_the_city(size: [u32; 2]) -> Result<Camera, Error> {
     let eye = dvec3(2400.0, 2400.0, 130.0);
     Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
 }
 
-/// Sets `left` to the fragments that own a pixel, back to front, of those that are wanted, and returns
-/// how many subtrees it entered to find them.
+/// Sets `left` to the fragments that own a pixel, back to front, from the wanted fragments. Returns the
+/// number of subtrees entered to find them.
 ///
-/// One walk from front to back finds them: it skips subtrees that are out of view or hidden by what it
-/// met before. The mask alone would find most of what is out of view as well.
+/// One front-to-back traversal finds them: it skips subtrees that are out of view or hidden by earlier
+/// fragments. The mask alone would find most of the subtrees out of view as well.
 pub fn unhidden(
     tree: &BspTree,
     camera: &Camera,
@@ -178,7 +178,7 @@ mod tests {
         assert!(sums[3] * 20 < sums[0], "{sums:?}");
     }
 
-    /// How many subtrees are entered if only the mask tells what is out of view, and what is left.
+    /// The number of subtrees entered if only the mask detects subtrees out of view, and the fragments left.
     fn entered_by_the_mask_alone(
         tree: &BspTree,
         camera: &Camera,
@@ -214,7 +214,7 @@ mod tests {
             assert_eq!(left, same);
             by_mask += others;
         }
-        // 7 more of 2450: the mask has no pixels for most of what is out of view.
+        // 7 more of 2450: the mask has no pixels for most subtrees out of view.
         assert!(entered + 5 <= by_mask && entered > 1000, "{entered} of {by_mask}");
     }
 

@@ -11,8 +11,8 @@ use binspace::internals::{Eye, Faces};
 
 use crate::place::{self, Plane};
 
-/// How many faces show which side to a viewpoint, by the sign of Ax + By + Cz + D at the eye, in
-/// big integers. For parallel rays along the z axis that is the sign of C.
+/// The numbers of faces that show each side to a viewpoint, by the sign of Ax + By + Cz + D at the eye, in
+/// big integers. For parallel rays along the z axis the sign is that of C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Facing {
     /// Faces that show their front.
@@ -38,7 +38,7 @@ impl Facing {
         facing
     }
 
-    /// The faces that need not be drawn: all but those that show their front.
+    /// The faces that need not be drawn: all except front faces.
     pub fn removed(&self) -> usize {
         self.back + self.edge_on
     }

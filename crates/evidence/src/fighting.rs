@@ -1,5 +1,5 @@
-//! Two sheets so near each other that depth buffers cannot tell them apart: they show through each
-//! other in patches, which is called z-fighting.
+//! Two sheets so near each other that depth buffers cannot separate them: they show through each other in
+//! patches (z-fighting).
 
 use glam::DVec3;
 
@@ -29,7 +29,7 @@ const ENDS: [f64; 2] = [1.0 / 20.0, 1.0 / 190.0];
 /// The tangent of half of the field of view.
 const HALF_HEIGHT: f64 = 0.5;
 
-/// What a buffer makes of two sheets.
+/// The result of a buffer for two sheets.
 #[derive(Clone, Debug)]
 pub struct Fight {
     /// The picture: faces 0 and 1 are the further sheet.
@@ -40,13 +40,13 @@ pub struct Fight {
     pub seen: Option<[f64; 2]>,
 }
 
-/// What the steps of a format predict.
+/// The prediction from the steps of a format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// The nearest and the furthest depth at which the sheets are less than a step apart.
     pub begin: Option<[f64; 2]>,
-    /// How many pixels are wrong: sheets that are a share s of a step apart are stored as the same in
-    /// 1 − s of all places.
+    /// The number of wrong pixels. Sheets that are a share s of a step apart are stored as the same in 1 − s
+    /// of all places.
     pub wrong: f64,
 }
 
@@ -78,15 +78,15 @@ impl Sheets {
         &self.camera
     }
 
-    /// What a method shows.
+    /// The picture of a method.
     ///
     /// # Errors
     ///
-    /// Those of the method.
+    /// The errors of the method.
     pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
         let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
         let image = painted.image;
-        // Both sheets are two triangles each: another one of the same sheet is not wrong.
+        // Both sheets are two triangles each: the other triangle of the same sheet is not wrong.
         let mut wrong: Vec<f64> = Vec::new();
         for (i, (&shown, &nearest)) in image.faces().iter().zip(self.truth.faces()).enumerate() {
             if shown / 2 != nearest / 2 {
@@ -99,21 +99,22 @@ impl Sheets {
         Ok(Fight { image, wrong: wrong.len(), seen: (!wrong.is_empty()).then_some(ends) })
     }
 
-    /// What a depth buffer shows.
+    /// The picture of a depth buffer.
     ///
     /// # Errors
     ///
-    /// None is known.
+    /// No error is known.
     pub fn in_format(&self, format: DepthFormat) -> Result<Fight, MethodError> {
         self.shown_by(&DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]))
     }
 
-    /// What the roundings of the pipeline predict as well: the planes as it sets them up, the roundings in
-    /// each pixel within their bounds, and the steps. No pixel is wrong at depths other than the predicted.
+    /// The prediction that includes the roundings of the pipeline: the planes as it sets them up, the
+    /// roundings in each pixel within their bounds, and the steps. No pixel is wrong outside the predicted
+    /// depths.
     ///
     /// # Errors
     ///
-    /// None is known.
+    /// No error is known.
     pub fn predicted_with_roundings(&self, format: DepthFormat) -> Result<Prediction, MethodError> {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for (apart, &depth) in self.apart(format)?.into_iter().zip(&self.depths) {
@@ -126,7 +127,7 @@ impl Sheets {
         Ok(prediction)
     }
 
-    /// How far apart the sheets are in each pixel, when they are about to be stored.
+    /// The distance of the sheets in each pixel, just before they are stored.
     fn apart(&self, format: DepthFormat) -> Result<Vec<Apart>, MethodError> {
         let method = DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]);
         let planes = method.set_up(&self.camera, &self.faces)?;
@@ -144,11 +145,12 @@ impl Sheets {
         Ok((0..).zip(self.truth.faces()).map(apart).collect())
     }
 
-    /// What the steps of a format predict, by the formula of [`DepthFormat::step`].
+    /// The prediction from the steps of a format, by the formula of [`DepthFormat::step`].
     pub fn predicted(&self, format: DepthFormat) -> Prediction {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for &depth in &self.depths {
-            // Of 1 / w, from which z comes, the sheets differ by gap / (1 + gap), of w by gap.
+            // In 1 / w, from which z is computed, the sheets differ by gap / (1 + gap); in w they differ by
+            // gap.
             let share = if is_linear(format) { self.gap } else { self.gap / (1.0 + self.gap) };
             let apart = share * depth / format.step(PLANES, depth);
             if apart < 1.0 {
@@ -161,8 +163,8 @@ impl Sheets {
     }
 }
 
-/// How far the further sheet's number is beyond the nearer one's, in steps, and the most by which
-/// roundings move each of them.
+/// The distance of the further sheet's number beyond the nearer one's, in steps, and the largest effect of
+/// roundings on each of them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     steps: f64,
@@ -175,8 +177,8 @@ impl Apart {
         self.steps - self.roundings[0] - self.roundings[1] > 1.0
     }
 
-    /// How likely they are not, if both roundings are anywhere within their bounds: numbers that are
-    /// a share s of a step apart are stored as the same in 1 − s of all places.
+    /// The probability that they are not, if both roundings are anywhere within their bounds: numbers that
+    /// are a share s of a step apart are stored as the same in 1 − s of all places.
     fn share_wrong(&self) -> f64 {
         const PARTS: u32 = 8;
         let middle = |k: u32| (2 * k + 1) as f64 / f64::from(PARTS) - 1.0;
@@ -231,8 +233,8 @@ mod tests {
             let sheets = Sheets::new(gap, SIZE);
             let (fight, predicted) = (sheets.in_format(format).unwrap(), sheets.predicted(format));
             let ([first, last], [begin, end]) = (fight.seen.unwrap(), predicted.begin.unwrap());
-            // Nothing is wrong where the sheets are a step apart: that is certain. That something is
-            // soon after is likely.
+            // It is certain that nothing is wrong where the sheets are a step apart. It is likely that
+            // something is wrong soon after.
             assert!(first >= begin * (1.0 - 1e-9) && last <= end * (1.0 + 1e-9), "{format} {gap}");
             assert!(first <= begin * 1.05 && last >= end * 0.95, "{format} {gap}: {first} {begin}");
             let share = fight.wrong as f64 / predicted.wrong;
@@ -240,8 +242,9 @@ mod tests {
         }
     }
 
-    /// No pixel is wrong where roundings cannot make it so; and where a tenth of the picture is to be
-    /// wrong, the fight begins within 15 % of the depth that is predicted, and is half to twice as large.
+    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be
+    /// wrong, the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels
+    /// is half to twice the predicted number.
     #[test]
     fn roundings_predict_where_every_format_fights() {
         let cases: [(DepthFormat, &[f64]); 6] = [

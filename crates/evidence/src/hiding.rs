@@ -1,4 +1,4 @@
-//! Who hides whom: the partial order that a painter has to keep to, exactly.
+//! Which faces hide which: the exact partial order that a painter has to respect.
 
 mod components;
 mod cone;
@@ -13,14 +13,14 @@ use self::components::{components, fewest_removed};
 use self::cone::Seen;
 use crate::place;
 
-/// Which faces hide parts of which from a viewpoint, whatever the direction of view, in big
-/// integers. For small scenes: every pair is looked at, O(n²).
+/// Which faces hide parts of which from a viewpoint, for every direction of view, in big integers. For small
+/// scenes: every pair is tested, O(n²).
 ///
-/// A face hides another if a ray from the eye goes through the inside of both and meets it first.
-/// Faces that go through each other may hide parts of each other.
+/// A face hides another if a ray from the eye passes through the inside of both and meets it first. Faces
+/// that penetrate each other may hide parts of each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hiding {
-    /// For each face, those that it hides parts of, in ascending order.
+    /// For each face, the faces that it hides parts of, in ascending order.
     hidden: Vec<Vec<u32>>,
 }
 
@@ -53,12 +53,12 @@ impl Hiding {
         self.hidden[face as usize].binary_search(&other).is_ok()
     }
 
-    /// How many pairs there are of which one face hides a part of the other.
+    /// The number of pairs in which one face hides a part of the other.
     pub fn pairs(&self) -> usize {
         self.hidden.iter().map(Vec::len).sum::<usize>() - self.mutual()
     }
 
-    /// How many pairs hide parts of each other: these go through each other.
+    /// The number of pairs that hide parts of each other: these penetrate each other.
     pub fn mutual(&self) -> usize {
         let both = |a: u32| {
             let back = self.hidden[a as usize].iter().filter(move |&&b| b > a && self.hides(b, a));
@@ -67,14 +67,14 @@ impl Hiding {
         (0..self.hidden.len() as u32).map(both).sum()
     }
 
-    /// The faces on cycles of hiding: each list is of faces that all hide each other, directly or
-    /// by way of others.
+    /// The faces on cycles of hiding (strongly connected components): in each list all faces hide each other,
+    /// directly or through others.
     pub fn cycles(&self) -> Vec<Vec<u32>> {
         components(&self.hidden)
     }
 
-    /// An order in which whole faces can be painted, each after all that it hides parts of; `None`
-    /// if there is a cycle. Of several faces that may come next it is the first.
+    /// An order in which whole faces can be painted, each after all faces that it hides parts of; `None` if
+    /// there is a cycle. Of several possible next faces, the first is taken.
     pub fn paint_order(&self) -> Option<Vec<u32>> {
         let mut waits_for: Vec<usize> = self.hidden.iter().map(Vec::len).collect();
         let mut order = Vec::with_capacity(waits_for.len());
@@ -90,9 +90,9 @@ impl Hiding {
         Some(order)
     }
 
-    /// The fewest faces that have to be cut, whoever cuts them: each cycle has one of them. `None`
-    /// if more than [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another, as all
-    /// their subsets are tried.
+    /// The minimal number of faces that have to be cut by any method: each cycle contains one of them. `None`
+    /// if more than [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another, as all their
+    /// subsets are tried.
     pub fn fewest_cut(&self) -> Option<usize> {
         self.cycles().iter().map(|cycle| fewest_removed(&self.hidden, cycle)).sum()
     }
@@ -101,8 +101,8 @@ impl Hiding {
     pub const SEARCHED: usize = components::SEARCHED;
 }
 
-/// How many pairs of faces overlap in depth along a direction of view: those whose order a sort by
-/// depth leaves open. Exact, but for the direction, which is rounded to 2⁻⁴⁰.
+/// The number of pairs of faces that overlap in depth along a direction of view. A sort by depth does not
+/// determine their order. Exact, except for the direction, which is rounded to 2⁻⁴⁰.
 pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
     let direction = forward.to_array().map(|c| (c * 2f64.powi(40)).round() as i128);
     let extent = |face: u32| {

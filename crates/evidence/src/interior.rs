@@ -1,4 +1,4 @@
-//! A generated interior, the same as in the example `level`, which stands alone.
+//! A generated interior, identical to the one in the self-contained example `level`.
 
 use binspace::glam::{DVec3, dvec3};
 
@@ -17,7 +17,7 @@ pub fn rooms(side: usize) -> Vec<Quad> {
     let mut level = Vec::new();
     let mut dice = 1_u64;
     let mut roll = |faces: u64| {
-        // Knuth's generator; the upper bits are the good ones.
+        // Knuth's generator; its upper bits have the better quality.
         dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (dice >> 33) % faces
     };

@@ -8,8 +8,8 @@ use num_traits::Signed;
 use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
-/// The faces that each pixel's ray meets, the nearest first; of faces met at the same point that of
-/// the later polygon first, as it is painted later.
+/// The faces that each pixel's ray meets, the nearest first. Of faces met at the same point the later
+/// polygon's comes first, as it is painted later.
 ///
 /// Where the ray meets a plane is a fraction of two integers, and fractions are compared by
 /// multiplication, so no order is ever in doubt.
@@ -66,8 +66,7 @@ impl Meeting {
 }
 
 impl Layers {
-    /// The layers of a picture. Which pixels a face covers is what painters draw; in which order
-    /// is found here.
+    /// The layers of a picture. Painters draw the pixels that a face covers; this finds the order.
     pub fn new(rays: &Rays, faces: &Faces) -> Self {
         let [width, height] = rays.size().map(|side| side as usize);
         let mut met: Vec<Vec<Meeting>> = Vec::new();
@@ -93,7 +92,7 @@ impl Layers {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// How many layers the deepest pixel has.
+    /// The number of layers of the deepest pixel.
     pub fn deepest(&self) -> usize {
         self.pixels().map(<[u32]>::len).max().unwrap_or(0)
     }
@@ -126,7 +125,7 @@ mod tests {
         assert!(pixels > 2000, "{pixels}");
     }
 
-    /// Squares in one plane and one before them, as seen from above: of those in one plane the later is
+    /// Squares in one plane and one before them, as seen from above. Of the coplanar squares the later is
     /// painted later, from either side.
     #[test]
     fn of_faces_at_one_depth_the_later_polygon_is_the_nearer() {

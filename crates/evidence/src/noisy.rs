@@ -1,16 +1,16 @@
-//! A stand-in for scans of things: no scan is part of this project.
+//! A substitute for real scans: no scan is part of this project.
 
 use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::scene::{Scene, sphere};
 
-/// How far noise moves corners, as a share of a triangle's side. Scans are worse where surfaces are
-/// shiny, and better where they were smoothed.
+/// The distance by which noise moves corners, as a share of a triangle's side. Scans are worse where surfaces
+/// are shiny, and better where they were smoothed.
 const NOISE: f64 = 0.2;
 
-/// A closed surface of about `triangles` small triangles: a sphere with a few bulges, each corner of
-/// which is moved along its radius by noise. As with what comes out of a scanner, hardly two triangles
-/// are in one plane, and neighbours bend inwards as often as outwards.
+/// A closed surface of about `triangles` small triangles: a sphere with a few bulges, each corner of which is
+/// moved along its radius by noise. As in real scans, hardly two triangles are in one plane, and neighbours
+/// bend inwards as often as outwards.
 pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
     let smooth = sphere(triangles / 2);
     let mut scene = Scene::new(format!("noisy sphere:{triangles}"), DVec3::Z);
@@ -31,7 +31,7 @@ pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
 
 /// A corner of the sphere with a bulge and noise, which depend on nothing but where it is.
 fn moved(corner: DVec3, noise: f64, seed: u64) -> DVec3 {
-    // No corner has two signs of zero.
+    // No coordinate is a negative zero.
     let at = corner + DVec3::ZERO;
     let bits = at.to_array().map(f64::to_bits);
     let key = bits.into_iter().fold(seed, |key, bits| SplitMix64::new(key ^ bits).next());
@@ -58,7 +58,7 @@ mod tests {
             }
         }
         assert!(edges.iter().all(|&[p, q]| edges.contains(&[q, p])));
-        // Of the corners of others near a triangle's plane, about as many are before as behind it.
+        // Near a triangle's plane, about as many corners of other triangles are before as behind it.
         let mut sides = [0, 0];
         for pair in triangles.windows(2) {
             let [a, b, c] = pair[0];

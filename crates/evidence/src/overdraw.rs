@@ -1,4 +1,4 @@
-//! Overdraw: how often each pixel is looked at, and how often it is written.
+//! Overdraw: the number of tests and of writes of each pixel.
 
 use std::ops::Range;
 
@@ -13,10 +13,10 @@ use binspace::internals::Pieces;
 /// The work that a picture took, pixel by pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Overdraw {
-    /// How often a pixel was found to be covered: by then, its depth is computed or its place in a
-    /// mask is read.
+    /// The number of times that a pixel was found to be covered. By then, its depth is computed or its place
+    /// in a mask is read.
     pub tested: Vec<u32>,
-    /// How often a colour was stored in a pixel.
+    /// The number of times that a colour was stored in a pixel.
     pub written: Vec<u32>,
 }
 
@@ -31,12 +31,12 @@ impl Overdraw {
         [&self.tested, &self.written].map(|counts| counts.iter().map(|&n| u64::from(n)).sum())
     }
 
-    /// How many pixels show something.
+    /// The number of pixels that show something.
     pub fn shown(&self) -> u64 {
         self.written.iter().filter(|&&count| count > 0).count() as u64
     }
 
-    /// Counts a run of pixels, each written if `is_written` says so.
+    /// Counts a run of pixels, each written if `is_written` returns true.
     fn add(
         &mut self,
         width: u32,
@@ -51,7 +51,7 @@ impl Overdraw {
     }
 }
 
-/// The painter's: every fragment of a tree over all that are behind it, each pixel written each time.
+/// The painter's: every fragment of a tree over all fragments behind it, each pixel written each time.
 pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     let (mut overdraw, mut pieces) = (Overdraw::new(rays), Pieces::default());
     let width = rays.size()[0];
@@ -63,9 +63,8 @@ pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     overdraw
 }
 
-/// From front to back with a mask of the pixels that are covered: each pixel is written once. What
-/// the mask hides as a whole, by the box of a subtree, is not looked at; and once all is covered,
-/// nothing is.
+/// From front to back with a mask of the covered pixels: each pixel is written once. Subtrees whose box the
+/// mask hides are skipped. Once all pixels are covered, the traversal ends.
 ///
 /// # Errors
 ///
@@ -91,8 +90,8 @@ pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     Ok(overdraw)
 }
 
-/// The depth buffer's, of faces in an order: a pixel is written whenever a face is nearer than all
-/// that came before. `layers` are those of the same rays.
+/// The depth buffer's, of faces in an order: a pixel is written whenever a face is nearer than all earlier
+/// ones. `layers` belong to the same rays.
 pub fn depth_buffer(
     faces: &Faces,
     rays: &Rays,
@@ -102,7 +101,7 @@ pub fn depth_buffer(
     let mut overdraw = Overdraw::new(rays);
     let width = rays.size()[0];
     let layers: Vec<&[u32]> = layers.pixels().collect();
-    // The layer that a pixel shows so far, by its place among all.
+    // The currently visible layer of a pixel, by its place among all.
     let mut shown = vec![NONE as usize; layers.len()];
     for face in order {
         for_each_run(rays, faces, Piece { face, outline: Outline::Whole }, |y, columns| {

@@ -1,8 +1,8 @@
 //! Patches of surfaces that light one another: form factors by exact sight lines.
 //!
-//! C. Goral, K. Torrance, D. Greenberg and B. Battaile, "Modeling the interaction of light between
-//! diffuse surfaces", 1984. What a point sees of a patch is known in closed form; sight lines say how much
-//! of that is free (D. Baum, H. Rushmeier and J. Winget, "Improving radiosity solutions through the use of
+//! C. Goral, K. Torrance, D. Greenberg and B. Battaile, "Modeling the interaction of light between diffuse
+//! surfaces", 1984. The form factor from a point to a patch has a closed form; sight lines give the unblocked
+//! share of it (D. Baum, H. Rushmeier and J. Winget, "Improving radiosity solutions through the use of
 //! analytically determined form-factors", 1989).
 
 use std::f64::consts::PI;
@@ -11,8 +11,8 @@ use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::{BspTree, Ray};
 
-/// Sight lines end this share of their length before the surfaces that they join, as points of surfaces
-/// are rounded. What is nearer to an end does not block.
+/// Sight lines end this share of their length before the surfaces that they join, as points of surfaces are
+/// rounded. A face that is nearer to an end does not block.
 pub const RIM: f64 = 1e-6;
 
 /// A quad that is lit evenly; its front is the side from which its corners run counter-clockwise.
@@ -20,7 +20,7 @@ pub const RIM: f64 = 1e-6;
 pub struct Patch {
     /// The corners.
     pub corners: [DVec3; 4],
-    /// Of the quad that it is a part of.
+    /// The number of its quad.
     pub quad: usize,
 }
 
@@ -77,15 +77,14 @@ pub struct FormFactors {
     /// From each patch to each, row by row.
     factors: Vec<f64>,
     patches: usize,
-    /// Sight lines that were asked for.
+    /// The number of sight lines tested.
     pub sight_lines: usize,
 }
 
 impl FormFactors {
-    /// From `side` by `side` points of each patch to as many of each other, each to one: the mean of what
-    /// the points see of the other patch if nothing hides it, times the share of the sight lines that are
-    /// free, each weighted by the light that it carries. Points are at random in equal parts
-    /// of the patch.
+    /// From `side` by `side` points of each patch to as many of each other, each to one: the mean of the
+    /// point form factors of the other patch if nothing hides it, times the share of the sight lines that are
+    /// free, each weighted by the light that it carries. Points are at random in equal parts of the patch.
     pub fn new(tree: &BspTree, patches: &[Patch], side: u32, seed: u64) -> Self {
         let n = patches.len();
         let mut found = Self { factors: vec![0.0; n * n], patches: n, sight_lines: 0 };
@@ -147,7 +146,8 @@ impl FormFactors {
         (0..self.patches).map(|to| self.factor(from, to)).sum()
     }
 
-    /// What arrives at each patch, for each unit of area, if `leaving` is what leaves them.
+    /// The light that arrives at each patch, for each unit of area, if `leaving` is the light that leaves
+    /// them.
     pub fn arriving(&self, leaving: &[f64]) -> Vec<f64> {
         let n = self.patches;
         let at = |to: usize| (0..n).map(|from| self.factor(to, from) * leaving[from]).sum();
@@ -155,8 +155,8 @@ impl FormFactors {
     }
 }
 
-/// The share of the light of a point of a surface that goes towards a patch's front, if nothing hides it
-/// (J. Lambert, "Photometria", 1760): a sum over the edges of what is above the horizon.
+/// The share of the light of a point of a surface that goes towards a patch's front, if nothing hides it (J.
+/// Lambert, "Photometria", 1760): a sum over the edges of the part above the horizon.
 fn seen(point: DVec3, normal: DVec3, patch: &Patch) -> f64 {
     if patch.normal().dot(point - patch.corners[0]) <= 0.0 {
         return 0.0;

@@ -103,7 +103,8 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Where a vertex of a face is; `None` if what defines it is parallel. `plane` is the face's.
+    /// The position of a vertex of a face; `None` if the planes that define it are parallel. `plane` is the
+    /// face's.
     pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: VertexId) -> Option<Self> {
         match vertex.kind() {
             VertexKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
@@ -174,7 +175,7 @@ impl Place {
         [x, y, z, self.weight.clone()]
     }
 
-    /// What a distance from a plane is multiplied by in [`Plane::at`].
+    /// The factor on a distance from a plane in [`Plane::at`].
     pub(crate) fn weight(&self) -> &IBig {
         &self.weight
     }
@@ -190,16 +191,15 @@ impl Place {
         self.coordinates.each_ref().map(|c| float(c) / weight)
     }
 
-    /// The largest difference between the coordinates of a position and those of this point, within
-    /// a few roundings; infinite if the position is further off than any scene reaches, or no
-    /// number.
+    /// The largest difference between the coordinates of a position and this point's, within a few roundings.
+    /// It is infinite if the position is NaN or further off than any scene reaches.
     pub(crate) fn drift(&self, position: [f64; 3]) -> f64 {
         let weight = float(&self.weight);
         let off = |i: usize| {
             if position[i].is_nan() || position[i].abs() > REACH {
                 return f64::INFINITY;
             }
-            // What is left of the whole part is exact, and small enough to be rounded.
+            // The rest of the whole part is exact, and small enough to be rounded.
             let whole = position[i].trunc();
             let rest = integer(whole) * &self.weight - &self.coordinates[i];
             ((position[i] - whole) + float(&rest) / weight).abs()

@@ -1,5 +1,5 @@
-//! A view whose rays are small integers, and what they meet, in integers: a judge that shares
-//! nothing with the library, for scenes of integer corners.
+//! A view whose rays are small integers, and their intersections, in integers: a judge that shares nothing
+//! with the library, for scenes of integer corners.
 
 use std::cmp::Ordering;
 
@@ -17,15 +17,15 @@ pub struct PlainView {
 /// A corner in units of 1 / [`UNITS`]; below 2²⁰ in magnitude.
 pub type Corner = [i64; 3];
 
-/// How many units a length of 1 has: a power of two, so that corners are exact in `f64`.
+/// The number of units in a length of 1: a power of two, so that corners are exact in `f64`.
 pub const UNITS: f64 = 256.0;
 
-/// What a ray meets of a polygon.
+/// The intersection of a ray and a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
     /// Nothing.
     Nothing,
-    /// Its rim, or all of its plane.
+    /// Its boundary, or all of its plane.
     Rim,
     /// Its inside.
     At(Depth),
@@ -66,7 +66,7 @@ impl PlainView {
         self.size
     }
 
-    /// The camera. Its pixels' rays are exactly those of this view.
+    /// The camera. Its pixels' rays are exactly this view's rays.
     ///
     /// # Panics
     ///
@@ -84,7 +84,7 @@ impl PlainView {
         [2 * x + 1 - width, height - 2 * y - 1, -(2 << self.shift)]
     }
 
-    /// What a pixel's ray meets of a convex flat polygon.
+    /// The intersection of a pixel's ray and a convex flat polygon.
     pub fn meet(&self, polygon: &[Corner], pixel: [u32; 2]) -> Met {
         let ray = self.ray(pixel);
         let corner = |k: usize| polygon[k % polygon.len()].map(i128::from);
@@ -109,8 +109,8 @@ impl PlainView {
         if over > 0 { Met::At(Depth { over, under }) } else { Met::Nothing }
     }
 
-    /// All polygons that a pixel's ray meets, the nearest first; `None` if it meets a rim, or two of
-    /// them at the same depth.
+    /// All polygons that a pixel's ray meets, the nearest first; `None` if it meets a boundary, or two
+    /// polygons at the same depth.
     pub fn layers(&self, polygons: &[Vec<Corner>], pixel: [u32; 2]) -> Option<Vec<(u32, Depth)>> {
         let mut met = Vec::new();
         for (polygon, number) in polygons.iter().zip(0..) {
@@ -125,9 +125,8 @@ impl PlainView {
         (!tied).then_some(met)
     }
 
-    /// What shows in a pixel where some polygons are opaque and the others translucent, the furthest
-    /// first: the nearest opaque one, and all translucent ones before it. `None` as for
-    /// [`layers`](Self::layers).
+    /// The visible polygons in a pixel where some are opaque and the others translucent, the furthest first:
+    /// the nearest opaque one, and all translucent ones before it. `None` as for [`layers`](Self::layers).
     pub fn shown(
         &self,
         polygons: &[Vec<Corner>],

@@ -5,8 +5,8 @@ use num_traits::Euclid;
 
 use crate::place::Place;
 
-/// A number modulo the prime 2⁶¹ − 1. Fractions that are equal have equal residues; others have
-/// them with odds of one in 2⁶¹.
+/// A number modulo the prime 2⁶¹ − 1. Equal fractions have equal residues; unequal ones have equal residues
+/// with a probability of 2⁻⁶¹.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Residue(u64);
 
@@ -33,7 +33,7 @@ impl Residue {
         Self(((product >> 61) as u64 + (product as u64 & PRIME)) % PRIME)
     }
 
-    /// Its inverse, by Fermat; none of 0.
+    /// Its inverse, by Fermat; `None` for 0.
     fn inverse(self) -> Option<Self> {
         if self == Self::ZERO {
             return None;
@@ -49,7 +49,7 @@ impl Residue {
         Some(result)
     }
 
-    /// A place as seen along an axis; `None` if the prime divides its weight, with odds of 2⁻⁶¹.
+    /// A place as seen along an axis; `None` if the prime divides its weight, with a probability of 2⁻⁶¹.
     pub(crate) fn place(place: &Place, axis: usize) -> Option<[Self; 2]> {
         let coordinates = place.along(axis).map(Self::of);
         if place.weight().is_one() {

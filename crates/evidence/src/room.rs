@@ -1,6 +1,6 @@
 //! The Cornell box in patches, lit by its lamp: direct light and one bounce.
 //!
-//! Where its surfaces are and what they reflect was measured at Cornell University
+//! The positions and reflectances of its surfaces were measured at Cornell University
 //! (<https://www.graphics.cornell.edu/online/box/data.html>).
 
 use std::ops::Range;
@@ -27,21 +27,21 @@ const OF_LAMP: [f64; 3] = [0.78; 3];
 pub struct Room {
     /// Parts of the surfaces.
     pub patches: Vec<Patch>,
-    /// What they send to one another.
+    /// The light that they send to one another.
     pub factors: FormFactors,
-    /// What each reflects at 620, 540 and 460 nm.
+    /// The reflectance of each at 620, 540 and 460 nm.
     reflected: Vec<[f64; 3]>,
     light: Vec<f64>,
     /// The patches of the wall that closes the room, black.
     closing: Range<usize>,
 }
 
-/// Where light went, in shares of what the lamp sends out.
+/// The destinations of light, in shares of the lamp's light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
-    /// What arrived at the surfaces straight from the lamp.
+    /// The light that arrived at the surfaces straight from the lamp.
     pub arrived: f64,
-    /// What left through the open side straight from the lamp.
+    /// The light that left through the open side straight from the lamp.
     pub escaped: f64,
 }
 
@@ -72,13 +72,13 @@ impl Room {
         Ok(Self { patches, factors, reflected, light, closing })
     }
 
-    /// How many of the patches, the first ones, are surfaces of the scene; the rest closes the room.
+    /// The number of patches, the first ones, that are surfaces of the scene; the rest closes the room.
     pub fn surfaces(&self) -> usize {
         self.closing.start
     }
 
-    /// What leaves each patch: its own light, what it reflects of that of the lamp, and after `bounces`
-    /// what it reflects of what others reflect.
+    /// The light that leaves each patch: its own light, its reflection of the lamp's light, and after
+    /// `bounces` its reflection of the light that others reflect.
     pub fn leaving(&self, bounces: u32) -> Vec<[f64; 3]> {
         let channels = [0, 1, 2].map(|channel| {
             let (mut step, mut sum) = (self.light.clone(), self.light.clone());
@@ -106,8 +106,8 @@ impl Room {
     }
 }
 
-/// The quads and what they reflect: those of the scene, the ceiling in four parts around the lamp; then
-/// the lamp, and the wall that closes the room.
+/// The quads and their reflectances: the scene's, with the ceiling in four parts around the lamp; then the
+/// lamp, and the wall that closes the room.
 fn surfaces(scene: &Scene) -> (Vec<[DVec3; 4]>, Vec<[f64; 3]>) {
     let quad = |k: usize| -> [DVec3; 4] { std::array::from_fn(|i| scene.polygon(k)[i]) };
     let colour = |k: usize| match &*scene.material(k).name {
@@ -156,7 +156,7 @@ mod tests {
         assert!(off[0] < 0.1 && off[1] < 0.02, "{off:?}");
     }
 
-    /// What a patch reflects, by where it is: the walls on the left and on the right are painted.
+    /// The reflectance of a patch, by its place: the walls on the left and on the right are painted.
     fn paint(patch: &Patch) -> [f64; 3] {
         let is_all = |is_there: fn(f64) -> bool| patch.corners.iter().all(|p| is_there(p.x));
         match patch {
@@ -166,7 +166,8 @@ mod tests {
         }
     }
 
-    /// B = E + ρ F B, bounce by bounce and at each wavelength; and what leaves all surfaces arrives somewhere.
+    /// B = E + ρ F B, bounce by bounce and at each wavelength; and all light that leaves surfaces arrives
+    /// somewhere.
     #[test]
     fn light_goes_by_the_equation_of_radiosity_and_none_is_lost() {
         let room = Room::new(180.0, 4).unwrap();
@@ -202,8 +203,8 @@ mod tests {
         assert!(first_lit[1] > 10, "{first_lit:?}");
     }
 
-    /// The share that is lost or won, over several seeds: sixteen times as many sight lines, a fourth of it
-    /// or less.
+    /// The share that is lost or gained, over several seeds: sixteen times as many sight lines, a fourth of
+    /// it or less.
     #[test]
     fn the_balance_comes_nearer_to_1_with_more_sight_lines() {
         let off = [1, 4].map(|side| {

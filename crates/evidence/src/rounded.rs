@@ -175,9 +175,9 @@ impl RoundedPiece {
     }
 }
 
-/// How many planes are tried at each node, as by `Heuristic::Sampled`.
+/// The number of planes tried at each node, as by `Heuristic::Sampled`.
 const CANDIDATES: usize = 16;
-/// A cut costs as much as this many pieces by which one side has more than the other.
+/// A cut costs as much as this difference in the numbers of pieces of the two sides.
 const CUT: usize = 8;
 
 /// A set of pieces that is still to be divided.

@@ -1,5 +1,4 @@
-//! Shadows: which points of surfaces a lamp lights, and which it does not; and the parts of surfaces
-//! as pieces of polygons.
+//! Shadows: the points of surfaces that a lamp lights, and the lit parts of surfaces as pieces of polygons.
 
 mod casters;
 mod pieces;
@@ -16,21 +15,21 @@ use binspace::scene::Scene;
 use binspace::view::Camera;
 use binspace::{BspTree, Ray};
 
-/// What a point has of a lamp.
+/// The part of a lamp that a point sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zone {
-    /// It sees all points of the lamp that were asked for.
+    /// It sees all tested points of the lamp.
     Lit,
     /// It sees some of them.
     Penumbra,
-    /// It sees none of them.
+    /// It sees none of the tested points.
     Umbra,
 }
 
 /// Which zone a point is in, by exact sight lines to points of a lamp.
 ///
-/// Of one point this is all there is to know. Of a rectangle, it is right but for a rim: what is lit or
-/// hidden between the points is not noticed. [`is_umbra`] is certain.
+/// For a point lamp this is complete. For a rectangle, it is right except near the shadow's boundary: lit or
+/// hidden parts between the points are not noticed. [`is_umbra`] is certain.
 pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
     let sees = |&at: &DVec3| !tree.is_occluded(Ray::between(point, at));
     match lamp.iter().filter(|at| sees(at)).count() {
@@ -40,8 +39,8 @@ pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
     }
 }
 
-/// Whether one convex polygon lies between a point and all corners of a lamp: then it hides all of the
-/// lamp, for what it hides of the lamp's plane is convex.
+/// Whether one convex polygon lies between a point and all corners of a lamp. Then it hides all of the lamp,
+/// as the hidden part of the lamp's plane is convex.
 pub fn is_umbra(tree: &BspTree, point: DVec3, corners: &[DVec3]) -> bool {
     let between = |&at: &DVec3| {
         let hits = tree.hits(Ray::between(point, at));

@@ -15,12 +15,12 @@ pub type Colour = [f32; 3];
 pub struct Look {
     /// The colour.
     pub colour: Colour,
-    /// How much of what is behind is covered.
+    /// The covered share of the background.
     pub opacity: f32,
 }
 
 impl Look {
-    /// What is seen through a surface that looks like this: "over" (Porter & Duff 1984).
+    /// The view through a surface that looks like this: "over" (Porter & Duff 1984).
     fn over(self, behind: Colour) -> Colour {
         [0, 1, 2].map(|i| behind[i] * (1.0 - self.opacity) + self.colour[i] * self.opacity)
     }
@@ -93,7 +93,7 @@ pub fn by_layers(
     layers.pixels().map(blend).collect()
 }
 
-/// How many pixels differ in a bit.
+/// The number of pixels that differ in a bit.
 pub fn differences(a: &[Colour], b: &[Colour]) -> usize {
     let bits = |colour: &Colour| colour.map(f32::to_bits);
     a.iter().zip(b).filter(|(a, b)| bits(a) != bits(b)).count()

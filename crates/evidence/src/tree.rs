@@ -1,4 +1,4 @@
-//! A tree as plain lists, to measure its errors and its orders, whoever built it.
+//! A tree as plain lists, to measure its errors and its orders, for any builder.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -21,12 +21,12 @@ pub struct Tree {
     pub(crate) eye_side: fn(&Faces, PlaneId, &Eye) -> Ordering,
 }
 
-/// Nodes stand depth first, the front before the back. Fragments are numbered likewise: those on the
-/// plane, those of a front leaf, those of a back leaf, then those of the nodes below.
+/// Nodes stand depth first, the front before the back. Fragments are numbered likewise: fragments on the
+/// plane, in a front leaf, in a back leaf, then in the nodes below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) plane: PlaneId,
-    /// How many nodes there are on the path to it, itself included.
+    /// The number of nodes on the path to it, itself included.
     pub(crate) depth: usize,
     /// Whether it is in front of its parent.
     pub(crate) is_front: bool,
@@ -45,7 +45,7 @@ pub(crate) enum Side {
     Node(usize),
 }
 
-/// A fragment. Its vertices end where those of the next one begin; a whole face has none.
+/// A fragment. Its vertices end where the next fragment's begin; a whole face has none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     pub(crate) face: u32,
@@ -61,7 +61,7 @@ pub(crate) struct Vertex {
 }
 
 impl Tree {
-    /// How many fragments there are.
+    /// The number of fragments.
     pub fn len(&self) -> usize {
         self.fragments.len()
     }
@@ -71,12 +71,12 @@ impl Tree {
         self.fragments.is_empty()
     }
 
-    /// How often a piece was cut in two.
+    /// The number of times that a piece was cut in two.
     pub fn cuts(&self) -> usize {
         self.cuts
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
@@ -142,8 +142,8 @@ impl Tree {
             .map(move |node| (node.plane, [node.on.clone(), all(&node.front), all(&node.back)]))
     }
 
-    /// Writes the numbers of all fragments, back to front, in place of what the list held. O(n), with
-    /// a stack of its own.
+    /// Writes the numbers of all fragments, back to front, in place of the list's content. O(n), with its own
+    /// stack.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         order.clear();
         let eye = Eye::new(viewpoint, self.faces.lattice());

@@ -74,13 +74,13 @@ pub fn six_by_six() -> [[DVec3; 3]; 2] {
 ///
 /// # Errors
 ///
-/// None: the size is as it should be.
+/// No error: the size is valid.
 pub fn six_by_six_camera() -> Result<Camera, Error> {
     Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::new(3.0, 3.0, 0.0), 6.0, [6, 6])
 }
 
-/// What is in each row of the grid, worked by hand: the depths of the second triangle, those that
-/// show, and the triangles that show.
+/// The content of each row of the grid, worked by hand: the depths of the second triangle, the visible
+/// depths, and the visible triangles.
 pub const GRID_OF_SIX: [[&str; 3]; 6] = [
     ["2 4 6 8 10 ·", "2 4 5 5 5 5", "B B A A A A"],
     ["2 4 6 8 · ·", "2 4 5 5 5 5", "B B A A A A"],

@@ -1,4 +1,4 @@
-//! Scenes that trees cut into as many pieces as can be.
+//! Scenes that trees cut into the maximal number of pieces.
 
 #[cfg(test)]
 mod tests;
@@ -13,14 +13,13 @@ use binspace::scene::{Material, Scene};
 /// Coordinates are short binary fractions: nothing is rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Worst {
-    /// Half of the walls stand along x, half along y below them. The plane of each wall of the one
-    /// half cuts all of the other that are left, whatever the order: (n/2)² cuts. A plane between
-    /// the halves cuts nothing.
+    /// Half of the walls stand along x, half along y below them. The plane of each wall of the one half cuts
+    /// all remaining walls of the other, in any order: (n/2)² cuts. A plane between the halves cuts nothing.
     Walls,
     /// Upright strips along the two families of lines on the saddle z = xy, above the lines of the one
-    /// family, and a little lower below those of the other. No plane separates much of them: n² is the least (B. Chazelle, "Convex
-    /// partitions of polyhedra", 1984; M. S. Paterson & F. F. Yao, "Efficient binary space
-    /// partitions for hidden-surface removal and solid modeling", 1990).
+    /// family, and a little lower below the lines of the other. No plane separates much of them: n² is the
+    /// least (B. Chazelle, "Convex partitions of polyhedra", 1984; M. S. Paterson & F. F. Yao, "Efficient
+    /// binary space partitions for hidden-surface removal and solid modeling", 1990).
     Saddle,
     /// Sheets of which each three meet in a point, each point another one, as the planes
     /// t³ + xt² + yt + z = 0 do for different t: the point is given by the coefficients of the cubic
@@ -41,7 +40,7 @@ impl Worst {
         }
     }
 
-    /// A scene of so many polygons; of an even number where there are two halves.
+    /// A scene of this many polygons; the number is even where there are two halves.
     pub fn scene(self, count: u32) -> Scene {
         let mut scene = Scene::new(format!("{self}:{count}"), DVec3::Z);
         Material::palette().for_each(|material| {
@@ -58,12 +57,11 @@ impl Worst {
         scene
     }
 
-    /// How many fragments a tree of n polygons has that takes its planes from these alone, whatever
-    /// their order.
+    /// The number of fragments of a tree of n polygons that takes its planes from these alone, in any order.
     ///
-    /// Of walls and strips, each two that cross as seen from above are cut once: the first whose plane
-    /// is taken cuts the other there. Of sheets, each leaf is one of the cells between them, of which
-    /// there are 1 + n + C(n, 2) + C(n, 3), and each node has one fragment.
+    /// Of walls and strips, each two that cross as seen from above are cut once: the first whose plane is
+    /// taken cuts the other there. Of sheets, each leaf is one of the cells between them, of which there are
+    /// 1 + n + C(n, 2) + C(n, 3), and each node has one fragment.
     pub fn fragments(self, count: u32) -> u64 {
         let (n, half) = (u64::from(count), u64::from(count / 2));
         let pairs = n * n.saturating_sub(1) / 2;
@@ -95,8 +93,8 @@ fn walls(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
 }
 
 fn strips(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
-    /// How tall the strips are, and how far the one family is above the other: the saddle rises by
-    /// four times that from line to line.
+    /// The height of the strips, and the height of the one family above the other: the saddle rises by four
+    /// times that from line to line.
     const HEIGHT: f64 = 0.5;
     const GAP: f64 = 0.25;
     // A power of two, so that the saddle is about as high as wide.

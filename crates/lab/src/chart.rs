@@ -16,12 +16,12 @@ use plotters::prelude::{
 use self::scale::{Scale, label};
 use binspace_cli::failure::Failure;
 
-/// The picture, in pixels, and how much of it the legend takes.
+/// The picture, in pixels, and the part of it for the legend.
 const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
 /// How high the place for zero is, as a share of the axis above it.
 const LANE: f64 = 0.28;
-/// How far below the axis it is, as a share of its own height.
+/// Its distance below the axis, as a share of its own height.
 const GAP: f64 = 0.3;
 const FONT: &str = "sans-serif";
 
@@ -73,7 +73,7 @@ impl Series {
     }
 }
 
-/// What is drawn, and what it is called.
+/// The data to draw, and their name.
 #[derive(Debug)]
 pub(crate) struct Chart<'a> {
     pub(crate) title: &'a str,
@@ -83,8 +83,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
     pub(crate) falls: bool,
-    /// Whether values may be 0: they are drawn in a lane of their own below the axis, side by
-    /// side, so that none hides another.
+    /// Whether values may be 0: they are drawn in a separate lane below the axis, side by side, so that none
+    /// hides another.
     pub(crate) zero: bool,
     pub(crate) series: Vec<Series>,
 }
@@ -114,7 +114,7 @@ impl Chart<'_> {
         Ok(svg)
     }
 
-    /// Both axes, and the place for zero at the foot of the second.
+    /// Both axes, and the lane for zero at the foot of the second.
     fn scales(&self) -> (Scale, Scale, Lane) {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let mut x = match &self.ticks {
@@ -124,7 +124,7 @@ impl Chart<'_> {
         x.falls = self.falls;
         let mut y = Scale::decades(points().map(|&(_, y)| y).filter(|&y| y > 0.0));
         let height = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
-        // So far below the axis that no mark in it reaches what is not zero.
+        // The distance below the axis, so that no mark in it reaches a value that is not zero.
         let gap = GAP * height;
         let lane = Lane { top: y.low - gap, height, ends: [x.low, x.high] };
         if self.zero {

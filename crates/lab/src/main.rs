@@ -1,5 +1,5 @@
-//! The program `binspace-lab`: what a course on visibility teaches, and every way to decide
-//! visibility, measured and judged.
+//! The program `binspace-lab`: the content of a course on visibility, and every way to decide visibility,
+//! measured and judged.
 
 mod args;
 mod chart;

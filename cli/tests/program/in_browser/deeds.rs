@@ -1,10 +1,10 @@
-//! What people do with a page.
+//! The actions of people on a page.
 
 use super::page_and_tree;
 use crate::run::Folder;
 use testkit::browser::{browser, said};
 
-/// Does what people do, and says what came of it: a line for each that went wrong.
+/// Performs the actions of people, and returns a line for each that went wrong.
 const DEEDS: &str = "
     const wrong = [];
     const check = (name, isRight) => { if (!isRight) wrong.push(name); };

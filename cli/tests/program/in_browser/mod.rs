@@ -1,5 +1,5 @@
-//! Pages, and what a browser without a window makes of them. These tests are ignored, as they need
-//! Chromium: `cargo test in_browser -- --ignored` runs them.
+//! Pages in a headless browser. These tests are ignored, as they need Chromium: `cargo test in_browser --
+//! --ignored` runs them.
 
 mod deeds;
 mod orders;
@@ -12,7 +12,7 @@ use binspace::BspTree;
 
 use crate::run::Folder;
 
-/// A page, and the tree that it is of.
+/// A page, and its tree.
 pub(crate) fn page_and_tree(folder: &Folder, scene: &str) -> (String, BspTree) {
     folder.run(&format!("build {scene} -o s.bsp")).good();
     folder.run("page s.bsp -o s.html").good();

@@ -16,7 +16,7 @@ enum Eye {
 }
 
 impl Eye {
-    /// The eye as the library takes it; `None` if its position cannot be expressed.
+    /// The eye in the library's terms; `None` if its position cannot be expressed.
     fn viewpoint(self, tree: &BspTree) -> Option<Viewpoint> {
         match self {
             Self::At(point) => eye_at(tree, point),
@@ -64,7 +64,7 @@ fn eyes(tree: &BspTree, count: usize, seed: u64) -> Vec<Eye> {
     eyes
 }
 
-/// How many planes were decided by integers, and the orders of a page, hashed.
+/// The number of planes that integers decided, and the orders of a page, hashed.
 fn orders_of_page(browser: &str, folder: &Folder, page: &str, eyes: &[Eye]) -> Vec<u32> {
     let eyes: Vec<String> = eyes.iter().map(|eye| eye.script()).collect();
     let script = format!(
@@ -119,7 +119,7 @@ fn orders_are_those_of_the_library() {
         }
         compared += eyes.len();
         if scene == "city:500" {
-            // A copy that never asks the integers is found out.
+            // A copy that never uses the integers is detected.
             let broken = page.replace("if (isSure || ", "if (true || ");
             assert_ne!(broken, page);
             let broken = orders_of_page(browser, &folder, &broken, &eyes);

@@ -25,7 +25,7 @@ fn cameras(tree: &BspTree) -> Vec<(Camera, bool)> {
     cameras.into_iter().enumerate().map(|(i, camera)| (camera, i == 2 || i == 5)).collect()
 }
 
-/// Paints with a camera, each polygon in a colour of its own, and gives the polygon of each pixel.
+/// Paints with a camera, each polygon in its own colour, and returns the polygon of each pixel.
 fn script_of_picture(tree: &BspTree, camera: &Camera, culls_backs: bool) -> String {
     let lattice = tree.faces().lattice();
     let units = |length: f64| lattice.length_to_lattice(length) / LATTICE_LIMIT;
@@ -57,7 +57,7 @@ fn script_of_picture(tree: &BspTree, camera: &Camera, culls_backs: bool) -> Stri
     )
 }
 
-/// The polygon of each pixel as the library's painter has it, which decides pixels by exact lines.
+/// The polygon of each pixel by the library's painter, which decides pixels by exact lines.
 fn picture_of_library(tree: &BspTree, camera: &Camera, culls_backs: bool) -> Vec<u32> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
     let rays = if culls_backs { rays.with_front_faces_only() } else { rays };
@@ -71,7 +71,7 @@ fn picture_of_library(tree: &BspTree, camera: &Camera, culls_backs: bool) -> Vec
 
 const BACKGROUND: u32 = 0xff_ffff;
 
-/// The page rounds vertices: a pixel may differ whose centre lies on an edge but for a rounding.
+/// The page rounds vertices: a pixel may differ if its centre lies within a rounding of an edge.
 #[test]
 #[ignore = "needs Chromium"]
 fn pictures_are_those_of_the_library() {

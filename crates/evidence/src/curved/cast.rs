@@ -3,29 +3,29 @@
 use super::patch::Patch;
 use crate::plain::{PlainView, UNITS};
 
-/// What is certain about a ray and a patch.
+/// The certain facts about a ray and a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cast {
     /// It misses.
     Misses,
     /// It meets the patch, the first time between these depths, in world units.
     Meets([f64; 2]),
-    /// It passes too near the rim, or meets the patch in several places, to tell.
+    /// It passes too near the boundary, or meets the patch in several places, to tell.
     Doubtful,
 }
 
 /// Coefficients of a bicubic polynomial.
 type Net = [[i128; 4]; 4];
 
-/// How often parameters are halved. More: intervals of depth are narrower, and numbers longer: 2⁶⁴ and
-/// 6 bits a level.
+/// The number of times that parameters are halved. Too small: intervals of depth are wide. Too large: numbers
+/// are long, 2⁶⁴ and 6 bits a level.
 const LEVELS: u32 = 8;
 
 impl Cast {
-    /// Casts the ray of a pixel. Where the ray's two planes are both 0, it meets the patch: in parts of
-    /// the patch where one of them has coefficients of one sign alone it does not. Around the parts that
-    /// are left it does if, after a linear change of both functions, the first has opposite signs on two
-    /// opposite sides and the second on the other two (Poincaré & Miranda 1940).
+    /// Casts the ray of a pixel. The ray meets the patch where the ray's two planes are both 0. It misses
+    /// parts of the patch where one of them has coefficients of one sign alone. It meets the remaining parts
+    /// if, after a linear change of both functions, the first has opposite signs on two opposite sides and
+    /// the second on the other two (Poincaré & Miranda 1940).
     pub fn new(patch: &Patch, view: &PlainView, pixel: [u32; 2]) -> Self {
         let ray = view.ray(pixel);
         let plane = |axis: usize| {
@@ -103,7 +103,7 @@ fn blossoms(cubic: [i128; 4], [from, to]: [i128; 2], unit: i128) -> [i128; 4] {
     })
 }
 
-/// Whether both functions are surely 0 in some point of a part.
+/// Whether both functions are certainly 0 in some point of a part.
 fn surely_zero([f, g]: &[Net; 2]) -> bool {
     // Slopes, as shares of the largest, in 2¹⁶ths: any numbers would do for a proof, these do best.
     let slope = |net: &Net| [(net[3][1] - net[0][1]) as f64, (net[1][3] - net[1][0]) as f64];

@@ -21,9 +21,9 @@ type Vertex = ([f64; 2], DVec3);
 
 /// Cuts patches to triangles that are off by no more than `tolerance` pixels; a list for each patch.
 ///
-/// Each patch has a grid of its own. An edge has as many points as the finer of the patches that share
-/// it needs, and these points depend on its curve alone, whichever way it runs: so patches fit together.
-/// A strip joins a patch's grid to its edges.
+/// Each patch has its own grid. An edge has as many points as the finer of its two patches needs. These
+/// points depend on the edge's curve alone, in either direction, so patches fit together. A strip joins a
+/// patch's grid to its edges.
 pub fn mesh(patches: &[Patch], view: &PlainView, tolerance: f64) -> Vec<Vec<Triangle>> {
     let mut counts = Counts::new();
     for patch in patches {
@@ -76,7 +76,7 @@ fn triangles_of(patch: &Patch, count: u32, counts: &Counts) -> Vec<Triangle> {
 fn join(outer: &[Vertex], inner: &[Vertex], axis: usize, triangles: &mut Vec<Triangle>) {
     let (mut i, mut k) = (0, 0);
     while i + 1 < outer.len() || k + 1 < inner.len() {
-        // The one goes on whose next point comes first.
+        // Advances the side whose next point comes first.
         let next =
             |line: &[Vertex], at: usize| line.get(at + 1).map_or(f64::INFINITY, |v| v.0[axis]);
         if next(outer, i) <= next(inner, k) {
@@ -93,7 +93,7 @@ fn triangle(vertices: [Vertex; 3]) -> Triangle {
     Triangle { parameters: vertices.map(|v| v.0), corners: vertices.map(|v| v.1) }
 }
 
-/// An edge in the one of its two directions that stands for both, and whether that is the other one.
+/// An edge in its canonical direction, and whether that is the reverse direction.
 fn directed(mut line: [Corner; 4]) -> ([Corner; 4], bool) {
     let flips = line[3] < line[0];
     if flips {
@@ -125,8 +125,8 @@ fn turned(net: &[[Corner; 4]; 4]) -> [[Corner; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]))
 }
 
-/// How many rows and columns a patch needs: triangles whose parameters differ by 1 / n are off by the
-/// largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
+/// The numbers of rows and columns that a patch needs. Triangles whose parameters differ by 1 / n are off by
+/// the largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
 fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     let (mut bends, three) = ([0.0f64; 3], 0..3usize);
     for (bend, lines) in bends.iter_mut().zip([*net, turned(net)]) {

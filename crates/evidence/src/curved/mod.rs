@@ -1,4 +1,4 @@
-//! Curved surfaces in a depth buffer, each by a routine of its own, and cut to triangles for the tree.
+//! Curved surfaces in a depth buffer, each by its own routine, and triangulated for the tree.
 
 mod cast;
 mod mesh;
@@ -30,7 +30,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Polygons by their own routine, the library's; they have their numbers.
+    /// Polygons by the library's routine, under their own numbers.
     pub fn new(rays: &Rays, faces: &Faces) -> Self {
         let depth = zbuffer(rays, faces);
         let number = |&face: &u32| if face == NONE { NONE } else { faces.polygon(face) as u32 };

@@ -1,4 +1,4 @@
-//! Polygons, a sphere and patches together, and what is surely nearest.
+//! Polygons, a sphere and patches together, and the surface that is surely nearest.
 
 use super::{Cast, Patch, Shared, Sphere};
 use crate::plain::{Corner, PlainView};
@@ -26,8 +26,8 @@ impl Surfaces<'_> {
     }
 }
 
-/// The number of the surface that a pixel's ray surely meets first, [`NONE`] if it surely meets none;
-/// `None` if that is doubtful. The sphere against polygons is decided exactly; patches are known by
+/// The number of the surface that a pixel's ray certainly meets first, [`NONE`] if it certainly meets none;
+/// `None` if that is uncertain. The sphere against polygons is decided exactly; patches are known by
 /// intervals of depth.
 pub fn nearest(surfaces: &Surfaces<'_>, view: &PlainView, pixel: [u32; 2]) -> Option<u32> {
     let sphere = &surfaces.sphere;

@@ -8,15 +8,15 @@ use crate::plain::{Corner, PlainView, UNITS};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patch(pub [[Corner; 4]; 4]);
 
-/// The side of a part, in pixels, at which it counts as a point. Larger: the rim is thicker; smaller:
-/// time.
+/// The side of a part, in pixels, at which it counts as a point. Too large: the boundary is thicker. Too
+/// small: time.
 const POINT: f64 = 1.0 / 64.0;
 
 type Net = [[[f64; 3]; 4]; 4];
 
 impl Patch {
-    /// Draws it by its own routine (Catmull 1974): parts are halved until they are points. Of these
-    /// only those count that have a pixel's centre, so parts without one are left out early.
+    /// Draws it by its own routine (Catmull 1974): parts are halved until they are points. Only points at a
+    /// pixel's centre count, so parts without one are left out early.
     pub fn draw(&self, view: &PlainView, number: u32, picture: &mut Shared) {
         let net: Net = self.0.map(|row| row.map(|p| p.map(|c| c as f64 / UNITS)));
         let mut parts = vec![net];

@@ -88,7 +88,7 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
                 *sides.entry(ends).or_default() += 1;
             }
         }
-        // Each side is that of two triangles, but on the rim: six edges of the two patches.
+        // Two triangles share each side, except on the boundary: six edges of the two patches.
         assert!(sides.values().all(|&count| count <= 2));
         let rim: Vec<_> = sides.iter().filter(|(_, count)| **count == 1).collect();
         let mut ends: BTreeMap<[u64; 3], usize> = BTreeMap::new();
@@ -100,7 +100,7 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
         let corners: std::collections::BTreeSet<_> = sides.keys().flatten().collect();
         assert_eq!(corners.len() + triangles.len() + 1, sides.len() + 2, "{tolerance}");
         assert_eq!(ends.len(), rim.len());
-        // How far middles are from the patch, in pixels.
+        // Distances of middles from the patch, in pixels.
         let pixel = 2.0 / view.ray([0, 0])[2].abs() as f64;
         let mut largest = 0.0f64;
         for (patch, triangles) in Patch::pair().iter().zip(mesh(&Patch::pair(), &view, tolerance)) {
@@ -117,8 +117,8 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
     }
 }
 
-/// An edge is cut as the finer of its two patches needs: also where only one of them is bent across it, and
-/// whichever comes first.
+/// An edge is divided as finely as the finer of its two patches needs: also where only one of them is bent
+/// across it, in either order.
 #[test]
 fn shared_edges_are_as_fine_as_either_patch_needs() {
     let view = PlainView::new(SIZE);

@@ -20,8 +20,8 @@ fn volume(p: Corner, q: Corner, r: Corner, s: Corner) -> i64 {
     a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
 }
 
-/// The triangles of the convex hull of points, fronts outside: all that have every other point
-/// behind. `None` if four points are in one plane there.
+/// The triangles of the convex hull of points, fronts outside: each has every other point behind it. `None`
+/// if four points are in one plane there.
 fn hull(points: &[Corner]) -> Option<Vec<[DVec3; 3]>> {
     let mut triangles = Vec::new();
     for (i, &p) in points.iter().enumerate() {
@@ -96,7 +96,7 @@ fn seen(polygons: &[[DVec3; 4]], camera: &Camera) -> (Facing, usize) {
 fn a_box_shows_one_two_or_three_faces() {
     let cube = cuboid(DVec3::ZERO, DVec3::ONE);
     let facing = |front, back, edge_on| Facing { front, back, edge_on };
-    // Along an axis, C = 0 for four faces; along two, for two; then for none.
+    // Along an axis, C = 0 for four faces; along two, for two; otherwise for none.
     for (direction, expected) in [
         (DVec3::NEG_Z, facing(1, 1, 4)),
         (DVec3::new(-1.0, 0.0, -1.0), facing(2, 2, 2)),

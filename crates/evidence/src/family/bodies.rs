@@ -8,8 +8,8 @@ use binspace::internals::SplitMix64;
 use binspace::internals::cuboid;
 use binspace::internals::unit_circle;
 
-/// Unit squares of an integer grid with `side` cells a side, half of all that there are, some of
-/// them twice, and diagonals through cells. One eye is itself a point of the grid.
+/// Unit squares of an integer grid with `side` cells a side: half of all squares, some of them twice, and
+/// diagonals through cells. One eye is itself a point of the grid.
 pub(super) fn lattice(side: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut scene = empty("lattice", f64::from(side));
@@ -48,9 +48,8 @@ fn cells(side: u32) -> impl Iterator<Item = DVec3> {
         .map(move |i| DVec3::new(number(i), number(i / side), number(i / side / side)))
 }
 
-/// Boxes of a grid with `side` cells a side, all turned alike, each with a label on its top. Four
-/// cells in ten are empty. The corners of each box are computed for themselves, so what should
-/// coincide does so but for rounding.
+/// Boxes of a grid with `side` cells a side, all turned alike, each with a label on its top. Four cells in
+/// ten are empty. The corners of each box are computed separately, so coincident corners differ by rounding.
 pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -76,14 +75,14 @@ pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// `count` bars along the sides of a regular polygon, each longer than the side: at its end it lies
-/// over the beginning of the next.
+/// `count` bars along the sides of a regular polygon, each longer than the side: its end lies over the
+/// beginning of the next.
 pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
     pose.origin = random.point(0.0, 1.0);
     let mut scene = empty("cycle", f64::from(count));
-    // Of a polygon inscribed in the unit circle; past its corners by a part of the side.
+    // A polygon inscribed in the unit circle; past its corners by a part of the side.
     let n = u64::from(count);
     let side = unit_circle(1, n).distance(unit_circle(0, n));
     let (past, width, rise) = (0.3 * side, 0.12 * side.min(0.6), 0.1 * side);
@@ -98,7 +97,7 @@ pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     });
     push_shuffled(&mut scene, bars.collect(), &mut random);
     let mut looks = pose.looks(3.4, 0.6, &mut random);
-    // One from near by, as many bars are small.
+    // One view from near by, as many bars are small.
     let eye = DVec3::new(1.0 + 0.5 * side, 0.1 * side, 3.0 * side);
     looks[1] = pose.look(eye, DVec3::X);
     Trial::new(scene, looks)

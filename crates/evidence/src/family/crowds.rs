@@ -34,7 +34,7 @@ fn crowd(
 /// Forty triangles in a unit cube around a point at `distance` from the origin, and one with a
 /// corner at the origin, so that the scene is as wide as that.
 pub(super) fn offset(distance: f64, seed: u64) -> Trial {
-    /// A unit vector, but for its own rounding.
+    /// A unit vector, up to its own rounding.
     const AWAY: DVec3 = DVec3::new(0.6, 0.64, 0.48);
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -69,7 +69,7 @@ pub(super) fn nesting(count: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// A triangle around a point of the plane z = 0 that has corners on both sides of it.
+/// A triangle around a point of the plane z = 0, with corners on both sides of the plane.
 fn loop_until_through(at: DVec3, size: f64, random: &mut SplitMix64) -> Vec<DVec3> {
     for _ in 0..1000 {
         let triangle = around(at, size, random);

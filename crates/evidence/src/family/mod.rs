@@ -31,9 +31,9 @@ use trial::{Look, Trial};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Scenes and cameras are the same, bit for bit, on every machine. They are meant to be decided
-/// with a tolerance of [`TOLERANCE`](Self::TOLERANCE), 0: most of the difficulties are smaller than
-/// the default tolerance, which would hide them.
+/// Scenes and cameras are the same, bit for bit, on every machine. Decide them with a tolerance of
+/// [`TOLERANCE`](Self::TOLERANCE), 0: most of the difficulties are smaller than the default tolerance, which
+/// would hide them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Family {
     /// Triangles that cross each other; the difficulty is the angle between them in radians.
@@ -82,10 +82,10 @@ impl Family {
         Self::DepthRange,
     ];
 
-    /// The coplanar tolerance that the families are meant for: none.
+    /// The coplanar tolerance for the families: none.
     pub const TOLERANCE: f64 = 0.0;
 
-    /// The name by which a user asks for the family.
+    /// The family's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Angle => "angle",
@@ -102,7 +102,7 @@ impl Family {
         }
     }
 
-    /// One line on what the scenes are.
+    /// One line on the scenes.
     pub fn description(self) -> &'static str {
         match self {
             Self::Angle => "six triangles that cross each other at a small angle",
@@ -119,7 +119,7 @@ impl Family {
         }
     }
 
-    /// What the difficulty is, for the axis of a plot.
+    /// The meaning of the difficulty, for the axis of a plot.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Angle => "angle between triangles [rad]",
@@ -136,8 +136,8 @@ impl Family {
         }
     }
 
-    /// The difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the
-    /// smallest to the largest); a few of them if it has to be `quick`.
+    /// The difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the smallest to the
+    /// largest); a few of them if `quick`.
     pub fn sweep(self, quick: bool) -> &'static [f64] {
         const DECADES: &[f64] =
             &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];

@@ -47,9 +47,8 @@ impl Pose {
         Look { eye: self.place(eye), target: self.place(target), up: self.direction(up) }
     }
 
-    /// Views of what lies around the frame's origin within `reach`: from the front (where z comes
-    /// from), from within, from behind, and slantingly from around. `distance` takes the front
-    /// view.
+    /// Views of the surroundings of the frame's origin within `reach`: from the front (where z comes from),
+    /// from within, from behind, and slantingly from around. `distance` takes the front view.
     pub(super) fn looks(&self, distance: f64, reach: f64, random: &mut SplitMix64) -> Vec<Look> {
         let mut jitter = |size: f64| random.point(-size, size);
         let around = [
@@ -79,7 +78,7 @@ pub(super) fn empty(name: &str, difficulty: f64) -> Scene {
     scene
 }
 
-/// Adds polygons in random order, so that the order of input is of no help.
+/// Adds polygons in random order, so that input order does not help.
 pub(super) fn push_shuffled(
     scene: &mut Scene,
     mut polygons: Vec<Vec<DVec3>>,

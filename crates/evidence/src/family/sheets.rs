@@ -1,4 +1,4 @@
-//! Thin differences: planes that all but coincide, and triangles that all but have no width.
+//! Thin differences: planes that almost coincide, and triangles that have almost no width.
 
 use glam::{DVec2, DVec3};
 
@@ -7,8 +7,8 @@ use super::trial::Trial;
 use binspace::internals::SplitMix64;
 use binspace::internals::unit_circle;
 
-/// Six triangles around one point. Triangle `i` rises by `angle` in a direction of its own, a sixth
-/// of a turn from the next one's, so neighbours cross at `angle` and others at up to twice that.
+/// Six triangles around one point. Triangle `i` rises by `angle` in its own direction, a sixth of a turn from
+/// the next one's. So neighbours cross at `angle`, and other triangles at up to twice that.
 pub(super) fn angle(angle: f64, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -48,9 +48,9 @@ pub(super) fn gap(gap: f64, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// Sixteen triangles of length 1 and, where they meet, width `width`: eight across eight, each
-/// rolled about its length and lifted by about a width, so that most pass through each other.
-/// The views are as near as the width asks for.
+/// Sixteen triangles of length 1 and, where they meet, width `width`: eight across eight. Each is rolled
+/// about its length and lifted by about a width, so that most of them penetrate each other. The views are as
+/// near as the width requires.
 pub(super) fn sliver(width: f64, seed: u64) -> Trial {
     const EACH: i32 = 8;
     /// Where along the length the others are crossed.

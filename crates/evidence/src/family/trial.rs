@@ -7,14 +7,14 @@ use binspace::scene::Scene;
 /// The tangent of half the vertical field of view: about 39 degrees.
 pub(super) const HALF_HEIGHT: f64 = 0.35;
 
-/// An eye, what it looks at, and what is up.
+/// An eye, its target, and the up direction.
 pub(super) struct Look {
     pub(super) eye: DVec3,
     pub(super) target: DVec3,
     pub(super) up: DVec3,
 }
 
-/// A scene with the views that go with it.
+/// A scene with its views.
 pub(super) struct Trial {
     pub(super) scene: Scene,
     pub(super) looks: Vec<Look>,

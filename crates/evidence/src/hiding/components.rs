@@ -1,4 +1,4 @@
-//! Cycles of a graph, and what has to go so that there are none.
+//! Cycles of a graph, and the minimal feedback vertex set.
 
 /// The most vertices of which all subsets are tried.
 pub(super) const SEARCHED: usize = 22;
@@ -50,8 +50,8 @@ pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usiz
     (0..=all).filter(enough).map(|removed| removed.count_ones() as usize).min()
 }
 
-/// Whether these vertices, a bit each, have a cycle among them: those that lead to none of the
-/// others are taken away until there are none.
+/// Whether these vertices, a bit each, have a cycle among them: vertices without an edge to the others are
+/// removed until none remains.
 fn has_cycle(leads: &[u32], mut left: u32) -> bool {
     loop {
         let ends = (0..leads.len()).filter(|&v| left >> v & 1 == 1 && leads[v] & left == 0);

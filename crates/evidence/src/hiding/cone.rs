@@ -1,4 +1,4 @@
-//! What an eye sees of a face: the cone of rays through it.
+//! The cone of rays from an eye through a face.
 
 use binspace::internals::{Faces, PlaneId, VertexId};
 use dashu_int::IBig;
@@ -6,7 +6,7 @@ use num_traits::Signed;
 
 use crate::place::{Place, Plane};
 
-/// A point over a weight that is not negative, or a plane: what is in front has a positive product.
+/// A point over a weight that is not negative, or a plane: points in front have a positive product.
 type Quad = [IBig; 4];
 
 /// A face as an eye sees it.
@@ -15,9 +15,8 @@ pub(super) struct Seen {
     corners: Vec<Quad>,
     /// The face's plane, with the eye in front.
     plane: Quad,
-    /// The planes through the eye and each edge, with the face in front. Inside of them all is the
-    /// cone of the eye's rays through the face, and nothing behind the eye: the cone comes to a
-    /// point there.
+    /// The planes through the eye and each edge, with the face in front. Their intersection is the cone of
+    /// the eye's rays through the face, and nothing behind the eye: the cone's apex is there.
     sides: Vec<Quad>,
 }
 

@@ -28,7 +28,7 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
 
 type Vector = [RBig; 3];
 
-/// How far along a ray a face is met inside of its edges, in rationals.
+/// The distance along a ray at which it meets a face inside of its edges, in rationals.
 fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> {
     let face = Face::new(faces, face);
     let speed = scalar(&face.plane.normal, along);
@@ -40,8 +40,8 @@ fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> 
     (face.place(&at).is_gt() && t.is_positive()).then_some(t)
 }
 
-/// Every pair that is found has a ray that says so: the one through the middle of the part where
-/// the one is in front, by rationals.
+/// Every detected pair has a ray as proof: the one through the middle of the part where the one is in front,
+/// by rationals.
 fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
     let viewpoint = Viewpoint::eye(eye);
     let hiding = Hiding::of(faces, viewpoint);
@@ -102,8 +102,8 @@ fn who_hides_whom_is_what_single_rays_say() {
     assert!(checked > 200, "{checked}");
 }
 
-/// Rays through the centres of pixels, by the judge's picture and what it looks like without what it
-/// shows: in each pixel, the first face hides the second.
+/// Rays through the centres of pixels, by the judge's picture and its picture without the visible faces: in
+/// each pixel, the first face hides the second.
 #[test]
 fn nothing_that_hides_in_a_picture_is_overlooked() {
     let scene = Family::Penetration.scene(12.0, 5);
@@ -120,7 +120,7 @@ fn nothing_that_hides_in_a_picture_is_overlooked() {
                 only.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
                 painter.finish()
             };
-            // Where both are, and what shows there in truth is A.
+            // Where both are, A is the truly visible one.
             let (one, other) = (draw(&[a]), draw(&[b]));
             let pixels = one.faces().iter().zip(other.faces()).zip(truth.image().faces());
             let hides = pixels.filter(|((p, q), t)| **p == a && **q == b && **t == a).count();
@@ -139,7 +139,7 @@ fn wrong(rays: &Rays, faces: &Faces, order: &[u32]) -> usize {
     compare(rays, faces, &painter.finish(), zbuffer(rays, faces).image()).wrong()
 }
 
-/// All orders of so many faces.
+/// All orders of this many faces.
 fn orders(count: u32) -> Vec<Vec<u32>> {
     let mut all = vec![vec![]];
     for face in 0..count {
@@ -203,7 +203,7 @@ fn scenes_without_cycles_are_painted_whole_and_those_with_one_in_no_order() {
 #[test]
 fn bars_in_a_cycle_need_one_cut_and_no_order_is_right() {
     let scene = Family::Cycle.scene(5.0, 1);
-    // Flat but for rounding: without a tolerance, a bar would be two triangles.
+    // Flat except for rounding: without a tolerance, a bar would be two triangles.
     let (faces, _) = Faces::new(scene.polygons(), None).unwrap();
     let camera = Family::Cycle.cameras(5.0, 1, [160, 120]).unwrap().remove(0);
     let hiding = Hiding::of(&faces, camera.viewpoint());
@@ -230,7 +230,7 @@ fn neither_newell_nor_the_tree_cuts_fewer_than_needed() {
     assert!(needed > 10, "{needed}");
 }
 
-/// Of a city as well, where many polygons are as deep as others, or have no depth.
+/// Also for a city, where many polygons have the same depth, or no depth.
 #[test]
 fn overlaps_in_depth_are_those_of_all_pairs() {
     for (scene, least_ties) in [(scene::random_triangles(60, 2), 0), (scene::city(60, 2), 50)] {

@@ -4,20 +4,20 @@ use glam::DVec3;
 
 use binspace::internals::Faces;
 
-/// How the areas of pieces differ from those of the faces that they are of.
+/// The difference between the areas of pieces and the areas of their faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct AreaError {
     /// Pieces.
     pub pieces: usize,
-    /// The largest difference of a face's area and that of its pieces, as a share of the former.
+    /// The largest difference between a face's area and the area of its pieces, as a share of the former.
     pub worst: f64,
     /// The sum of these differences over all faces, as a share of all area.
     pub total: f64,
 }
 
-/// Compares the areas of pieces, given by their face and their vertices in lattice units, with
-/// those of the faces. `for_each` is to show every piece; `None` if it shows none.
+/// Compares the areas of pieces, given by their face and their vertices in lattice units, with the areas of
+/// the faces. `for_each` is to show every piece; `None` if it shows none.
 ///
 /// Areas are computed in `f64` from the rounded vertices, so a sum of many good pieces is off by
 /// some 1e-16 of it.

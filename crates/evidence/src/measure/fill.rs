@@ -7,7 +7,7 @@ use binspace::raster::{Image, NONE};
 /// outlines are off by up to 2⁻¹⁵.
 const NEAR: f64 = 4e-5;
 
-/// What covers a pixel's centre.
+/// The cover of a pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pixel {
     Nothing,
@@ -28,7 +28,7 @@ pub struct Filled {
 pub struct FillError {
     /// Pixels that show a polygon in either picture and could be compared.
     pub compared: usize,
-    /// Of those, the ones that show another polygon, or one where there is none, or none where there is one.
+    /// Compared pixels that show another polygon, or one where there is none, or none where there is one.
     pub wrong: usize,
     /// Pixels whose centre lies too near to an outline to tell.
     pub unsure: usize,
@@ -41,8 +41,8 @@ impl Filled {
         Self { size, pixels: vec![Pixel::Nothing; size[0] * size[1]] }
     }
 
-    /// Fills what outlines wind around (the nonzero rule); corners are in pixels, x to the right and y down, from the
-    /// corner of the first one.
+    /// Fills outlines by the nonzero rule. Corners are in pixels, x to the right and y down, from the corner
+    /// of the first one.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
@@ -139,7 +139,7 @@ mod tests {
             let expected = if covered(i % 5, i / 5) { Pixel::Polygon(7) } else { Pixel::Nothing };
             assert_eq!(pixel, expected, "{i}");
         }
-        // A side through centres cannot be told; what is later covers it.
+        // A side through centres cannot be told; a later outline covers it.
         filled.fill(8, std::iter::once(&[[0.5, 0.0], [2.0, 0.0], [2.0, 4.0], [0.5, 4.0]][..]));
         assert_eq!(filled.pixels[5], Pixel::Unsure);
         assert_eq!(filled.pixels[6], Pixel::Polygon(8));

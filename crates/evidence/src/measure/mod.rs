@@ -1,4 +1,4 @@
-//! Error measures: what a [method](crate::method) gets wrong, against exact truth.
+//! Error measures: the errors of a [method](crate::method), against exact truth.
 
 mod area;
 mod fill;

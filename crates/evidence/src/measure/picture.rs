@@ -7,7 +7,7 @@ use binspace::internals::Faces;
 use binspace::raster::{Comparison, Image, Outline, Piece, Rays, Verdict, compare, for_each_run};
 use dashu_int::IBig;
 
-/// What is wrong with painted pictures, counted over all that were added.
+/// The errors of painted pictures, counted over all added pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PictureError {
@@ -21,17 +21,17 @@ pub struct PictureError {
     pub holes: usize,
     /// Pixels that show a polygon where there is none.
     pub spills: usize,
-    /// How far behind the nearest polygon a painted one is at most, as a share of the extent.
+    /// The largest distance of a painted polygon behind the nearest one, as a share of the extent.
     pub depth_max: f64,
-    /// How far on average, over the wrong pixels in which the painted polygon is met at all.
+    /// The mean distance, over the wrong pixels in which the ray meets the painted polygon at all.
     pub depth_mean: f64,
-    /// How many these are.
+    /// The number of these pixels.
     pub depth_pixels: usize,
 }
 
 impl PictureError {
-    /// What is wrong with one picture; `truth` is the [exact depth
-    /// buffer](binspace::raster::zbuffer)'s, made with the same rays.
+    /// The errors of one picture; `truth` is the [exact depth buffer](binspace::raster::zbuffer)'s, made with
+    /// the same rays.
     pub fn of(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Self {
         let found = compare(rays, faces, painted, truth);
         let depth = DepthError::of(rays, faces, painted, truth, &found);
@@ -49,7 +49,7 @@ impl PictureError {
         }
     }
 
-    /// How many pixels are wrong: all that differ but the contested ones.
+    /// The number of wrong pixels: all that differ, except the contested ones.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
@@ -75,8 +75,8 @@ impl AddAssign for PictureError {
     }
 }
 
-/// How far behind the nearest face the painted ones are, in world units along the direction of view: over the
-/// pixels in which the order is wrong, and whose rays meet the painted face at all.
+/// The distances of the painted faces behind the nearest ones, in world units along the direction of view.
+/// They cover the pixels in which the order is wrong, and whose rays meet the painted face at all.
 #[derive(Clone, Copy, Debug, Default)]
 struct DepthError {
     pixels: usize,
@@ -123,7 +123,7 @@ impl DepthError {
     }
 }
 
-/// How far along a ray it meets the plane of a face: a numerator and a denominator.
+/// The distance along a ray to the plane of a face: a numerator and a denominator.
 fn met(faces: &Faces, face: u32, [start, direction]: [[i128; 3]; 2]) -> [IBig; 2] {
     let [p, q, r] =
         faces.reference_triangle(face).map(|corner| faces.corner(corner).map(|c| c as i128));
@@ -167,7 +167,7 @@ mod tests {
         (faces, rays)
     }
 
-    /// Painted by mistake where its ray misses it, a face has no depth there.
+    /// A face painted by mistake where its ray misses it has no depth there.
     #[test]
     fn faces_that_are_not_met_have_no_depth_error() {
         let (faces, rays) = scene(&[(3.0, 0.0), (6.0, -3.0)], None);
@@ -180,8 +180,8 @@ mod tests {
         }
     }
 
-    /// Two faces behind a third, painted in turn: each pixel is judged by the faces of its own. One of the
-    /// two is met in the left half alone.
+    /// Two faces behind a third, painted in turn: each pixel is judged by its own faces. One of the two is
+    /// met in the left half alone.
     #[test]
     fn each_pixel_is_judged_by_its_own_faces() {
         let tolerance = 0.01;

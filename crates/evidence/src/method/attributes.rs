@@ -6,7 +6,7 @@ use binspace::BspTree;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 use binspace::view::Camera;
 
-/// How attributes come from the vertices of a piece to the pixels within it.
+/// The interpolation of attributes from the vertices of a piece to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Across {
     /// As linear functions on the picture. That is right only for pieces across the view: others
@@ -17,12 +17,12 @@ pub enum Across {
     Polygon,
 }
 
-/// Paints a tree from back to front, and returns the attributes of what shows in each pixel, row by
-/// row from the top left; `None` where nothing shows.
+/// Paints a tree from back to front, and returns the attributes of the visible polygon in each pixel, row by
+/// row from the top left; `None` for an empty pixel.
 ///
-/// `attributes` are those of each polygon's corners. Vertices that cuts have made get theirs by their
-/// [weights](binspace::Fragment::weights) over the corners. The polygons must be ahead of a
-/// perspective camera.
+/// `attributes` are the attributes of each polygon's corners. Vertices made by cuts interpolate them with
+/// their [weights](binspace::Fragment::weights) over the corners. The polygons must be ahead of a perspective
+/// camera.
 pub fn paint_attributes<const N: usize>(
     tree: &BspTree,
     camera: &Camera,

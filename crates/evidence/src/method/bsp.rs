@@ -12,8 +12,8 @@ use binspace::{BspTree, BuildOptions, Preparation};
 
 /// A BSP tree (Fuchs, Kedem & Naylor 1980).
 ///
-/// Fragments of the exact tree are drawn as bounded by their lines, those of rounded trees as bounded
-/// by their rounded vertices.
+/// Fragments of the exact tree are bounded by their lines; fragments of rounded trees are bounded by their
+/// rounded vertices.
 #[derive(Clone, Debug)]
 pub struct Bsp {
     options: BuildOptions,
@@ -29,7 +29,7 @@ enum Arithmetic {
 }
 
 impl Bsp {
-    /// The tree that the library builds: no decision is ever wrong. The tolerance is that of the faces.
+    /// The library's tree: no decision is ever wrong. The tolerance is the faces' tolerance.
     pub fn exact(options: BuildOptions) -> Self {
         Self { options, arithmetic: Arithmetic::Exact }
     }

@@ -13,9 +13,9 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Everything in front of the eye. Parts of polygons that are nearer to the eye's plane than
-    /// 2⁻⁴⁴ of the scene's furthest depth are cut off: larger, and what is near the eye goes
-    /// missing; smaller, and coordinates on the picture lose their digits.
+    /// Everything in front of the eye. Parts of polygons that are nearer to the eye's plane than 2⁻⁴⁴ of the
+    /// scene's furthest depth are cut off. Too large: polygons near the eye go missing. Too small:
+    /// coordinates on the picture lose their digits.
     ///
     /// `None` if nothing is in front of the eye.
     pub(super) fn ahead(space: &CameraSpace, faces: &Faces) -> Option<Self> {
@@ -48,8 +48,7 @@ pub(super) struct Clipper {
     spare: Vec<Vertex>,
 }
 
-/// What is kept beyond the sides of the picture, in pixels, so that the cuts cross no pixel's
-/// centre.
+/// The margin kept beyond the sides of the picture, in pixels, so that the cuts cross no pixel's centre.
 const MARGIN: f64 = 1.0;
 
 impl Clipper {
@@ -102,7 +101,7 @@ fn keep(polygon: &[Vertex], inside: impl Fn(&Vertex) -> f64, kept: &mut Vec<Vert
         if a >= 0.0 {
             kept.push(*here);
         }
-        // From the inner end, whichever way the edge runs: neighbours get the same vertex.
+        // From the inner end, in either direction of the edge: neighbours get the same vertex.
         if a > 0.0 && b < 0.0 {
             kept.push(Vertex::between(here, next, a / (a - b)));
         } else if a < 0.0 && b > 0.0 {

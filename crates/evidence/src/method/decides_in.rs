@@ -2,15 +2,15 @@
 
 use std::fmt;
 
-/// Where a method decides what is visible: I. E. Sutherland, R. F. Sproull & R. A. Schumacker, "A
+/// The space in which a method decides visibility: I. E. Sutherland, R. F. Sproull & R. A. Schumacker, "A
 /// characterization of ten hidden-surface algorithms" (1974).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
-    /// Among the polygons of the scene, whatever the picture's resolution.
+    /// Among the polygons of the scene, at any resolution of the picture.
     Object,
     /// In each pixel.
     Image,
-    /// Priorities among the polygons, what overlaps in the picture.
+    /// Priorities among the polygons, overlaps in the picture.
     Both,
     /// It does not decide.
     Neither,

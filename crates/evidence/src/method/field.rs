@@ -10,7 +10,7 @@ use binspace::BuildOptions;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// How trees are built. The tolerance is that of the faces, whatever is said here.
+    /// The options of trees. The tolerance here has no effect: the faces' tolerance counts.
     pub build: BuildOptions,
     /// Newell's algorithm, its budgets and its epsilon.
     pub newell: Newell,
@@ -74,8 +74,8 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     for how in walks {
         methods.push(Box::new(buffer(Integer(24)).with_interpolation(how)));
     }
-    // Other conventions: the later of equal depths shows; larger is nearer, and the buffer is cleared
-    // to the far plane, so that what is there does not show.
+    // Other conventions: the later of equal depths shows; larger is nearer. The buffer is cleared to the far
+    // plane, so that faces there do not show.
     let rules = DepthRules::DEFAULT;
     let larger = rules.with_nearer(Nearer::Larger).with_test(DepthTest::Greater);
     for rules in [rules.with_test(DepthTest::LessOrEqual), larger.with_clear(Clear::Smallest)] {

@@ -10,10 +10,9 @@ use binspace::view::Camera;
 
 /// Another method, shown only the faces that turn their fronts to the eye.
 ///
-/// Of a convex body these are all that can be seen, and none of them hides another: there the step
-/// alone, before [`InputOrder`](super::InputOrder), gives the exact picture. Of other closed bodies
-/// it removes about half of the faces ahead of the method. Surfaces that are not closed lose what
-/// they show of their backs.
+/// All visible faces of a convex body are front faces, and none of them hides another. There the step alone,
+/// before [`InputOrder`](super::InputOrder), gives the exact picture. For other closed bodies it removes
+/// about half of the faces ahead of the method. Surfaces that are not closed lose their visible backs.
 ///
 /// The side of the eye is decided exactly.
 #[derive(Clone, Copy, Debug, Default)]
@@ -64,8 +63,7 @@ impl Prepared for Ready<'_> {
     }
 }
 
-/// The faces that a method has to look at: all, or, of rays that meet only fronts, those that show
-/// theirs.
+/// The faces that a method has to process: all faces; or front faces only, for rays that meet only fronts.
 pub(super) fn shown<'a>(rays: &Rays, faces: &'a Faces) -> impl Fn(u32) -> bool + use<'a> {
     let eye = rays.is_front_only().then(|| Eye::new(rays.viewpoint(), faces.lattice()));
     move |face| eye.is_none_or(|eye| faces.eye_side(PlaneId::face(face), &eye) == Ordering::Greater)

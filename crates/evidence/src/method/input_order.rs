@@ -8,7 +8,7 @@ use binspace::internals::Faces;
 use binspace::raster::{Outline, Painter, Piece, Rays};
 use binspace::view::Camera;
 
-/// Paints faces in the order of the input: what all other methods are measured against.
+/// Paints faces in the order of the input: the baseline of all other methods.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct InputOrder;
 

@@ -1,9 +1,9 @@
 //! Ways to decide visibility, behind one trait, so that speed and error can be measured side by
 //! side.
 //!
-//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after
-//! another. What it paints is a picture of faces, to be [compared](binspace::raster::compare) with
-//! that of the exact depth buffer.
+//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another. It
+//! paints a picture of faces, to be [compared](binspace::raster::compare) with the picture of the exact depth
+//! buffer.
 //!
 //! | method | decides by | errs where |
 //! |---|---|---|
@@ -75,11 +75,10 @@ use binspace::view::Camera;
 
 /// A way to decide which face shows in each pixel.
 pub trait Method: Send + Sync {
-    /// A short name, different from those of all other methods and options: "newell",
-    /// "bsp f64 1e-6", "z 24".
+    /// A short name, unique among all methods and options: "newell", "bsp f64 1e-6", "z 24".
     fn name(&self) -> String;
 
-    /// Where it decides what is visible.
+    /// The space in which it decides visibility.
     fn space(&self) -> Space;
 
     /// Does all work that does not depend on the viewpoint.
@@ -92,8 +91,8 @@ pub trait Method: Send + Sync {
 
 /// A method prepared for the faces of a scene.
 pub trait Prepared {
-    /// Paints the scene. The rays must be those of the camera through the faces that the method
-    /// was prepared for.
+    /// Paints the scene. The rays must be the camera's rays through the faces that the method was prepared
+    /// for.
     ///
     /// # Errors
     ///
@@ -126,8 +125,8 @@ pub struct Painted {
     pub order: Duration,
     /// The time that drawing took.
     pub draw: Duration,
-    /// How many pieces were drawn, faces that were not cut included.
+    /// The number of drawn pieces, including faces that were not cut.
     pub pieces: usize,
-    /// How many faces a step before the method left out, as they do not show their fronts.
+    /// The number of faces that a step before the method left out, as they do not show their fronts.
     pub removed: usize,
 }

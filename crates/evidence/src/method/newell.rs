@@ -40,7 +40,7 @@ impl Method for Newell {
 }
 
 impl Newell {
-    /// Sorts the faces that a camera sees, and counts what decided.
+    /// Sorts the faces that a camera sees, and counts the deciding tests.
     ///
     /// # Errors
     ///
@@ -57,7 +57,7 @@ impl Newell {
 struct Ready<'a> {
     method: &'a Newell,
     faces: &'a Faces,
-    /// Those of the last picture, for their memory.
+    /// The pieces of the last picture, kept to reuse their memory.
     pieces: Pieces,
 }
 

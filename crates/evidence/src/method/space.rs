@@ -8,10 +8,10 @@ use binspace::view::{Camera, Projection};
 /// Takes lattice points to coordinates along the camera's axes: x to the right, y down, z the depth
 /// in its direction of view, from the eye, or from the centre of a parallel camera's picture.
 ///
-/// Cameras are those with square pixels that look at the middle of their picture.
+/// Cameras with square pixels that look at the middle of their picture.
 ///
-/// The unit is 2⁵¹ lattice units, half the scene's extent or up to four times that, so that numbers
-/// are of a size that suits `f32`.
+/// The unit is 2⁵¹ lattice units, half the scene's extent or up to four times that, so that the magnitude of
+/// numbers suits `f32`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraSpace {
     origin: DVec3,

@@ -48,7 +48,7 @@ fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
     let off = [1, 3, 9].map(|side| {
         let (patches, found) = factors(&room(true), 1.0, side);
         let n = patches.len();
-        // In both directions the same light.
+        // The same light in both directions.
         let light = |i: usize, j: usize| found.factor(i, j) * patches[i].area();
         let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let off = all.map(|(i, j)| (light(i, j) - light(j, i)).abs()).sum::<f64>();
@@ -115,7 +115,8 @@ fn what_is_near_an_end_hides_as_well() {
     }
 }
 
-/// What a point sees of a patch, as a sum over small parts: also of what is partly below its horizon.
+/// The form factor from a point to a patch, as a sum over small parts: also for patches partly below its
+/// horizon.
 #[test]
 fn what_a_point_sees_is_what_small_parts_send_it() {
     const PARTS: u32 = 200;

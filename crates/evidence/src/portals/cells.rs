@@ -7,17 +7,17 @@ use binspace::{BspTree, Child};
 
 use super::outline::{Outline, Plane, clip, split, without};
 
-/// Lengths as shares of the scene's extent. Points count as on a plane within `NOISE`, which is some
-/// thousand roundings. Openings thinner than `THIN` are closed: larger, and real cracks close;
-/// smaller, and the rounding of walls that meet leaves cracks between them.
+/// Lengths as shares of the scene's extent. Points count as on a plane within `NOISE`, which is some thousand
+/// roundings. Openings thinner than `THIN` are closed. Too large: real cracks close. Too small: the rounding
+/// of walls that meet leaves cracks between them.
 pub(super) const NOISE: f64 = 1e-12;
 const THIN: f64 = 1e-9;
 
 /// The cells that a tree divides space into, and where one sees from one to the next: the portals.
 ///
-/// Cells are the tree's leaves; a leaf that holds a fragment is divided by its plane as well, so
-/// that all polygons lie on the walls of cells. The portals on a plane are what its polygons leave
-/// open (S. Teller and C. Séquin, "Visibility preprocessing for interactive walkthroughs", 1991).
+/// Cells are the tree's leaves. A leaf that holds a fragment is divided by its plane as well, so that all
+/// polygons lie on the walls of cells. The portals on a plane are the parts that its polygons leave open (S.
+/// Teller and C. Séquin, "Visibility preprocessing for interactive walkthroughs", 1991).
 ///
 /// Everything is limited to the box around the scene: eyes belong inside.
 #[derive(Clone, Debug)]
@@ -93,7 +93,7 @@ impl Cells {
         cells
     }
 
-    /// How many cells there are.
+    /// The number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
     }
@@ -103,12 +103,12 @@ impl Cells {
         self.cells.is_empty()
     }
 
-    /// How many portals there are.
+    /// The number of portals.
     pub fn portal_count(&self) -> usize {
         self.portals.len()
     }
 
-    /// The cells that a point is in: one, or all that meet there.
+    /// The cells that contain a point: one, or all that meet there.
     pub fn at(&self, point: DVec3) -> Vec<usize> {
         let (mut pending, mut found) = (vec![self.whole], Vec::new());
         while let Some(next) = pending.pop() {
@@ -126,7 +126,7 @@ impl Cells {
         found
     }
 
-    /// Takes over the tree's nodes, and divides its leaves by what they hold.
+    /// Takes over the tree's nodes, and divides its leaves by their content.
     fn divide(&mut self, tree: &BspTree) {
         let root = tree.root().map_or(Child::Leaf(0..tree.len() as u32), Child::Node);
         let mut pending = vec![(root, None)];

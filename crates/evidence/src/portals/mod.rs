@@ -1,4 +1,4 @@
-//! Portals and potentially visible sets: what may be seen in closed interiors, by their openings
+//! Portals and potentially visible sets: the polygons that may be seen in closed interiors, by their openings
 //! alone.
 //!
 //! | file | has |
@@ -7,13 +7,13 @@
 //! | `cells` | the cells of a tree, and the portals between them |
 //! | `sight` | what is seen through portals, from an eye or from a cell |
 //!
-//! Nothing that can be seen is left out; what is kept in vain is counted against exact pictures.
+//! No visible polygon is left out; polygons kept without need are counted against exact pictures.
 //!
-//! It works in floats, and errs to one side: what bounds a view is moved outwards by 10⁻⁷ of the scene,
-//! more than all roundings can move it (`SLACK` in `sight` has the sum), and an opening that is so near
-//! that roundings would count for more does not narrow the view at all. One thing can be left out: what is
-//! seen only through openings thinner than 10⁻⁹ of the scene, which count as closed, and what of a polygon
-//! is thinner than that.
+//! It works in floats, and errs to one side. The planes that bound a view are moved outwards by 10⁻⁷ of the
+//! scene, more than all roundings can move them (`SLACK` in `sight` has the sum). An opening so near that
+//! roundings would count for more does not narrow the view at all. Two things can be left out: polygons seen
+//! only through openings thinner than 10⁻⁹ of the scene, which count as closed, and parts of polygons that
+//! are thinner than that.
 
 mod cells;
 mod outline;

@@ -18,7 +18,7 @@ impl Plane {
         Self { normal, offset: normal.dot(point) }
     }
 
-    /// How far in front of it a point is.
+    /// The distance of a point in front of it.
     pub(super) fn at(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
@@ -65,8 +65,8 @@ pub(super) fn clip(outline: &[DVec3], plane: &Plane) -> Outline {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-/// The parts of a polygon in front of a plane and behind it; what reaches no further than `thin` to
-/// a side has no part there, and what reaches no further to either is on both.
+/// The parts of a polygon in front of a plane and behind it. A polygon that reaches no further than `thin` to
+/// a side has no part there; a polygon that reaches no further to either side is on both.
 pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2] {
     let [low, high] = plane.range(outline);
     let is_on = low >= -thin && high <= thin;
@@ -90,16 +90,16 @@ fn rims(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
     })
 }
 
-/// How far points are from a polygon on a plane at least: the largest distance along its plane's normal
-/// or across one of its edges; no more than 0 if that tells nothing.
+/// A lower bound of the distance of points from a polygon on a plane: the largest distance along its plane's
+/// normal or across one of its edges; no more than 0 if these give no bound.
 pub(super) fn apart(points: &[DVec3], outline: &[DVec3], plane: &Plane) -> f64 {
     let [low, high] = plane.range(points);
     let beside = rims(outline, plane).map(|rim| rim.range(points)[0]);
     beside.fold(low.max(-high), f64::max)
 }
 
-/// What is left of a polygon on a plane without another on the same plane, as convex pieces; those
-/// that are thinner than `thin` are left out.
+/// The difference of a polygon on a plane and another on the same plane, as convex pieces; pieces thinner
+/// than `thin` are left out.
 pub(super) fn without(outline: Outline, gone: &[DVec3], plane: &Plane, thin: f64) -> Vec<Outline> {
     if rims(gone, plane).any(|rim| rim.range(&outline)[0] >= -thin) {
         return vec![outline];

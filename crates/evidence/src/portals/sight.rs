@@ -1,4 +1,4 @@
-//! What may be seen through portals.
+//! The cells and polygons that may be seen through portals.
 
 use std::collections::VecDeque;
 
@@ -8,27 +8,27 @@ use binspace::glam::DVec3;
 use super::cells::{Cells, NOISE, Portal};
 use super::outline::{Outline, Plane, apart, clip, holds, hull};
 
-/// How far beyond a plane that bounds the lines of sight something still counts as in sight, as a
-/// share of the scene's extent.
+/// The largest distance beyond a plane that bounds the lines of sight at which something still counts as in
+/// sight, as a share of the scene's extent.
 ///
-/// Points of a source and of an opening are within 4 `NOISE` of where they are exactly: one each for the
-/// outlines, for cutting, for the test that the plane is between them, and for what is not looked at
-/// again. A line from the one to the other carries the sum of both on to the end of the box, which is no
-/// more than √3 · 1.02 / `NEAREST` times as far: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
+/// Points of a source and of an opening are within 4 `NOISE` of their exact places: one each for the
+/// outlines, for cutting, for the test that the plane is between them, and for parts that are not visited
+/// again. A line from the one to the other carries the sum of both on to the end of the box, which is no more
+/// than √3 · 1.02 / `NEAREST` times as far: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
 pub(super) const SLACK: f64 = 1e-7;
-/// Openings that are nearer to the source do not narrow the view: lines from the source through them
-/// would carry roundings too far. Larger: more is kept in vain; smaller: `SLACK` has to be larger.
+/// Openings that are nearer to the source do not narrow the view: lines from the source through them would
+/// carry roundings too far. Too large: more is kept without need. Too small: `SLACK` has to be larger.
 pub(super) const NEAREST: f64 = 2e-4;
-/// How often a portal's visible part may grow before all of the portal counts as visible. Less:
-/// more is kept than can be seen; more: crowded scenes take longer.
+/// The number of times that a portal's visible part may grow before all of the portal counts as visible. Too
+/// small: more is kept than can be seen. Too large: crowded scenes take longer.
 const GROWTHS: u32 = 24;
 
-/// What may be seen from an eye or from a cell.
+/// The cells and polygons that may be seen from an eye or from a cell.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// Whether each cell has a point that may be seen.
     pub cells: Vec<bool>,
-    /// Whether each polygon has.
+    /// Whether each polygon has such a point.
     pub polygons: Vec<bool>,
 }
 
@@ -37,25 +37,25 @@ impl Seen {
         Self { cells: vec![false; cells.len()], polygons: vec![false; cells.polygons] }
     }
 
-    /// How many polygons may be seen.
+    /// The number of polygons that may be seen.
     pub fn polygon_count(&self) -> usize {
         self.polygons.iter().filter(|&&seen| seen).count()
     }
 
-    /// How many cells may be seen.
+    /// The number of cells that may be seen.
     pub fn cell_count(&self) -> usize {
         self.cells.iter().filter(|&&seen| seen).count()
     }
 }
 
 impl Cells {
-    /// What an eye may see within a frustum, through portals that are within the portals before
-    /// them (C. Jones 1971; D. Luebke and C. Georges 1995).
+    /// The set that an eye may see within a frustum, through portals that are within the portals before them
+    /// (C. Jones 1971; D. Luebke and C. Georges 1995).
     pub fn seen_from(&self, eye: DVec3, frustum: &Frustum) -> Seen {
         self.seen_with(SLACK, NEAREST, eye, frustum)
     }
 
-    /// The same with other bounds of roundings, so that it can be shown what they are for.
+    /// The same search with other bounds of roundings, so that tests can show their purpose.
     pub(super) fn seen_with(
         &self,
         slack: f64,
@@ -74,9 +74,9 @@ impl Cells {
         seen
     }
 
-    /// What may be seen from some point of a cell: its potentially visible set (J. Airey 1990;
-    /// S. Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is
-    /// the union of what may be seen from each of them.
+    /// The set that may be seen from some point of a cell: its potentially visible set (J. Airey 1990; S.
+    /// Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is the union of
+    /// the sets that may be seen from each portal.
     pub fn seen_from_cell(&self, cell: usize) -> Seen {
         let mut seen = Seen::nothing(self);
         self.look_around(cell, &[], &mut seen);
@@ -88,7 +88,7 @@ impl Cells {
         seen
     }
 
-    /// Marks a cell and what is on its walls within some planes.
+    /// Marks a cell and the polygons on its walls within some planes.
     fn look_around(&self, cell: usize, bounds: &[Plane], seen: &mut Seen) {
         seen.cells[cell] = true;
         for surface in &self.cells[cell].surfaces {
@@ -99,16 +99,17 @@ impl Cells {
     }
 }
 
-/// The search for what is seen from one source: an eye, or a portal.
+/// The search for the set visible from one source: an eye, or a portal.
 struct Sight<'a> {
     cells: &'a Cells,
     slack: f64,
     nearest: f64,
     source: &'a [DVec3],
     bounds: &'a [Plane],
-    /// The visible part of each portal, first to the back, then to the front; and how often it grew.
+    /// The visible part of each portal, first to the back, then to the front; and the number of times that it
+    /// grew.
     parts: Vec<[(Outline, u32); 2]>,
-    /// Portals whose part has grown, each with the side that they are seen from.
+    /// Portals whose part has grown, each with the side from which they are seen.
     pending: VecDeque<(usize, usize)>,
 }
 
@@ -123,7 +124,7 @@ impl<'a> Sight<'a> {
         Self { cells, slack, nearest, source, bounds, parts, pending: VecDeque::new() }
     }
 
-    /// Marks all that is seen, where the source is in some cells or on their walls.
+    /// Marks everything seen, where the source is in some cells or on their walls.
     fn look(mut self, start: &[usize], seen: &mut Seen) {
         for &cell in start {
             self.pass(cell, self.bounds);
@@ -143,7 +144,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Goes on through the portals out of a cell, as far as they are within some planes.
+    /// Continues through the portals out of a cell, as far as they are within some planes.
     fn pass(&mut self, cell: usize, planes: &[Plane]) {
         let noise = NOISE * self.cells.extent;
         for &(number, side) in &self.cells.cells[cell].portals {
@@ -174,7 +175,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// The planes that bound what is seen through the visible part of a portal.
+    /// The planes that bound the view through the visible part of a portal.
     fn planes(&self, portal: usize, side: usize) -> Vec<Plane> {
         let part = &self.parts[portal][side].0;
         let Portal { plane, .. } = &self.cells.portals[portal];

@@ -1,4 +1,4 @@
-//! What is kept, against exact pictures.
+//! The kept polygons, against exact pictures.
 
 use super::Cells;
 use super::outline::{Plane, apart, clip, hull, split, without};
@@ -79,8 +79,8 @@ fn nothing_is_left_out_from_the_threshold_of_a_door() {
     assert!(eyes > 200 && owned > 1000, "{owned} from {eyes}");
 }
 
-/// Of a target behind a wall with an opening, no more is seen than a strip that is thinner than the
-/// slack: it counts as seen. With the view narrowed by as much instead, it would be left out.
+/// A target behind a wall with an opening, of which only a strip thinner than the slack is visible: it counts
+/// as seen. With the view narrowed by as much instead, it would be left out.
 #[test]
 fn a_strip_along_the_rim_of_an_opening_is_seen() {
     let wall = |x: [f64; 2], z: f64| {
@@ -88,7 +88,7 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
         [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z)).to_vec()
     };
     let (eye, strip) = (DVec3::ZERO, 1e-6);
-    // What is seen through x from 1 to 2 at depth 1 is x from 10 to 20 at depth 10.
+    // The view through x from 1 to 2 at depth 1 is x from 10 to 20 at depth 10.
     let scene = [
         wall([-20.0, 1.0], 1.0),
         wall([2.0, 20.0], 1.0),
@@ -107,8 +107,9 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
     assert!(!cells.seen_with(-SLACK, NEAREST, eye, &frustum).polygons[2]);
 }
 
-/// Eyes so close to the rim of an opening that its rounding turns the view by more than the slack: what
-/// they see along the rim is kept, and would not be if openings as near as that narrowed the view.
+/// Eyes so close to the boundary of an opening that its rounding turns the view by more than the slack.
+/// Polygons seen along the boundary are kept. They would not be kept if openings as near as that narrowed the
+/// view.
 #[test]
 fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
     // Upright rectangles, from one point of the ground to another.
@@ -125,7 +126,7 @@ fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
         let across = dvec3(-along.y, along.x, 0.0);
         let size = 10f64.powf(random.range(-10.0, -8.0));
         let eye = rim - (across + along * random.range(-0.5, 0.5)) * size;
-        // The line of sight along the rim, and a target that reaches a little past it.
+        // The line of sight along the boundary, and a target that reaches a little past it.
         let sight = (rim - eye).normalize();
         let left = dvec3(sight.y, -sight.x, 0.0);
         let end = eye + sight * 30.0 + left * 1e-5;
@@ -151,7 +152,8 @@ fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
     assert!(shown > 100 && lost > 5, "{lost} of {shown}");
 }
 
-/// A slit of a 4-millionth of the scene, a hundred times what counts as closed: the far wall is seen.
+/// A slit of a 4-millionth of the scene, a hundred times the width that counts as closed: the far wall is
+/// seen.
 #[test]
 fn what_is_seen_through_a_slit_is_kept() {
     let wall = |x: [f64; 2], z: f64| {
@@ -190,7 +192,8 @@ fn outlines_by_hand() {
     assert!((area(&clip(&square(0.0, 2.0), &slope)) - 3.5).abs() < 1e-12);
     let [front, back] = split(&square(0.0, 2.0), &slope, 1e-9);
     assert!((area(&front) - 3.5).abs() < 1e-12 && (area(&back) - 0.5).abs() < 1e-12);
-    // A window in a wall leaves four pieces; a wall in a window none; one beside it all of it.
+    // A window in a wall leaves four pieces; a wall in a window leaves none; a window beside it leaves all of
+    // it.
     let left = without(square(0.0, 4.0), &square(1.0, 2.0), &ground, 1e-9);
     assert_eq!(left.len(), 4);
     assert!((left.iter().map(|piece| area(piece)).sum::<f64>() - 15.0).abs() < 1e-12);

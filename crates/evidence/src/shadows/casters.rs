@@ -3,16 +3,16 @@
 use binspace::glam::DVec3;
 use binspace::{BspTree, Frustum};
 
-/// By how much the sides of a pyramid are moved outwards, as a share of the cube of the largest
-/// coordinate: a side is a product of three lengths, of which each is off by some 10⁻¹⁵ of that
-/// coordinate. Larger: more faces are tried in vain; smaller: one that casts a shadow is lost.
+/// The distance by which the sides of a pyramid are moved outwards, as a share of the cube of the largest
+/// coordinate. A side is a product of three lengths, of which each is off by some 10⁻¹⁵ of that coordinate.
+/// Too large: more faces are tried without effect. Too small: a face that casts a shadow is lost.
 const WIDER: f64 = 1e-11;
 
-/// The faces of a tree that have a point between a lamp and a face whose corners are given, and some
-/// more, in ascending order.
+/// The faces of a tree that have a point between a lamp and a face with the given corners, and some more, in
+/// ascending order.
 ///
-/// What throws a shadow on a face goes through the pyramid between the lamp and the face. The tree's boxes
-/// tell what may do so; in doubt it is kept, so no shadow is lost.
+/// Every caster of a shadow on a face intersects the pyramid between the lamp and the face. The tree's boxes
+/// find the candidates; doubtful ones are kept, so no shadow is lost.
 pub(super) fn casters(tree: &BspTree, corners: &[DVec3], lamp: DVec3) -> Vec<u32> {
     let within = tree.fragments_in(&pyramid(corners, lamp));
     let mut faces: Vec<u32> = within.map(|fragment| tree.fragment(fragment).face()).collect();

@@ -21,10 +21,10 @@ use binspace::internals::Faces;
 pub struct Piece {
     /// The face that it is a part of.
     pub face: u32,
-    /// Whether it sees each point of the lamp that was asked for.
+    /// Whether it sees each tested point of the lamp.
     pub sees: Vec<bool>,
-    /// Whether one face lies between it and all points of the lamp: that face hides all that is
-    /// between these points as well.
+    /// Whether one face lies between it and all points of the lamp: that face also hides everything between
+    /// these points.
     pub is_umbra: bool,
     corners: Vec<Corner>,
 }
@@ -37,7 +37,7 @@ struct Corner {
 }
 
 impl Piece {
-    /// Which zone it is in, by the points of the lamp that were asked for.
+    /// Its zone, by the tested points of the lamp.
     pub fn zone(&self) -> Zone {
         match self.sees.iter().filter(|&&sees| sees).count() {
             0 => Zone::Umbra,
@@ -104,24 +104,23 @@ impl Piece {
 /// The pieces of all faces of a tree, and the work that they took.
 #[derive(Clone, Debug)]
 pub struct Pieces {
-    /// The pieces, those of each face one after another.
+    /// The pieces, face after face.
     pub pieces: Vec<Piece>,
-    /// For how many faces it was tried whether they throw a shadow on another: the sum over all faces
-    /// and all points of the lamp.
+    /// The number of faces tested as casters of a shadow on another: the sum over all faces and all points of
+    /// the lamp.
     pub tried: usize,
 }
 
-/// Cuts all faces of a tree along the rims of the shadows that points of a lamp throw. What a face's own
+/// Cuts all faces of a tree along the boundaries of the shadows that points of a lamp cast. A face whose
 /// plane goes through the lamp is in its light edge-on, and sees nothing of it.
 ///
-/// Each face is cut by the shadows of those that the tree's boxes find between it and the lamp: time grows
-/// with these and with the number of pieces. The lamp is rounded to the faces' lattice.
+/// Each face is cut by the shadows of the faces that the tree's boxes find between it and the lamp. Time
+/// grows with these and with the number of pieces. The lamp is rounded to the faces' lattice.
 pub fn pieces(tree: &BspTree, lamp: &[DVec3]) -> Pieces {
     pieces_by(tree.faces(), lamp, |corners, at| casters(tree, corners, at))
 }
 
-/// The pieces, where what may throw a shadow on a face with some corners from a point is found by a
-/// function.
+/// The pieces; a function finds the possible casters of shadows on a face with some corners from a point.
 pub(super) fn pieces_by(
     faces: &Faces,
     lamp: &[DVec3],
@@ -145,8 +144,8 @@ pub(super) fn pieces_by(
     found
 }
 
-/// The pieces of one face. `shades` has, for each point of the lamp, the shade of each face, `casters`
-/// the faces that may throw one on this.
+/// The pieces of one face. `shades` holds, for each point of the lamp, the shade of each face; `casters`
+/// holds the faces that may cast a shadow on this one.
 fn pieces_of(
     faces: &Faces,
     whole: Piece,
@@ -166,7 +165,7 @@ fn pieces_of(
             pieces = cut(pieces, &plane, &shade.planes, |piece| piece.sees[number], dim);
         }
     }
-    // What hides all of the lamp hides each point of it, but for those that the face sees edge-on.
+    // A face that hides all of the lamp hides each point of it, except the points that the face sees edge-on.
     let asked = (0..shades.len()).filter(|&number| shades[number][face as usize].is_some());
     let lists: Vec<&Vec<u32>> = asked.map(|number| &casters[number]).collect();
     let Some((first, others)) = lists.split_first() else { return pieces };
@@ -184,7 +183,7 @@ fn pieces_of(
     pieces
 }
 
-/// Cuts what is in front of all of some planes out of pieces, and marks it.
+/// Cuts the part in front of all of some planes out of pieces, and marks it.
 fn cut(
     pieces: Vec<Piece>,
     face: &Plane,

@@ -1,4 +1,4 @@
-//! What a face hides from a point of a lamp.
+//! The region that a face hides from a point of a lamp.
 
 use std::rc::Rc;
 
@@ -10,13 +10,13 @@ use binspace::Viewpoint;
 use binspace::glam::DVec3;
 use binspace::internals::{Eye, Faces};
 
-/// The region behind a face, as seen from a point: what is in front of all of these planes.
+/// The region behind a face, as seen from a point: the part in front of all of these planes.
 pub(super) struct Shade {
     pub(super) planes: Vec<Rc<Plane>>,
 }
 
 impl Shade {
-    /// Those of all faces; `None` of those whose planes go through the point, as they hide nothing.
+    /// The regions of all faces; `None` for faces whose planes go through the point, as they hide nothing.
     pub(super) fn all(faces: &Faces, from: DVec3) -> Vec<Option<Self>> {
         let eye = place::eye(&Eye::new(Viewpoint::Eye(from), faces.lattice()));
         (0..faces.len() as u32).map(|face| Self::of(faces, face, &eye)).collect()

@@ -1,4 +1,4 @@
-//! What is skipped on the way to pieces, and how much is not.
+//! The faces skipped on the way to pieces, and the number of the others.
 
 use super::pieces::pieces_by;
 use super::{Piece, Pieces, courtyard, lamp, pieces};

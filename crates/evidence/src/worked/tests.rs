@@ -1,4 +1,4 @@
-//! The examples against what was worked by hand, and against other methods.
+//! The examples against hand computation, and against other methods.
 
 use binspace::raster::{NONE, zbuffer};
 use binspace::verify::verify;
@@ -20,7 +20,7 @@ fn side(wall: char, [x, y]: [f64; 2]) -> f64 {
 #[test]
 fn the_walls_stand_as_the_tree_says() {
     let ends = |wall: char| EIGHT.into_iter().find(|&(letter, _)| letter == wall).unwrap().1;
-    // Which walls are on the eye's side of a line, and which on the other.
+    // The walls on the eye's side of a line, and the walls on the other.
     let check = |line: char, near: &str, far: &str| {
         let eye = side(line, EYE_OF_EIGHT);
         assert_ne!(eye, 0.0);
@@ -56,7 +56,7 @@ fn eight_walls_are_painted_in_the_order_worked_by_hand() {
     assert!(seen.comparison.covered > 1000);
 }
 
-/// Each piece is painted after all that it hides parts of, by big integers.
+/// Each piece is painted after all pieces that it hides parts of, by big integers.
 #[test]
 fn no_piece_of_the_eight_walls_hides_a_later_one() {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_tolerance(0.0);
@@ -87,7 +87,7 @@ fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
         depths[6 * row..][..6].iter().map(text).collect::<Vec<_>>().join(" ")
     };
     for (row, [second, shown, names]) in GRID_OF_SIX.into_iter().enumerate() {
-        // Half of a scene has a grid of its own: its depths are of it.
+        // Half of a scene has its own grid, which its depths refer to.
         assert_eq!(cells(truth.depths().collect(), row), shown);
         let own: Vec<&str> = second.split(' ').collect();
         for (column, cell) in own.into_iter().enumerate() {

@@ -1,5 +1,5 @@
-//! What trees say of their own accuracy, against rationals: every figure computed anew from the
-//! definitions of vertices and planes.
+//! The accuracy figures of trees, against rationals: every figure is computed again from the definitions of
+//! vertices and planes.
 
 use binspace::Preparation;
 use binspace::internals::{Side, Tuning, VertexId, VertexKind, tree_of};
@@ -15,8 +15,8 @@ use testkit::scenes::polygons;
 #[derive(Debug, Default)]
 struct Figures {
     vertices: usize,
-    /// For the tolerance as it is, and rounded down to an integer in the unit of each plane's
-    /// equation: the library's is the one or the other, or in between.
+    /// For the exact tolerance, and for it rounded down to an integer in the unit of each plane's equation:
+    /// the library's figure is one of these or in between.
     misplaced: [usize; 2],
     undefined: usize,
     torn: usize,
@@ -30,7 +30,7 @@ struct Placed {
     misplaced: [bool; 2],
 }
 
-/// The place of a vertex; `None` if what defines it is parallel.
+/// The place of a vertex; `None` if the planes that define it are parallel.
 fn place(faces: &Faces, face: &Face, vertex: VertexId) -> Option<Point> {
     let is_defined = match vertex.kind() {
         VertexKind::Corner(_) => true,
@@ -47,8 +47,8 @@ fn place(faces: &Faces, face: &Face, vertex: VertexId) -> Option<Point> {
     is_defined.then(|| face.resolve(faces, vertex))
 }
 
-/// How far a position is from the exact one; further than any scene reaches, or no number, is
-/// infinitely far.
+/// The distance of a position from the exact one; infinite for NaN and for positions further than any scene
+/// reaches.
 fn drift(point: &Point, position: [f64; 3]) -> f64 {
     let reach = 2f64.powi(59);
     if position.iter().any(|c| c.is_nan() || c.abs() > reach) {
@@ -138,7 +138,7 @@ fn is_torn(tree: &Tree, id: u32, face: &Face, pieces: &[Vec<Option<Placed>>]) ->
     sum != own
 }
 
-/// What was compared, and how much of it went wrong in the trees themselves.
+/// The number of comparisons, and the number of errors in the trees themselves.
 #[derive(Debug, Default)]
 struct Tally {
     trees: usize,
@@ -202,8 +202,7 @@ impl Tally {
     }
 }
 
-/// The library's tree, which misplaces nothing and keeps within three roundings, as rationals
-/// say.
+/// The library's tree, which misplaces nothing and keeps within three roundings, by rationals.
 fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), String> {
     let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
     let tree = tree_of(&options, &Tuning::DEFAULT, faces, Preparation::default())

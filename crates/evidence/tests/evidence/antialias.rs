@@ -1,4 +1,4 @@
-//! Areas in pixels against rational numbers, and what is known of sums.
+//! Areas in pixels against rational numbers, and known properties of sums.
 
 use std::array::from_fn;
 use testkit::prelude::*;
@@ -21,7 +21,7 @@ fn cross(p: &Point, q: &Point, r: &Point) -> RBig {
     (&q[0] - &p[0]) * (&r[1] - &p[1]) - (&q[1] - &p[1]) * (&r[0] - &p[0])
 }
 
-/// What two convex polygons have in common, both counter-clockwise.
+/// The intersection of two convex polygons, both counter-clockwise.
 fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
     if area(b).is_zero() {
         return vec![];
@@ -64,7 +64,7 @@ fn triangle(dice: &mut Dice) -> [[i64; 2]; 3] {
     }
 }
 
-/// How much of a pixel three triangles own, the first on top: by inclusion and exclusion.
+/// The share of a pixel that three triangles own, the first on top: by inclusion and exclusion.
 fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
     let [a, b, c] = [a, b, c].map(|triangle| common(triangle, pixel));
     let (ab, ac, bc) = (common(&a, &b), common(&a, &c), common(&b, &c));
@@ -152,7 +152,7 @@ fn a_constant_surface_is_constant_by_areas_and_has_seams_by_blending() {
     let exact = areas.picture(black, white);
     assert!(exact.iter().flatten().all(|c| c.abs() < 1e-6));
     let found = blended(&tree, &camera, black, white);
-    // Of two halves of a pixel a quarter of the background is left, of n parts (1 - 1/n)^n at most.
+    // Two halves of a pixel leave a quarter of the background, n parts (1 - 1/n)^n at most.
     let (worst, _) = distance(&found, &exact);
     assert!(worst > 0.2 && worst < 0.37, "{worst}");
     let seams = found.iter().filter(|pixel| pixel[0] > 0.01).count();

@@ -1,4 +1,4 @@
-//! What the evidence is made of, judged: methods, measures, shadows, portals.
+//! The components of the evidence, judged: methods, measures, shadows, portals.
 
 mod accuracy;
 mod antialias;

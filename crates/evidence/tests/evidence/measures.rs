@@ -51,7 +51,7 @@ fn pictures_with_known_faults_are_found_out() {
     let halved = judged(&[0, 1, 2], Outline::Vertices(&half));
     assert_eq!((halved.holes, halved.wrong()), (800, 800));
 
-    // Half as high again: pixels above and below are painted for nothing.
+    // Half as high again: pixels above and below are painted without need.
     let high = faces.corners(0).to_vec();
     let high: Vec<[f64; 3]> = high.into_iter().map(|[x, y, z]| [x, 1.5 * y, z]).collect();
     let spilt = judged(&[0, 1, 2], Outline::Vertices(&high));
@@ -131,8 +131,8 @@ fn the_exact_tree_misplaces_and_tears_nothing_in_any_family() {
 fn crossing_triangles_within_the_epsilon_are_put_on_planes_that_they_are_off() {
     let scene = Family::Angle.scene(1e-9, 1);
     let found = accuracy_with(1e-6, &scene);
-    // Six triangles on one plane: all corners of all but the one that the plane is of, but for
-    // those that happen to be on it.
+    // Six triangles on one plane: all corners of all triangles except the plane's own, without the corners
+    // that happen to be on it.
     assert!((10..=15).contains(&found.misplaced), "{found:?}");
     assert_eq!((found.vertices, found.torn), (18, 0), "{found:?}");
 }

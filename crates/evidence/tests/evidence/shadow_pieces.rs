@@ -29,7 +29,7 @@ struct Screen {
     rims: Vec<Plane<IBig>>,
 }
 
-/// What may hide a point of the lamp.
+/// The faces that may hide a point of the lamp.
 struct Judge(Vec<Screen>);
 
 impl Judge {
@@ -75,7 +75,7 @@ fn within(corners: &[[IBig; 4]], dice: &mut Dice) -> [IBig; 4] {
     sum
 }
 
-/// How many sight lines were compared, how many of these were hidden, and how many are wrong.
+/// The numbers of sight lines that were compared, that were hidden, and that are wrong.
 fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [usize; 3] {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let judges: Vec<Judge> = lamp.iter().map(|&at| Judge::new(&faces, at)).collect();
@@ -86,7 +86,7 @@ fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [us
         let number = (dice.roll() % pieces.len() as u64) as usize;
         let (piece, point) = (&pieces[number], within(&corners[number], &mut dice));
         for (judge, sees) in judges.iter().zip(&piece.sees) {
-            // What is in the plane of the lamp sees nothing of it.
+            // A point in the plane of the lamp sees nothing of it.
             if judge.is_edge_on(piece.face) {
                 assert!(!sees);
                 continue;
@@ -122,8 +122,8 @@ fn triangles() -> (Scene, Vec<DVec3>) {
     (scene::random_triangles(14, 5), lamp.to_vec())
 }
 
-/// A wall in the plane of two corners of the lamp: it hides the other two from what is beside it on the
-/// floor, and a plate hides those two. So nothing is seen of the corners, but of the lamp between them.
+/// A wall in the plane of two corners of the lamp. It hides the other two from places beside it on the floor,
+/// and a plate hides the first two. So no corner is seen, but the lamp between them is.
 fn edge_on() -> Scene {
     let mut scene = Scene::new("edge on", DVec3::Z);
     let level = |x: [f64; 2], y: [f64; 2], z: f64| {
@@ -186,7 +186,7 @@ fn the_pieces_of_a_face_have_its_area() {
                 let own = pieces.iter().filter(|piece| piece.face == face);
                 let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
                 let areas: Vec<RBig> = areas.collect();
-                // All run as the face does, so none is subtracted.
+                // All have the face's orientation, so none is subtracted.
                 let whole = area(&corners, axis);
                 assert!(areas.iter().all(|part| part.signum() == whole.signum()));
                 assert_eq!(testkit::rational::total(areas), whole, "face {face}");
@@ -203,7 +203,7 @@ fn a_certain_umbra_is_hidden_from_all_between() {
     assert!(by_several > 0);
 }
 
-/// How many pieces are in the umbra for certain, and how many see no corner of the lamp but are not.
+/// The numbers of pieces that are in the umbra for certain, and that see no corner of the lamp but are not.
 fn umbra(scene: &Scene) -> [usize; 2] {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let pieces = cut(scene, &lamp(2));
@@ -245,8 +245,8 @@ fn a_shadow_by_hand() {
     assert!(corners.iter().all(|p| p.x.abs() == 4.0 && p.y.abs() == 4.0 && p.z == 0.0));
 }
 
-/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and lies in the umbra behind a
-/// wall all the same.
+/// A lamp that stands on a floor: the floor sees two of its corners edge-on, and still lies in the umbra
+/// behind a wall.
 #[test]
 fn behind_a_wall_is_umbra_of_a_lamp_that_is_partly_seen_edge_on() {
     let mut scene = Scene::new("standing", DVec3::Z);

@@ -50,7 +50,7 @@ fn setting() -> (Scene, BspTree, Vec<Wall>) {
     (scene, tree, walls)
 }
 
-/// A point of a surface in whole numbers; often on a rim or in line with one.
+/// A point of a surface in whole numbers; often on a boundary or in line with one.
 fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
     // The floor is the first polygon, and half of the points are on it.
     let polygon = match dice.roll() % 2 {
@@ -110,7 +110,7 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
         let point = point(&scene, &mut dice);
         let from = whole(point);
         let is_hidden = |at: &DVec3| polygons.iter().any(|wall| blocks(wall, from, whole(*at)));
-        // The rest of the lamp is asked as long as it is all hidden, or all seen.
+        // The rest of the lamp is tested as long as it is all hidden, or all seen.
         let first = is_hidden(&many[0]);
         let truth = match many.iter().all(|at| is_hidden(at) == first) {
             true if first => Zone::Umbra,

@@ -15,11 +15,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// An axis for these positive values. It ends at decades, and has at most nine ticks; or, where
-    /// two decades or less hold all, it ends at steps of 1, 2 and 5.
+    /// An axis for these positive values. It ends at decades, and has at most nine ticks. If two decades or
+    /// less contain all values, it ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
-        // What is beyond a decade by a hair does not open another one.
+        // A value that exceeds a decade by rounding does not open another one.
         let (first, mut last) = ((low + 0.01).floor(), (high - 0.01).ceil());
         if last <= first {
             last = first + 1.0;
@@ -54,7 +54,7 @@ impl Scale {
     }
 }
 
-/// As the library for plots has it: from exponents to pixels.
+/// As in the plotting library: from exponents to pixels.
 impl Ranged for Scale {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;
@@ -81,8 +81,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// The value of an exponent, as people write it: from 0.01 to 5000 in full, others with a power of
-/// ten.
+/// The value of an exponent, in common notation: from 0.01 to 5000 in full, others with a power of ten.
 pub(super) fn label(exponent: f64) -> String {
     let decade = (exponent + 1e-6).floor();
     let digit = 10f64.powf(exponent - decade);

@@ -1,4 +1,4 @@
-//! What a chapter is made of.
+//! The components of a chapter.
 
 use std::fmt::Display;
 

@@ -1,4 +1,4 @@
-//! What need not be drawn: overdraw, culling, portals.
+//! Geometry that need not be drawn: overdraw, culling, portals.
 
 mod city;
 mod overdraw;

@@ -14,7 +14,7 @@ pub(super) struct Curve {
     pub(super) points: Vec<(f64, f64)>,
 }
 
-/// What is drawn, and what it is called.
+/// The data to draw, and their name.
 #[derive(Debug)]
 pub(super) struct Graph<'a> {
     pub(super) title: &'a str,

@@ -63,13 +63,13 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is surely nearest in each pixel.
+/// The surely nearest surface in each pixel.
 fn certain(surfaces: &Surfaces<'_>, view: &PlainView) -> Vec<Option<u32>> {
     let pixels = (0..SIZE[0] * SIZE[1]).map(|i| [i % SIZE[0], i / SIZE[0]]);
     pixels.map(|pixel| nearest(surfaces, view, pixel)).collect()
 }
 
-/// Certain pixels that show something else.
+/// Certain pixels that show another surface.
 fn differing(truth: &[Option<u32>], shown: &[u32]) -> usize {
     truth.iter().zip(shown).filter(|(truth, shown)| truth.is_some_and(|t| t != **shown)).count()
 }
@@ -87,14 +87,14 @@ fn shaded(picture: &Shared) -> Vec<u8> {
     pixels.flat_map(colour).collect()
 }
 
-/// What a tree shows: in each pixel the surface by number, and the polygon.
+/// The picture of a tree: in each pixel the surface by number, and the polygon.
 struct Shown {
     surfaces: Vec<u32>,
     polygons: Vec<u32>,
 }
 
-/// The picture of the polygons and the patches, cut to triangles, by a tree; how many triangles there
-/// are, and fragments.
+/// The picture of the polygons and the triangulated patches, by a tree; the numbers of triangles and of
+/// fragments.
 fn by_tree(
     surfaces: &Surfaces<'_>,
     view: &PlainView,

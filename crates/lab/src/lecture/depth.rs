@@ -1,4 +1,4 @@
-//! The depth buffer: its conventions, what it needs, and how it is filled.
+//! The depth buffer: its conventions, its memory, and the ways to fill it.
 
 use binspace::BspTree;
 use binspace::raster::{Image, Rays, colour_of, compare, depth_map, picture, zbuffer};
@@ -90,7 +90,7 @@ fn sets_of_rules() -> [(&'static str, &'static str, &'static str, &'static str, 
     ]
 }
 
-/// Which end is near, the test, and what the buffer is cleared to.
+/// The near end, the test, and the clear value.
 fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let truth = zbuffer(&room.rays, room.tree.faces()).into_image();
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
@@ -192,7 +192,7 @@ fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How many pixels were judged, how many are wrong, and how many layers are missing.
+/// The numbers of judged pixels, of wrong pixels, and of missing layers.
 fn judge(room: &Room, layers: &Layers) -> [usize; 3] {
     let mut counts = [0; 3];
     for (i, layers) in (0..).zip(layers) {
@@ -263,7 +263,7 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The texture coordinates in a pixel, by fractions of integers, given those of the corners.
+/// The texture coordinates in a pixel, by fractions of integers, given the coordinates of the corners.
 fn exact_place(room: &Room, pixel: [u32; 2], corners: &[[i32; 2]; 4]) -> Option<[f64; 2]> {
     let layers = room.view.layers(&room.integers, pixel)?;
     let [a, b, _, d] = room.integers[layers.first()?.0 as usize][..] else { return None };

@@ -1,7 +1,7 @@
-//! `binspace-lab lecture`: what a course on visibility teaches, as one page.
+//! `binspace-lab lecture`: the content of a course on visibility, as one page.
 //!
-//! A chapter is a function that computes all it shows; `page` writes the chapters. What is computed is in the
-//! evidence crate, with its tests.
+//! A chapter is a function that computes all its content; `page` writes the chapters. The computations are in
+//! the evidence crate, with its tests.
 
 mod antialias;
 mod chapter;
@@ -32,7 +32,7 @@ use binspace_cli::terminal::say;
 use crate::args::LectureArgs;
 use chapter::Chapter;
 
-/// What makes a chapter.
+/// The function that fills a chapter.
 type Make = fn(&mut Chapter) -> Result<(), Failure>;
 
 /// The chapters in their order, by their titles.

@@ -1,4 +1,4 @@
-//! Newell's algorithm: its tests, in their order, and how often each decides.
+//! Newell's algorithm: its tests, in their order, and the number of decisions of each.
 
 use binspace::glam::DVec3;
 use binspace::scene::{Builtin, newell_bars};

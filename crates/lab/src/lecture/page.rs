@@ -1,4 +1,4 @@
-//! The lecture as one page that stands alone.
+//! The lecture as one self-contained page.
 
 use std::io::{self, Write};
 
@@ -38,7 +38,7 @@ fn write_part(out: &mut dyn Write, part: &Part) -> io::Result<()> {
         Part::Heading(text) => writeln!(out, "<h3>{}</h3>", readable(text)),
         Part::Text(text) => writeln!(out, "<p>{}</p>", readable(text)),
         Part::Pictures(pictures) => {
-            // Three large ones stand side by side, so four would leave one alone.
+            // Three large ones stand side by side, so a fourth would stand alone.
             let is_large = pictures.iter().all(|picture| picture.size[0] > 240);
             let is_pairs = pictures.len() == 4 && is_large;
             let class = if is_pairs { "pictures pairs" } else { "pictures" };
@@ -108,7 +108,7 @@ fn grouped(text: &str) -> String {
         let end = from.find(|c: char| !c.is_ascii_digit()).unwrap_or(from.len());
         let (digits, after) = from.split_at(end);
         result.push_str(before);
-        // Digits behind a point are no whole number, and those in names no number.
+        // Digits behind a point are no whole number, and digits in names no number.
         let is_whole = digits.len() > 4
             && !result.ends_with(|c: char| c == '.' || c == ':' || c.is_alphabetic());
         for (k, digit) in digits.chars().enumerate() {

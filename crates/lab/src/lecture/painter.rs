@@ -1,4 +1,4 @@
-//! The painter's algorithm: where a sort by depth is not enough, and what the true order is.
+//! The painter's algorithm: views that a sort by depth does not solve, and the true order.
 
 use binspace::BspTree;
 use binspace::glam::DVec3;

@@ -22,7 +22,7 @@ pub(super) fn of_eight() -> String {
         let _ = write!(svg, "<path d=\"M{a} {b}L{c} {d}\" fill=\"none\" {look}/>");
     };
     let dashed = "stroke=\"#999\" stroke-dasharray=\"5 5\"";
-    // A's line divides all, C's what is beyond it, B's and then D's and E's what is on this side.
+    // A's line divides all, C's the part beyond it, B's and then D's and E's the part on this side.
     line([0.0, 8.0], [11.0, 8.0], dashed);
     line([6.0, 8.0], [6.0, 12.5], dashed);
     line([4.0, 8.0], [4.0, 0.0], dashed);
@@ -43,7 +43,7 @@ pub(super) fn of_eight() -> String {
             text([2.7, 4.2], "D₁");
             text([5.0, 4.2], "D₂");
         } else {
-            // Below what rises, above what falls or is level.
+            // Below a rising wall, above a falling or level one.
             let (middle, along) = ((a + b) * 0.5, b - a);
             let below = if along.x * along.y > 0.0 { 0.75 } else { 0.0 };
             text([middle.x + 0.15, middle.y + 0.2 - below], &letter.to_string());

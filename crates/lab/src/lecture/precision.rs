@@ -1,4 +1,4 @@
-//! How precise depths are, and what is seen where they are not precise enough.
+//! The precision of depths, and pictures where it does not suffice.
 
 use binspace::BuildOptions;
 use binspace::raster::{Faces, NONE, Rays, picture};
@@ -115,7 +115,7 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Two sheets: what formats show of them, what was predicted, and what the tree shows.
+/// Two sheets: the pictures of formats, the predictions, and the picture of the tree.
 fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Z-fighting");
     chapter.text(

@@ -12,7 +12,7 @@ use super::chapter::{Chapter, Picture, percent};
 use binspace_cli::failure::Failure;
 
 const SIZE: [u32; 2] = [320, 320];
-/// The side of a patch of the pictures, and of those of the table, in the unit of the scene.
+/// The sides of a patch in the pictures and in the table, in the unit of the scene.
 const FINE: f64 = 45.0;
 const COARSE: f64 = 140.0;
 /// The light that is shown white.
@@ -84,7 +84,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Form factors of two rectangles by sight lines, beside those of published formulas.
+/// Form factors of two rectangles by sight lines, beside published formulas.
 fn published(chapter: &mut Chapter) -> Result<(), Failure> {
     let level = |[x, y]: [f64; 2], z: f64| {
         [[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]].map(|[x, y]| DVec3::new(x, y, z))
@@ -137,7 +137,7 @@ fn failure(error: binspace::Error) -> Failure {
     Failure::about("a tree", error)
 }
 
-/// The patches, each in the colour of what leaves it.
+/// The patches, each in the colour of the light that leaves it.
 fn shown(room: &Room, leaving: &[[f64; 3]]) -> Result<Vec<u8>, Failure> {
     let surfaces = &room.patches[..room.surfaces()];
     let tree = BspTree::build(surfaces.iter().map(|patch| patch.corners)).map_err(failure)?;

@@ -10,8 +10,8 @@ use super::chapter::{Chapter, Picture, failure, percent};
 use super::shadows::{SIZE, colour};
 use binspace_cli::failure::Failure;
 
-/// The part of the chapter on pieces. `by_lines` has the zones of the pixels by sight lines to the
-/// corners of the lamp.
+/// The part of the chapter on pieces. `by_lines` holds the zones of the pixels by sight lines to the corners
+/// of the lamp.
 pub(super) fn fill(
     chapter: &mut Chapter,
     tree: &BspTree,

@@ -16,7 +16,7 @@ use binspace_cli::failure::Failure;
 /// Pictures of a chapter.
 pub(super) const SIZE: [u32; 2] = [320, 240];
 
-/// A scene, a camera, and what is truly to be seen.
+/// A scene, a camera, and the true picture.
 pub(super) struct Shot<'a> {
     pub(super) faces: Faces,
     pub(super) camera: Camera,
@@ -26,7 +26,7 @@ pub(super) struct Shot<'a> {
     colours: Colours<'a>,
 }
 
-/// What a method made of it.
+/// The result of a method.
 pub(super) struct Painted {
     pub(super) image: Image,
     pub(super) error: PictureError,

@@ -105,7 +105,7 @@ fn look(polygon: usize) -> Look {
     Look { colour: colour_of(polygon).map(|c| f32::from(c) / 255.0), opacity: 0.5 }
 }
 
-/// One view, blended in each order, with what is wrong.
+/// One view, blended in each order, with its errors.
 struct Blended {
     by_tree: Vec<Colour>,
     by_centroid: Vec<Colour>,

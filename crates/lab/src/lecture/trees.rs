@@ -79,7 +79,7 @@ fn grid(chapter: &mut Chapter) -> Result<(), Failure> {
          cuts one by the plane of the other. Worked by hand:",
     );
     let head = ["row", "depths of B", "depths that show", "triangles that show"];
-    // Figures as wide as two digits, so that they stand in columns.
+    // Figures as wide as two digits, so that columns align.
     let wide = |cells: &str| {
         cells.split(' ').map(|cell| format!("{cell:\u{2007}>2}")).collect::<Vec<_>>().join("\u{a0}")
     };

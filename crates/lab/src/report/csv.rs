@@ -6,7 +6,7 @@ use super::figures::{Figures, Row, Section};
 use super::growth::Growth;
 use binspace_cli::failure::Failure;
 
-/// What a method got wrong on a scene: the same for the same seed, on any machine.
+/// The errors of a method on a scene: identical for the same seed, on any machine.
 #[derive(Default, Serialize)]
 struct Errors<'a> {
     subject: &'a str,
@@ -37,7 +37,7 @@ struct Errors<'a> {
     failure: Option<&'a str>,
 }
 
-/// What it took: times and memory are the machine's.
+/// Its cost: times and memory depend on the machine.
 #[derive(Serialize)]
 struct Times<'a> {
     subject: &'a str,
@@ -148,7 +148,7 @@ pub(super) fn growth(rows: &[Growth]) -> Result<String, Failure> {
     }))
 }
 
-/// All rows with what they are about.
+/// All rows with their subjects.
 fn each_row(sections: &[Section]) -> impl Iterator<Item = (&str, &Row)> {
     sections
         .iter()

@@ -1,4 +1,4 @@
-//! What culling leaves of a large scene.
+//! The remainder of a large scene after culling.
 
 use std::time::Instant;
 
@@ -9,7 +9,7 @@ use binspace_evidence::culling::{Left, measure, over_the_city};
 use binspace_cli::failure::Failure;
 use binspace_cli::progress::Progress;
 
-/// The polygons of the city: the size that courses name, and if it has to be quick, one that still
+/// The number of polygons of the city: the size that courses name; if `quick`, a smaller one that still
 /// reaches far beyond the eye.
 const POLYGONS: [u32; 2] = [2_600_000, 100_000];
 const SIZE: [u32; 2] = [320, 240];

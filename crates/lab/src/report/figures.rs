@@ -42,9 +42,9 @@ pub(super) struct Row {
     pub(super) faces: usize,
     pub(super) views: usize,
     pub(super) method: String,
-    /// Where the method decides what is visible.
+    /// The space in which the method decides visibility.
     pub(super) space: Space,
-    /// The figures, or why there are none.
+    /// The figures, or the reason for their absence.
     pub(super) found: Result<Figures, String>,
 }
 
@@ -52,9 +52,9 @@ pub(super) struct Row {
 #[derive(Clone, Debug)]
 pub(super) struct Figures {
     pub(super) picture: PictureError,
-    /// Of methods that keep their vertices' definitions.
+    /// For methods that keep their vertices' definitions.
     pub(super) accuracy: Option<Accuracy>,
-    /// Of methods that cut ahead of any view.
+    /// For methods that cut ahead of any view.
     pub(super) area: Option<AreaError>,
     /// The mean share of faces that a step before the method leaves out.
     pub(super) removed: f64,
@@ -98,7 +98,7 @@ impl Section {
         names
     }
 
-    /// What the exact tree got wrong here.
+    /// The errors of the exact tree here.
     pub(super) fn exactness(&self) -> Exactness {
         let one = |row: &Row| match &row.found {
             Err(_) => Exactness { rows: 1, failed: 1, ..Exactness::default() },
@@ -117,7 +117,7 @@ impl Section {
     }
 }
 
-/// What the exact tree got wrong.
+/// The errors of the exact tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Exactness {
     pub(super) rows: usize,

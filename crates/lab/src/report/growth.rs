@@ -17,7 +17,7 @@ const ROUNDED: &str = "bsp f64 1e-6";
 const EPSILON: f64 = 1e-6;
 /// The most fragments; more take minutes.
 const MAX_FRAGMENTS: usize = 1 << 22;
-/// What is built in less is built twice, and the faster one counts.
+/// Builds that take less are repeated once, and the faster one counts.
 const SHORT: f64 = 1.0;
 
 /// A tree of one size.
@@ -26,11 +26,11 @@ pub(super) struct Growth {
     pub(super) scene: String,
     pub(super) polygons: usize,
     pub(super) method: &'static str,
-    /// The figures, or why there are none.
+    /// The figures, or the reason for their absence.
     pub(super) found: Result<Size, String>,
 }
 
-/// What it takes.
+/// Its cost.
 pub(super) struct Size {
     pub(super) fragments: usize,
     pub(super) depth: usize,
@@ -73,7 +73,7 @@ struct Case {
     size: u32,
 }
 
-/// What grows.
+/// The growing quantity.
 #[derive(Clone, Copy, PartialEq)]
 enum Subject {
     Builtin(Builtin),
@@ -107,7 +107,7 @@ impl Subject {
         if self == Self::Worst(Worst::Walls) { Heuristic::First } else { Heuristic::Auto }
     }
 
-    /// The largest scene. More, and the fragments, which are n² or n³ in the end, take minutes.
+    /// The largest scene. Too large: the fragments, which grow as n² or n³ in the end, take minutes.
     fn most(self) -> u32 {
         match self {
             Self::Builtin(Builtin::Random) => 3000,
@@ -155,7 +155,7 @@ fn rounded(scene: &Scene) -> Result<Size, String> {
     Ok(Size { fragments, depth, bytes, build, order })
 }
 
-/// What a function builds, and the seconds that it takes.
+/// The result of a function, and its time in seconds.
 fn timed<T>(build: impl Fn() -> Result<T, String>) -> Result<(T, f64), String> {
     let build = || {
         let start = Instant::now();

@@ -36,25 +36,24 @@ use binspace_cli::scene_arg;
 use binspace_cli::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use binspace_cli::units::count;
 
-/// The budget of fragments of a tree, and of pieces of Newell's algorithm. Larger: a single step of
-/// a sweep takes minutes; smaller: methods are stopped that would have finished.
+/// The budget of fragments of a tree, and of pieces of Newell's algorithm. Too large: a single step of a
+/// sweep takes minutes. Too small: methods are stopped that would have finished.
 const MAX_PIECES: usize = 1 << 19;
-/// How many a scene that is a file may have for each of its corners.
+/// The budget per corner of a scene from a file.
 const PIECES_PER_CORNER: usize = 8;
-/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if it has to
-/// be quick.
+/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if `quick`.
 const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
-/// The time between two writes of the results. Smaller: time for writing; larger: an interruption
-/// loses more.
+/// The time between two writes of the results. Too small: time for writing. Too large: an interruption loses
+/// more.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Build times, fragments and the figures of both.
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
-/// What every report has.
+/// The common part of every report.
 const FILES: [&str; 4] = ["report.md", "speed.svg", "errors.csv", "times.csv"];
 /// Views of scenes that are files.
 const VIEWS: usize = 6;
 
-/// What the report is made of so far.
+/// The content of the report up to now.
 pub(super) struct Report<'a> {
     args: &'a ReportArgs,
     size: [u32; 2],
@@ -63,7 +62,7 @@ pub(super) struct Report<'a> {
     city: Option<City>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
-    /// Whether it contains everything that was asked for.
+    /// Whether it contains all requested sections.
     complete: bool,
 }
 
@@ -72,7 +71,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     if args.scenes.iter().filter(|&name| name == STANDARD).count() > 1 {
         return Err(Failure::about("standard input", "it can be read only once"));
     }
-    // Files first: what cannot be read should not cost minutes.
+    // Files first: an unreadable file should not cost minutes.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;
     try_to_write(&args.output)?;
@@ -127,7 +126,7 @@ fn load(args: &ReportArgs, name: &OsStr) -> Result<Scene, Failure> {
             job::note_preparation(&scene, &faces, &found);
             Err(Failure::about(scene.name(), job::NOTHING_LEFT))
         }
-        // What else may be wrong shows when it is measured, and other scenes are none the worse.
+        // Other errors appear when it is measured, and do not affect other scenes.
         _ => Ok(scene),
     }
 }
@@ -188,7 +187,7 @@ impl Report<'_> {
         self.write()
     }
 
-    /// Writes all files anew, and removes what an earlier report left that this one does not have.
+    /// Rewrites all files, and removes files of an earlier report that this one does not have.
     fn write(&self) -> Result<(), Failure> {
         let folder = &self.args.output;
         for family in Family::ALL {
@@ -237,8 +236,8 @@ impl Report<'_> {
     }
 }
 
-/// Makes sure that all files of a report can be written, and leaves those that are there alone:
-/// what cannot be kept should not cost minutes.
+/// Makes sure that all files of a report can be written, and does not change existing ones: a write error
+/// should not cost minutes.
 fn try_to_write(folder: &Path) -> Result<(), Failure> {
     let plots = Family::ALL.map(error_plot);
     let names = FILES.into_iter().chain(GROWTH_FILES).chain(plots.iter().map(String::as_str));

@@ -1,4 +1,4 @@
-//! The plots: what to draw in them.
+//! The plots and their content.
 
 use binspace_evidence::Family;
 
@@ -8,9 +8,9 @@ use super::summary::{Summary, label};
 use crate::chart::{Chart, Marker, Series, Style};
 use binspace_cli::failure::Failure;
 
-/// The methods that plots show, with their looks: trees round and blue, depth buffers with corners
-/// and warm. More, and none can be told from another. Those further up are drawn later, and smaller
-/// than what they may hide.
+/// The methods in the plots, with their looks: trees round and blue, depth buffers with corners and warm.
+/// With more methods, none can be told from another. Methods further up are drawn later, and smaller than the
+/// marks that they may hide.
 const SHOWN: [(&str, Style); 12] = [
     (EXACT, Style::new([0, 0, 0], Marker::Ring, 8)),
     ("bsp f64 1e-12", Style::new([0, 60, 160], Marker::Circle, 3)),
@@ -18,7 +18,7 @@ const SHOWN: [(&str, Style); 12] = [
     ("bsp f64 1e-6", Style::new([90, 190, 240], Marker::Circle, 5)),
     ("bsp f32 1e-4", Style::new([120, 70, 200], Marker::Circle, 6)),
     ("newell", Style::new([0, 140, 90], Marker::Diamond, 7)),
-    // Whatever hides its middle, its arms are seen.
+    // Its arms are seen, even if its middle is hidden.
     ("centroid", Style::new([130, 130, 130], Marker::Cross, 8)),
     ("z 16", Style::new([150, 80, 20], Marker::Square, 3)),
     ("z 24", Style::new([215, 60, 20], Marker::Square, 5)),
@@ -96,7 +96,7 @@ pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
     })
 }
 
-/// The colours of scenes, from the first; as many as can be told apart.
+/// The colours of scenes, from the first; as many as are distinguishable.
 const COLOURS: [[u8; 3]; 9] = [
     [0, 140, 90],
     [30, 110, 220],

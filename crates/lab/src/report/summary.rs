@@ -29,12 +29,12 @@ pub(super) struct Summary<'a> {
     build: f64,
     picture: f64,
     bytes: usize,
-    /// Where it decides; `None` of no trials.
+    /// The space in which it decides; `None` without trials.
     space: Option<Space>,
 }
 
 impl<'a> Summary<'a> {
-    /// One for each method, in order, over the trials that it ended; none without families.
+    /// One for each method, in order, over its finished trials; none without families.
     pub(super) fn of_families(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |_, _| true)
     }
@@ -108,13 +108,13 @@ impl<'a> Summary<'a> {
         self.pieces += figures.pieces;
         self.removed += figures.removed;
         self.faces += row.faces;
-        // A clock that stands still still says that it was quick.
+        // A clock that does not advance still proves that it was quick.
         self.build += figures.build.max(1e-9).ln();
         self.picture += (figures.order + figures.draw).max(1e-9).ln();
         self.bytes = self.bytes.max(figures.bytes);
     }
 
-    /// Its name, and how many trials it ended if it gave up in others.
+    /// Its name, and the number of finished trials if it gave up in others.
     pub(super) fn label(&self) -> String {
         label(self.method, self.ended, self.ended + self.failed)
     }
@@ -124,7 +124,7 @@ impl<'a> Summary<'a> {
         self.wrong as f64 / self.covered.max(1) as f64
     }
 
-    /// The seconds for a picture, order and drawing: the geometric mean over what it ended.
+    /// The seconds for a picture, order and drawing: the geometric mean over the finished trials.
     pub(super) fn time(&self) -> f64 {
         (self.picture / self.ended.max(1) as f64).exp()
     }
@@ -133,7 +133,7 @@ impl<'a> Summary<'a> {
         (self.build / self.ended.max(1) as f64).exp()
     }
 
-    /// The mean share of faces that are left out as they show no front; a dash where none is.
+    /// The mean share of faces left out as they show no front; a dash where none is left out.
     fn removed_share(&self) -> String {
         match self.removed / self.ended.max(1) as f64 {
             0.0 => "–".to_owned(),
@@ -158,7 +158,7 @@ impl<'a> Summary<'a> {
     }
 }
 
-/// A method's name, and how many of its trials it ended if those were not all.
+/// A method's name, and the number of finished trials if it did not finish all.
 pub(super) fn label(method: &str, ended: usize, trials: usize) -> String {
     if ended == trials { method.to_owned() } else { format!("{method}, {ended} of {trials}") }
 }
@@ -181,7 +181,7 @@ pub(super) fn headline(sections: &[Section]) -> Table {
     six(Summary::of_families(sections))
 }
 
-/// The same over the trials that every method ended; none if every one ended all.
+/// The same over the trials that every method finished; none if every method finished all.
 pub(super) fn in_common(sections: &[Section]) -> Option<Table> {
     let all = Summary::of_families(sections);
     all.iter().any(|summary| summary.failed > 0).then(|| six(Summary::of_common_trials(sections)))

@@ -45,7 +45,7 @@ impl Table {
         format!("{table}\n")
     }
 
-    /// In columns, for a terminal: titles above each other if they are of several words.
+    /// In columns, for a terminal: the words of a title stand above each other.
     pub(super) fn plain(&self) -> String {
         // A stroke stays with the word before it.
         let title = |title: &String| title.replace(" / ", "/ ").replace(' ', "\n");
@@ -146,7 +146,7 @@ fn detail(figures: &Figures) -> Vec<String> {
     cells
 }
 
-/// A difficulty: small counts as they are, else as a power.
+/// A difficulty: small counts in full, others as a power.
 pub(super) fn difficulty(value: f64) -> String {
     if (1.0..100_000.0).contains(&value) { grouped(value as usize) } else { format!("{value:e}") }
 }
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(table.plain(), plain);
     }
 
-    /// A name of a file is one cell, and text, in Markdown; a terminal gets it as it is.
+    /// A file name is one cell, and text, in Markdown; a terminal gets it unchanged.
     #[test]
     fn cells_are_text() {
         let mut table = Table::new(&["scene", "polygons"]);

@@ -1,4 +1,4 @@
-//! A scene with its views and their truth: what every method is held against.
+//! A scene with its views and their truth: the reference of every method.
 
 use std::panic::resume_unwind;
 use std::thread;
@@ -19,13 +19,12 @@ use binspace_cli::camera;
 use binspace_cli::failure::Failure;
 use binspace_cli::job;
 
-/// What is built or painted in less is done again, so that the clock's steps and a cold cache do
-/// not count.
+/// Builds and paints that take less are repeated, so that the clock's steps and a cold cache do not count.
 const LONG_ENOUGH: Duration = Duration::from_millis(5);
-/// How often at most.
+/// The most repetitions.
 const REPEATS: usize = 5;
 
-/// A scene, and what is truly to be seen in each view of it.
+/// A scene, and the true picture of each view of it.
 pub(super) struct Trial {
     faces: Faces,
     views: Vec<View>,
@@ -128,7 +127,7 @@ impl Trial {
         })
     }
 
-    /// Judges a picture of each view on a thread of its own, and does something else meanwhile.
+    /// Judges a picture of each view on a separate thread, and does something else meanwhile.
     fn judge<T>(&self, images: &[Image], meanwhile: impl FnOnce() -> T) -> (PictureError, T) {
         let error = &|(view, image): (&View, &Image)| {
             PictureError::of(&view.rays, &self.faces, image, &view.truth)

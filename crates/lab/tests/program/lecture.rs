@@ -2,7 +2,7 @@ use std::fs;
 
 use crate::run::Folder;
 
-/// The page stands alone, and what is exact in it has nothing wrong.
+/// The page is self-contained, and its exact methods have no errors.
 #[test]
 #[ignore = "takes half a minute"]
 fn all_chapters_are_on_one_page() {

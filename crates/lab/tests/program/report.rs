@@ -42,13 +42,13 @@ fn the_exact_rows_are_zero_and_others_are_not() {
     for row in &rows {
         let removed: f64 = row["removed_share"].parse().unwrap();
         let has_step = row["method"].starts_with("fronts");
-        // Of closed boxes about a half; others may show all their fronts.
+        // About a half for closed boxes; others may show all their fronts.
         let is_known = row["subject"] != "boxes" || (0.3..0.7).contains(&removed);
         assert!(if has_step { is_known && removed < 1.0 } else { removed == 0.0 }, "{row:?}");
     }
     let text = fs::read_to_string(folder.path("out/new/report.md")).unwrap();
     assert!(!text.contains("Not complete"), "{text}");
-    // Cells without what fills them up.
+    // Cells without padding.
     let text = text.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
     for part in [
         "| bsp exact | 0 | 0 | 0 | 0 |",
@@ -103,7 +103,7 @@ fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured(
     assert!(message.contains("/proc/report.md: cannot be written"), "{message}");
 }
 
-/// A report without a family named has all sections.
+/// A report without a named family has all sections.
 #[test]
 #[ignore = "takes a quarter of a minute"]
 fn culling_and_growth_stand_behind_the_families() {
@@ -145,7 +145,7 @@ fn a_scene_without_area_is_refused() {
     assert_eq!(folder.files(), ["s.obj"]);
 }
 
-/// With standard output full, the exit status and the message say so.
+/// With standard output full, the exit status and the message report it.
 #[cfg(target_os = "linux")]
 #[test]
 fn output_that_cannot_be_written_is_an_error() {

@@ -10,7 +10,7 @@ use super::super::space::CameraSpace;
 use super::gradient::Sample;
 use crate::Precision;
 
-/// What a depth buffer stores.
+/// The content of a depth buffer.
 ///
 /// With n and f the near and the far plane's depths, z is the depth after the perspective divide,
 /// as graphics libraries have it: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far
@@ -22,8 +22,8 @@ use crate::Precision;
 pub enum DepthFormat {
     /// z in steps of 1 / (2^bits − 1), rounded to the nearest; 1 to 32 bits.
     Integer(u8),
-    /// z as an `f32`: most of its values are near 0, as are those of z after the divide, so that
-    /// far depths are told apart worst.
+    /// z as an `f32`. Most of its values are near 0, as z values after the divide are, so far depths have the
+    /// worst resolution.
     Float,
     /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), the larger being nearer: the
     /// two unevennesses all but cancel.
@@ -54,29 +54,29 @@ impl fmt::Display for DepthFormat {
     }
 }
 
-/// How depths come from the corners of a face to the pixels within it.
+/// The interpolation of depths from the corners of a face to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the
-    /// left. What a face covers is decided exactly, so that it shows nowhere else: there are no
-    /// spills. A face that is within the range of depths has no holes either. One that reaches out
-    /// of it, as all do that reach behind the eye, ends there by its depths in `f64`; the rest of
-    /// it is missing, which may be all that there is to see of a face that the eye touches.
+    /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the left. The
+    /// coverage of a face is decided exactly, so that it shows nowhere else: there are no spills. A face that
+    /// is within the range of depths has no holes either. A face that leaves this range, as all faces do that
+    /// reach behind the eye, ends there by its depths in `f64`. The rest of it is missing; that may be the
+    /// whole visible part of a face that the eye touches.
     EdgeFunctions,
-    /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney,
-    /// Evans & Erdahl (1967) and Bouknight (1970): x and z grow by a constant along the edges from
-    /// one scanline to the next, and z by −A/C from one pixel to the next. What a face covers comes
-    /// out of the same sums, so pixels at its edges may be missing, or too many.
+    /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney, Evans &
+    /// Erdahl (1967) and Bouknight (1970). x and z grow by a constant along the edges from one scanline to
+    /// the next, and z by −A/C from one pixel to the next. The same sums give the coverage of a face, so
+    /// pixels at its edges may be missing, or too many.
     Incremental,
-    /// Trapezoid by trapezoid: between the heights of two vertices a convex face has one edge on the
-    /// left and one on the right. With 1/m the slope of the left one, from one scanline to the next x
-    /// grows by 1/m and z by −(A/m + B)/C, by −B/C if it is vertical; and z by −A/C from pixel to pixel.
-    /// (With y upwards and scanlines taken from above, as textbooks have it: x − 1/m, and
-    /// z + (A/m + B)/C.) Sums begin anew in each trapezoid, from the edges' ends.
+    /// Trapezoid by trapezoid: between the heights of two vertices a convex face has one edge on the left and
+    /// one on the right. With 1/m the slope of the left one, from one scanline to the next x grows by 1/m and
+    /// z by −(A/m + B)/C, by −B/C if it is vertical; and z by −A/C from pixel to pixel. (With y upwards and
+    /// scanlines taken from above, as textbooks have it: x − 1/m, and z + (A/m + B)/C.) Sums begin again in
+    /// each trapezoid, from the edges' ends.
     Trapezoids,
-    /// Edges in integers, as Bresenham (1965) walks along lines: vertices are rounded to 1/256 of a
-    /// pixel, and from there on it is exact which pixels' centres are between two edges. z is that
-    /// of the plane's equation at the first pixel of a scanline, and grows by −A/C from there.
+    /// Edges in integers, as Bresenham (1965) walks along lines: vertices are rounded to 1/256 of a pixel.
+    /// From there on the pixel centres between two edges are exact. z follows from the plane's equation at
+    /// the first pixel of a scanline, and grows by −A/C from there.
     IntegerEdges,
 }
 
@@ -86,13 +86,13 @@ impl Interpolation {
         [Self::EdgeFunctions, Self::Incremental, Self::Trapezoids, Self::IntegerEdges];
 }
 
-/// From depths to what is interpolated, and from there to what is stored.
+/// From depths to interpolated values, and from there to stored numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale<P> {
     format: DepthFormat,
     range: Range,
     perspective: bool,
-    /// What is interpolated is (a · w + b), over w for a perspective.
+    /// The interpolated value is (a · w + b), over w for a perspective.
     a: f64,
     b: f64,
     /// The largest step of an integer format.
@@ -120,12 +120,12 @@ impl<P: Precision> Scale<P> {
         Self { format, range, perspective, a, b, steps, precision: PhantomData }
     }
 
-    /// How many steps an integer format has.
+    /// The number of steps of an integer format.
     pub(super) fn steps(&self) -> f64 {
         self.steps
     }
 
-    /// The least and the largest key: those of the near and the far plane.
+    /// The least and the largest key: the keys of the near and the far plane.
     pub(super) fn ends(&self) -> [u32; 2] {
         let Range { near, far } = self.range;
         match self.format {
@@ -137,13 +137,13 @@ impl<P: Precision> Scale<P> {
         }
     }
 
-    /// What is interpolated of a depth w, which is rounded already.
+    /// The interpolated value of a depth w, which is rounded already.
     pub(super) fn value(&self, w: f64) -> f64 {
         let value = P::round(P::round(self.a * w) + self.b);
         if self.perspective { P::round(value / w) } else { value }
     }
 
-    /// A vertex on the picture with what is interpolated.
+    /// A vertex on the picture with its interpolated value.
     pub(super) fn sample(&self, space: &CameraSpace, at: DVec3) -> Sample {
         let [x, y, w] = at.to_array().map(P::round);
         let pixel = P::round(space.pixel);
@@ -153,7 +153,7 @@ impl<P: Precision> Scale<P> {
         Sample { x: position(x, width), y: position(y, height), value: self.value(w) }
     }
 
-    /// What is stored of an interpolated value: the smaller, the nearer.
+    /// The stored number of an interpolated value: the smaller, the nearer.
     #[inline]
     pub(super) fn key(&self, value: f64) -> u32 {
         match self.format {

@@ -9,7 +9,7 @@ use binspace::raster::NONE;
 #[derive(Debug)]
 pub(super) struct Frame {
     width: u32,
-    /// The rows of the picture that are drawn; what is put into others is left out.
+    /// The rows of the picture that are drawn; data for others are left out.
     rows: Range<u32>,
     comparison: Comparison,
     keys: Vec<u32>,
@@ -41,7 +41,7 @@ impl Frame {
         self.rows.clone()
     }
 
-    /// The face in each pixel so far.
+    /// The face in each pixel up to now.
     pub(super) fn faces(&self) -> &[u32] {
         &self.faces
     }
@@ -53,8 +53,7 @@ impl Frame {
         Some(start + columns.start as usize..start + columns.end as usize)
     }
 
-    /// Shows a face in those pixels of a run where it passes the test. Of a pixel that is to be left
-    /// alone the key is `None`.
+    /// Shows a face in each pixel of a run where it passes the test. The key `None` skips a pixel.
     #[inline]
     pub(super) fn put(
         &mut self,
@@ -103,7 +102,7 @@ impl Frame {
         }
     }
 
-    /// The faces, how many pixels were drawn, and the memory of the depths.
+    /// The faces, the number of drawn pixels, and the memory of the depths.
     pub(super) fn finish(self) -> (Vec<u32>, u64, Vec<u32>) {
         (self.faces, self.drawn, self.keys)
     }

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use crate::Precision;
 
-/// A position on the picture, in pixels, and the value of what is interpolated there.
+/// A position on the picture, in pixels, and the interpolated value there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::method) struct Sample {
     pub(in crate::method) x: f64,
@@ -22,8 +22,8 @@ pub(in crate::method) struct Gradient<P> {
 }
 
 impl<P: Precision> Gradient<P> {
-    /// Through the first sample and two neighbours that span the most with it. Where they span
-    /// nothing the value is that of the first everywhere.
+    /// Through the first sample and two neighbours that span the most with it. Where they span nothing, the
+    /// first value holds everywhere.
     pub(in crate::method) fn new(samples: &[Sample]) -> Self {
         let precision = PhantomData;
         let Some((&origin, rest)) = samples.split_first() else {
@@ -46,7 +46,7 @@ impl<P: Precision> Gradient<P> {
         Self { origin, along_x, along_y, precision }
     }
 
-    /// What the values of a row begin with: that on the row's centre, at the x of the first sample.
+    /// The first value of a row: the value on the row's centre, at the x of the first sample.
     #[inline]
     pub(in crate::method) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);

@@ -7,8 +7,8 @@ use super::pass::Pass;
 use super::walk::FaceWalk;
 use crate::Precision;
 
-/// The parts of a pixel that vertices are rounded to. Larger: coordinates of wide pictures need more
-/// than 32 bits in hardware; smaller: edges move, and neighbours of different slopes show gaps.
+/// The number of parts of a pixel that vertices are rounded to. Too large: coordinates of wide pictures need
+/// more than 32 bits in hardware. Too small: edges move, and neighbours of different slopes show gaps.
 const PARTS: i64 = 256;
 
 /// Nothing is kept from one face to the next.
@@ -28,16 +28,16 @@ impl<P: Precision> FaceWalk<P> for Walk {
     }
 }
 
-/// An edge on the scanlines whose centres it crosses. On each, `column` is the first pixel whose centre
-/// is on it or to its right; `rest`, from 0 up to but not including `unit`, says how far to its right, in
-/// `unit` parts of a pixel.
+/// An edge on the scanlines whose centres it crosses. On each, `column` is the first pixel whose centre is on
+/// it or to its right. `rest`, from 0 up to but not including `unit`, is the distance to its right, in `unit`
+/// parts of a pixel.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     first: i64,
     end: i64,
     column: i64,
     rest: i64,
-    /// What the edge moves by from one scanline to the next: pixels, and parts of 1 / rise.
+    /// The step of the edge from one scanline to the next: pixels, and parts of 1 / rise.
     step: [i64; 2],
     unit: i64,
 }
@@ -59,7 +59,7 @@ impl Edge {
         Some(Self { first, end, column, rest: column * unit - place, step, unit })
     }
 
-    /// Goes on to the next scanline.
+    /// Advances to the next scanline.
     fn advance(&mut self) {
         self.column += self.step[0];
         self.rest -= self.step[1] * PARTS;
@@ -70,8 +70,8 @@ impl Edge {
     }
 }
 
-/// Calls `visit` with the row and the columns of all pixels whose centres are within a convex polygon,
-/// on its left rim, or on its upper one.
+/// Calls `visit` with the row and the columns of all pixels whose centres are within a convex polygon, on its
+/// left boundary, or on its upper one.
 fn for_each_run(points: &[[i64; 2]], size: [u32; 2], mut visit: impl FnMut(u32, Range<u32>)) {
     let [width, height] = size.map(i64::from);
     let next = points.iter().cycle().skip(1);

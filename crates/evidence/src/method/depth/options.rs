@@ -1,4 +1,4 @@
-//! What a depth buffer is like.
+//! The properties of a depth buffer.
 
 use super::format::{DepthFormat, Interpolation};
 use super::rules::DepthRules;
@@ -9,7 +9,7 @@ use super::rules::DepthRules;
 /// counts (the test `LESS` of graphics libraries); a pixel without a face is beyond any depth. Other
 /// [rules](DepthRules) can be given.
 ///
-/// # What is rounded
+/// # Roundings
 ///
 /// Corners are placed in the camera's coordinates and clipped to the picture and to the range of
 /// depths in `f64`. From there on, with R the rounding of each single operation, which is to `f32`
@@ -17,29 +17,29 @@ use super::rules::DepthRules;
 ///
 /// 1. the place, to x, y and the depth w: one R each;
 /// 2. the position on the picture: x / (w · pixel) + half the width, y likewise;
-/// 3. what is interpolated. Perspective: (a · w + b) / w with a and b from near and far as graphics
-///    libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
+/// 3. the interpolated value. Perspective: (a · w + b) / w with a and b from near and far as graphics
+///   libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
 /// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points: of
 ///    a face of more corners, the first and two neighbours that span the most;
 /// 5. the value in a pixel, by the way of [`Interpolation`];
-/// 6. what is stored: see [`DepthFormat`].
+/// 6. the stored number: see [`DepthFormat`].
 ///
 /// So an integer format errs by its steps alone, as with interpolators that are wide enough, while
 /// the floating-point formats err as a pipeline of `f32` does. (Such a pipeline errs more in 1, as
 /// it multiplies matrices in `f32` as well, and has positions of fewer bits in 2.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthBuffer {
-    /// What is stored.
+    /// The stored number.
     pub format: DepthFormat,
     /// How depths are interpolated from the corners to the pixels.
     pub interpolation: Interpolation,
-    /// The least depth that is shown, in world units along the direction of view, from the eye, or
-    /// from the centre of a parallel camera's picture. Default: `None`, the least that the picture
-    /// shows, though no less than 2⁻⁴⁴ of the furthest.
+    /// The least depth that is shown, in world units along the direction of view, from the eye, or from the
+    /// centre of a parallel camera's picture. Default: `None`, the least visible depth, though no less than
+    /// 2⁻⁴⁴ of the furthest.
     pub near: Option<f64>,
-    /// The largest depth that is shown. Default: `None`, the largest that the picture shows.
+    /// The largest depth that is shown. Default: `None`, the largest visible depth.
     pub far: Option<f64>,
-    /// What the buffer begins with, compares and keeps.
+    /// The buffer's first value, its test and its writes.
     pub rules: DepthRules,
     /// The sections of the picture that are drawn one after another. Default: `None`, all of it at
     /// once.
@@ -49,9 +49,9 @@ pub struct DepthBuffer {
 /// How a picture is drawn in sections, so that the depths of all of it are never kept at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sections {
-    /// How many rows a section has; at least 1.
+    /// The number of rows of a section; at least 1.
     pub rows: u32,
-    /// How many sections are drawn at the same time; at least 1.
+    /// The number of sections that are drawn at the same time; at least 1.
     pub threads: usize,
 }
 
@@ -86,7 +86,7 @@ impl DepthBuffer {
         Self { rules, ..self }
     }
 
-    /// Drawn in sections of so many rows, by so many threads.
+    /// Drawn in sections of this many rows, by this many threads.
     #[must_use]
     pub const fn with_sections(self, rows: u32, threads: usize) -> Self {
         Self { sections: Some(Sections { rows, threads }), ..self }

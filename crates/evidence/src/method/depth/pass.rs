@@ -87,7 +87,7 @@ impl<P: Precision> Pass<'_, P> {
         });
     }
 
-    /// What is interpolated over a face, if it is to be seen at all.
+    /// The value interpolated over a face, if any of the face is visible.
     fn depths(&self, clipper: &mut Clipper, face: u32) -> Option<Depths<P>> {
         let outline = clipper.clip_face(&self.space, self.faces, face);
         if outline.is_empty() {
@@ -98,7 +98,7 @@ impl<P: Precision> Pass<'_, P> {
         Some(Depths { gradient: Gradient::new(&samples), limits: self.limits(face, outline) })
     }
 
-    /// What cuts a face off in each pixel, if it reaches out of the range of depths.
+    /// The limits that cut a face off in each pixel, if it leaves the range of depths.
     fn limits(&self, face: u32, outline: &[Vertex]) -> Option<Limits> {
         let Self { space, range, .. } = self;
         let beyond = |corner: &[f64; 3]| {
@@ -124,14 +124,14 @@ impl<P: Precision> Pass<'_, P> {
     }
 }
 
-/// The depths of a face on the picture, and what cuts it off.
+/// The depths of a face on the picture, and its limits.
 #[derive(Clone, Copy, Debug)]
 struct Depths<P> {
     gradient: Gradient<P>,
     limits: Option<Limits>,
 }
 
-/// What is let through beyond the near and the far plane, for the rounding of depths.
+/// The margin beyond the near and the far plane, for the rounding of depths.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// The depth of a face, or its reciprocal for a perspective, and the values of it that are in range.

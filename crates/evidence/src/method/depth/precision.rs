@@ -1,10 +1,10 @@
-//! How well formats tell depths apart: what they store of a depth, and what that stands for.
+//! The depth resolution of formats: the stored number of a depth, and the depth that it stands for.
 
 use super::format::{DepthFormat, Scale};
 use crate::Precision;
 use crate::method::clip::Range;
 
-/// What a depth buffer keeps of a depth.
+/// The stored value of a depth in a depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
     /// The stored number, from 0 at the near plane to 1 at the far one; the other way round for
@@ -15,7 +15,7 @@ pub struct Stored {
 }
 
 impl DepthFormat {
-    /// What a perspective picture's buffer keeps of a depth between the near and the far plane.
+    /// The stored value in a perspective picture's buffer, for a depth between the near and the far plane.
     pub fn store(self, planes: [f64; 2], depth: f64) -> Stored {
         if self.is_float() {
             self.store_in::<f32>(planes, depth)
@@ -42,8 +42,7 @@ impl DepthFormat {
         Stored { value, depth }
     }
 
-    /// The largest difference between depths around this one, within `share` of it, and what is
-    /// stored of them.
+    /// The largest difference between depths around this one, within `share` of it, and their stored values.
     pub fn largest_error(self, planes: [f64; 2], depth: f64, share: f64) -> f64 {
         // Steps that no regular pattern of the format's steps follows.
         let golden = |i: u32| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
@@ -52,10 +51,10 @@ impl DepthFormat {
         (0..LOOKED_AT).map(error).fold(0.0, f64::max)
     }
 
-    /// The difference of two depths, near this one, whose stored numbers are a step apart, by the
-    /// formula: a step times the slope of w over what is stored. For z that is w² (f − n) / (f n).
+    /// The difference of two depths, near this one, whose stored numbers are a step apart, by the formula: a
+    /// step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
     ///
-    /// Steps of an `f32` are those of the power of two that the number is in.
+    /// Steps of an `f32` are the steps of the number's power of two.
     pub fn step(self, [near, far]: [f64; 2], depth: f64) -> f64 {
         let slope = depth * depth * (far - near) / (far * near);
         let of_bits = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);
@@ -71,7 +70,7 @@ impl DepthFormat {
     }
 }
 
-/// How many depths are looked at for an error. Fewer: the largest is missed; more: time.
+/// The number of depths sampled for an error. Too small: the largest error is missed. Too large: time.
 const LOOKED_AT: u32 = 2000;
 
 #[cfg(test)]

@@ -5,13 +5,13 @@ use super::super::clip::{Clipper, Range};
 use super::super::space::CameraSpace;
 use binspace::internals::Faces;
 
-/// The nearest near plane that is chosen, as a share of the far plane's depth. Smaller, and one
-/// face at the eye takes all depths; larger, and it is cut off.
+/// The nearest near plane that is chosen, as a share of the far plane's depth. Too small: one face at the eye
+/// takes all depths. Too large: it is cut off.
 const NEAREST: f64 = 1.0 / (1u64 << 44) as f64;
-/// The least range that is chosen, as a share of the larger depth, so that it can be divided by.
+/// The least range that is chosen, as a share of the larger depth, so that the range is a valid divisor.
 const SHALLOWEST: f64 = 1.0 / (1u64 << 20) as f64;
 
-/// The range of depths that a picture is made with, from what is given of it; `None` if there is nothing to see.
+/// The range of depths of a picture, from the given limits; `None` if nothing is visible.
 pub(super) fn of(
     limits: [Option<f64>; 2],
     space: &CameraSpace,
@@ -39,7 +39,7 @@ pub(super) fn of(
     }))
 }
 
-/// The depths of what the picture shows.
+/// The depths of the visible faces.
 fn visible(space: &CameraSpace, faces: &Faces) -> Option<Range> {
     let ahead = Range::ahead(space, faces)?;
     let mut clipper = Clipper::new(space, ahead);
@@ -49,7 +49,7 @@ fn visible(space: &CameraSpace, faces: &Faces) -> Option<Range> {
             seen.include(vertex.at.z);
         }
     }
-    // So that what is at the ends is not beyond them by its rounding.
+    // So that rounding moves no face at the ends beyond them.
     let pad = 1e-12 * if space.perspective { seen.far } else { 1.0 };
     seen = Range { near: seen.near - pad, far: seen.far + pad };
     if space.perspective {

@@ -1,26 +1,26 @@
-//! What a depth buffer begins with, compares and keeps.
+//! The conventions of a depth buffer: its first value, its test and its writes.
 
 /// The state that graphics libraries leave to their users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepthRules {
     /// Which of two stored numbers is nearer.
     pub nearer: Nearer,
-    /// What a depth must be to show.
+    /// The test that a depth passes to show.
     pub test: DepthTest,
-    /// What the buffer is cleared to.
+    /// The buffer's clear value.
     pub clear: Clear,
-    /// Whether what shows also leaves its depth. Translucent polygons must not: what is behind one
-    /// of them is still seen.
+    /// Whether a visible polygon also leaves its depth. Translucent polygons must not: polygons behind them
+    /// are still seen.
     pub writes: bool,
 }
 
 /// Which of two stored numbers is nearer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nearer {
-    /// The smaller: what is stored runs from 0 at the near plane to the format's largest number at
-    /// the far one.
+    /// The smaller: stored numbers run from 0 at the near plane to the format's largest number at the far
+    /// one.
     Smaller,
-    /// The larger: what is stored runs the other way.
+    /// The larger: stored numbers run the other way.
     Larger,
 }
 
@@ -37,7 +37,7 @@ pub enum DepthTest {
     GreaterOrEqual,
 }
 
-/// What a buffer is cleared to.
+/// The clear value of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clear {
     /// To nothing: any depth passes where no face is yet.
@@ -63,7 +63,7 @@ impl DepthRules {
         Self { test, ..self }
     }
 
-    /// Cleared to something else.
+    /// Cleared to another value.
     #[must_use]
     pub const fn with_clear(self, clear: Clear) -> Self {
         Self { clear, ..self }
@@ -79,11 +79,11 @@ impl DepthRules {
 /// Rules as a comparison of integers, given the keys of a format's ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Comparison {
-    /// A stored number is kept as its key, the smaller, the nearer, with these bits flipped: none, or
-    /// all if the test asks for the further.
+    /// A stored number is kept as its key, the smaller, the nearer, with these bits flipped: none, or all if
+    /// the test selects the further.
     flip: u32,
     or_equal: bool,
-    /// What the buffer is cleared to, flipped.
+    /// The clear value, flipped.
     pub(super) cleared: u32,
     /// Whether any depth passes where no face is yet.
     pub(super) is_open: bool,
@@ -94,7 +94,7 @@ impl Comparison {
     pub(super) fn new(rules: DepthRules, [first, last]: [u32; 2]) -> Self {
         let asks_smaller = matches!(rules.test, DepthTest::Less | DepthTest::LessOrEqual);
         let smaller_is_nearer = rules.nearer == Nearer::Smaller;
-        // A test that asks for the end that is not the nearer shows what is furthest.
+        // A test for the end that is not the nearer shows the furthest faces.
         let flip = if asks_smaller == smaller_is_nearer { 0 } else { u32::MAX };
         let cleared = match (rules.clear, smaller_is_nearer) {
             (Clear::Nothing, _) => u32::MAX ^ flip,
@@ -112,7 +112,7 @@ impl Comparison {
         key ^ self.flip
     }
 
-    /// Whether what is to be stored shows before what is stored.
+    /// Whether a new number shows before the stored one.
     #[inline]
     pub(super) fn passes(&self, new: u32, stored: u32) -> bool {
         new < stored || self.or_equal && new == stored

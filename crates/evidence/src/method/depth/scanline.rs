@@ -6,14 +6,14 @@ use super::pass::Pass;
 use super::walk::{FaceWalk, index};
 use crate::Precision;
 
-/// An edge on the scanlines whose centres it crosses, with its x and value on the one at hand.
+/// An edge on the scanlines whose centres it crosses, with its x and value on the current one.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     first: u32,
     end: u32,
     x: f64,
     value: f64,
-    /// What x and the value grow by from one scanline to the next.
+    /// The increments of x and of the value from one scanline to the next.
     step: [f64; 2],
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Walk {
 }
 
 impl<P: Precision> FaceWalk<P> for Walk {
-    /// Fills what lies between the edges of a face, taken by their first scanlines.
+    /// Fills the area between the edges of a face, taken by their first scanlines.
     fn fill(&mut self, pass: &mut Pass<'_, P>, face: u32, samples: &[Sample]) {
         let Self { edges, active } = self;
         let next = samples.iter().cycle().skip(1);

@@ -11,7 +11,7 @@ struct Edge {
     first: u32,
     end: u32,
     top: Sample,
-    /// 1/m: what x grows by from one scanline to the next; 0 if the edge is vertical.
+    /// 1/m: the increment of x from one scanline to the next; 0 if the edge is vertical.
     step: f64,
 }
 
@@ -48,7 +48,7 @@ impl<P: Precision> FaceWalk<P> for Walk {
         for pair in heights.windows(2) {
             let (first, end) = (pair[0], pair[1]);
             let mut sides = edges.iter().filter(|edge| edge.first <= first && edge.end >= end);
-            // The picture of a convex face has two; where rounding leaves one, it is a line.
+            // The picture of a convex face has two; if rounding leaves one, it is a line.
             let (Some(a), Some(b)) = (sides.next(), sides.next()) else { continue };
             let middle = |edge: &Edge| edge.x::<P>(first) + edge.x::<P>(end - 1);
             let [left, right] = if middle(a) <= middle(b) { [a, b] } else { [b, a] };

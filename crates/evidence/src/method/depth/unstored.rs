@@ -1,4 +1,4 @@
-//! What a depth buffer is about to store, with bounds of the roundings on the way.
+//! The number that a depth buffer is about to store, with bounds of the roundings on the way.
 
 use super::super::clip::{Clipper, Range};
 use super::super::space::CameraSpace;
@@ -13,12 +13,12 @@ use binspace::view::Camera;
 /// A number that is about to be stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unstored {
-    /// The number that the face's plane has in the pixel, as the pipeline set the plane up, corners and
-    /// slopes rounded; the smaller, the nearer.
+    /// The number of the face's plane in the pixel, as the pipeline set the plane up, with rounded corners
+    /// and slopes; the smaller, the nearer.
     pub value: f64,
     /// The difference of two stored numbers that are next to each other there.
     pub step: f64,
-    /// By how much the roundings in the pixel can move the number at most, before it is stored.
+    /// The largest effect of the roundings in the pixel on the number, before it is stored.
     pub rounding: f64,
 }
 
@@ -39,7 +39,7 @@ impl DepthBuffer {
     ///
     /// # Errors
     ///
-    /// If the near and the far plane do not suit the camera, or nothing is to be seen.
+    /// If the near and the far plane do not suit the camera, or nothing is visible.
     pub fn set_up(&self, camera: &Camera, faces: &Faces) -> Result<SetUp, MethodError> {
         if self.format.is_float() {
             self.set_up_in::<f32>(camera, faces, 2f64.powi(-24))
@@ -73,19 +73,20 @@ impl DepthBuffer {
 }
 
 impl SetUp {
-    /// By how much a sum of this size is rounded at most.
+    /// The largest rounding of a sum of this size.
     fn half_step(&self, size: f64) -> f64 {
         self.unit * 2f64.powi(size.log2().floor() as i32)
     }
 
-    /// What is about to be stored for a face at a pixel's centre; `None` for a face that is not seen.
+    /// The number that is about to be stored for a face at a pixel's centre; `None` for a face that is not
+    /// seen.
     pub fn at(&self, face: u32, x: u32, y: u32) -> Option<Unstored> {
         let (origin, [along_x, along_y]) = self.planes[face as usize]?;
         let by_y = (f64::from(y) + 0.5 - origin.y) * along_y;
         let by_x = (f64::from(x) + 0.5 - origin.x) * along_x;
         let row = origin.value + by_y;
         let value = row + by_x;
-        // The differences and the products, and the sum of a row; the last sum is what is stored.
+        // The differences and the products, and the sum of a row; the last sum is stored.
         let products = 2.0 * self.unit * (by_y.abs() + by_x.abs());
         let rounding = products + self.half_step(row.abs() + products);
         let whole = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);
@@ -107,7 +108,7 @@ impl SetUp {
                 Unstored { value, step, rounding: rounding + 3.0 * sum }
             }
             DepthFormat::LinearInteger(_) | DepthFormat::LinearFloat => {
-                // 1 / w is what is interpolated: w moves by as much times w², and is rounded itself.
+                // 1 / w is interpolated: w moves by as much times w², and is rounded itself.
                 let depth = 1.0 / value;
                 let rounding = (rounding + sum) * depth * depth;
                 let Range { near, far } = self.range;

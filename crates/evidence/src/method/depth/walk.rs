@@ -1,4 +1,4 @@
-//! What all walks along edges have in common.
+//! The common part of all walks along edges.
 
 use super::super::clip::Clipper;
 use super::gradient::Sample;

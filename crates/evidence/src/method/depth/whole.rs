@@ -16,7 +16,7 @@ use crate::Precision;
 use binspace::internals::Faces;
 use binspace::raster::Rays;
 
-/// What all sections of a picture share.
+/// The common state of all sections of a picture.
 pub(super) struct Whole<'a> {
     pub(super) method: &'a DepthBuffer,
     pub(super) space: CameraSpace,
@@ -26,10 +26,10 @@ pub(super) struct Whole<'a> {
 }
 
 impl Whole<'_> {
-    /// Draws all faces, and returns how many there are to see and how many pixels were drawn.
+    /// Draws all faces, and returns the numbers of visible faces and of drawn pixels.
     ///
-    /// No section knows of another, and each has rows of its own in `faces`: the picture is the same
-    /// for any number of rows and threads.
+    /// No section depends on another, and each has its own rows in `faces`. The picture is the same for any
+    /// number of rows and threads.
     pub(super) fn draw<P: Precision>(
         &self,
         faces: &mut [u32],

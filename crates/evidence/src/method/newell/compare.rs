@@ -2,11 +2,11 @@
 
 use super::pieces::Pieces;
 
-/// Projections that overlap by no more than this, in pixels, only touch. Larger, and the overlaps
-/// of slivers are overlooked; smaller, and neighbours in a mesh are compared in vain.
+/// Projections that overlap by no more than this, in pixels, only touch. Too large: the overlaps of slivers
+/// are overlooked. Too small: neighbours in a mesh are compared without effect.
 pub(super) const TOUCH: f64 = 1e-6;
 
-/// What says that P does not hide Q.
+/// The test that proves that P does not hide Q.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Reason {
     /// They are pieces of one face.

@@ -1,21 +1,21 @@
-//! What decides how often.
+//! Counts of decisions by test.
 
 use super::compare::Reason;
 
-/// How often each test of [`Newell`](super::Newell)'s algorithm decided in one view, and what became
-/// of the pairs that none decided.
+/// Counts of decisions by each test of [`Newell`](super::Newell)'s algorithm in one view, and the outcome of
+/// pairs that none decided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Decisions {
-    /// Pieces of what is in the picture before any cut.
+    /// Pieces of the faces in the picture before any cut.
     pub begun: usize,
     /// Pieces that were painted.
     pub painted: usize,
     /// Pairs P, Q that overlap in depth and were compared.
     pub compared: u64,
-    /// Of these, pieces of one face, which cannot hide each other.
+    /// Pairs among these of pieces of one face, which cannot hide each other.
     pub of_one_face: u64,
-    /// Of these, pairs that each of the five tests decided, where none before it did.
+    /// Pairs among these that each of the five tests decided, where none before it did.
     pub by_test: [u64; 5],
     /// Pairs that no test decided: Q took P's place in the list.
     pub moved: u64,

@@ -1,11 +1,11 @@
-//! What the algorithm is, and its budgets.
+//! The algorithm's definition, and its budgets.
 
-/// Sorts by depth, and makes sure of it: M. E. Newell, R. G. Newell & T. L. Sancha, "A solution to
-/// the hidden surface problem" (1972).
+/// Sorts by depth, and checks the order: M. E. Newell, R. G. Newell & T. L. Sancha, "A solution to the hidden
+/// surface problem" (1972).
 ///
-/// Faces are clipped to what the picture shows and sorted by their furthest vertex. The furthest, P,
-/// may be painted if it hides no Q that reaches further than P's nearest vertex, which is so if one
-/// of these holds, each tried in turn:
+/// Faces are clipped to the picture and sorted by their furthest vertex. The furthest, P, may be painted if
+/// it hides no Q that reaches further than P's nearest vertex. That holds if one of these tests holds, each
+/// tried in turn:
 ///
 /// 1. their extents on the picture do not overlap from left to right;
 /// 2. nor from top to bottom;
@@ -13,15 +13,15 @@
 /// 4. all of Q is in front of P's plane;
 /// 5. their projections do not overlap.
 ///
-/// If none does, Q takes P's place, marked, if it is behind P's plane or P is in front of Q's. If
-/// that is not so (they penetrate), or Q is marked already (a cycle), one is cut by the plane of the
-/// other. Where no plane of a cycle cuts another face of it, one is cut along an edge of another as
-/// it is seen. Where that is in vain too, all is nearer than the epsilon, and P is painted.
+/// If none does, Q takes P's place, marked, if it is behind P's plane or P is in front of Q's. Otherwise
+/// (they penetrate), or if Q is marked already (a cycle), one is cut by the plane of the other. Where no
+/// plane of a cycle cuts another face of it, one is cut along an edge of another as it is seen. If that does
+/// not help either, all faces are nearer than the epsilon, and P is painted.
 ///
-/// When Q is painted, its predecessor goes on where it was stopped, rather than beginning again: the
-/// order is the same, the comparisons are fewer.
+/// When Q is painted, its predecessor resumes its comparisons instead of beginning again. The order is the
+/// same, with fewer comparisons.
 ///
-/// Everything is `f64`. The time is quadratic in the faces that overlap in depth, and so are the
+/// Everything is `f64`. The time is quadratic in the faces that overlap in depth, and so is the number of
 /// pieces at worst: both have a budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newell {
@@ -30,9 +30,9 @@ pub struct Newell {
     pub max_pieces: usize,
     /// The most pairs that are compared for one picture; more is an error. Default: 2²⁸, seconds.
     pub max_comparisons: u64,
-    /// Vertices no further than this from a plane count as on it, in units of 2⁵¹ lattice steps,
-    /// half the scene's extent or up to four times that. Default: 1e-10. Smaller, and faces with
-    /// a common edge cut each other; larger, and near layers are painted as they come.
+    /// Vertices no further than this from a plane count as on it, in units of 2⁵¹ lattice steps, half the
+    /// scene's extent or up to four times that. Default: 1e-10. Too small: faces with a common edge cut each
+    /// other. Too large: near layers are painted in input order.
     pub epsilon: f64,
 }
 

@@ -14,7 +14,7 @@ pub(super) struct EyePlane {
 }
 
 impl EyePlane {
-    /// The plane of a face. One that the eye is on has it on either side.
+    /// The plane of a face. A face whose plane contains the eye has it on either side.
     fn of(space: &CameraSpace, faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
         // Differences of lattice points are exact.
@@ -25,7 +25,7 @@ impl EyePlane {
         if eye < 0.0 { Self { normal: -normal, offset: -offset } } else { Self { normal, offset } }
     }
 
-    /// How far a place is on the eye's side; behind the plane it is negative.
+    /// The distance of a place on the eye's side; behind the plane it is negative.
     #[inline]
     pub(super) fn distance(&self, at: DVec3) -> f64 {
         self.normal.dot(at) - self.offset
@@ -38,7 +38,7 @@ pub(super) struct Piece {
     pub(super) face: u32,
     start: u32,
     len: u32,
-    /// Whether it is all that is seen of its face.
+    /// Whether it is the whole visible part of its face.
     whole: bool,
     pub(super) near: f64,
     pub(super) far: f64,
@@ -47,7 +47,7 @@ pub(super) struct Piece {
     pub(super) high: [f64; 2],
 }
 
-/// All pieces, those that were cut up included.
+/// All pieces, including pieces that were cut up.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pieces {
     pieces: Vec<Piece>,
@@ -59,7 +59,7 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// Takes over what a camera sees of the faces that are shown, in place of what there was.
+    /// Replaces all pieces by the parts of the given faces that a camera sees.
     pub(super) fn take(
         &mut self,
         space: &CameraSpace,
@@ -82,7 +82,7 @@ impl Pieces {
         self.planes.clear();
     }
 
-    /// Adds what is seen of the next face, if anything is.
+    /// Adds the visible part of the next face, if there is any.
     fn add_face(&mut self, space: &CameraSpace, faces: &Faces, face: u32, outline: &[Vertex]) {
         if outline.is_empty() {
             self.planes.push(EyePlane::default());
@@ -92,7 +92,7 @@ impl Pieces {
         }
     }
 
-    /// Adds a piece of a face, and gives back its number.
+    /// Adds a piece of a face, and returns its number.
     pub(super) fn add(
         &mut self,
         space: &CameraSpace,
@@ -145,7 +145,7 @@ impl Pieces {
         &self.planes[self.pieces[piece as usize].face as usize]
     }
 
-    /// The face that a piece is of, and whether it is all that is seen of it.
+    /// The face of a piece, and whether the piece is the whole visible part of it.
     pub(super) fn source(&self, piece: u32) -> (u32, bool) {
         let piece = self.get(piece);
         (piece.face, piece.whole)

@@ -18,8 +18,7 @@ enum State {
     Gone,
 }
 
-/// A piece that is to be painted next, unless it hides something; nothing from `place` in the list
-/// on is in its way.
+/// The next piece to paint, unless it hides something; no piece from `place` in the list on prevents it.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     piece: u32,
@@ -30,12 +29,12 @@ pub(super) struct Sorter<'a> {
     method: &'a Newell,
     space: &'a CameraSpace,
     pieces: &'a mut Pieces,
-    /// Pieces by their furthest depths, the furthest last; those that are gone may still be there.
+    /// Pieces by their furthest depths, the furthest last; removed pieces may still be there.
     list: Vec<u32>,
     state: Vec<State>,
     /// Each has taken the place of the one before it.
     chain: Vec<Candidate>,
-    /// How many of the list are gone.
+    /// The number of removed pieces in the list.
     gone: usize,
     comparisons: u64,
     decisions: Decisions,
@@ -65,7 +64,7 @@ impl<'a> Sorter<'a> {
         if self.pieces.len() > limit { Err(MethodError::pieces(limit)) } else { Ok(()) }
     }
 
-    /// All pieces, the furthest first, and what decided.
+    /// All pieces, the furthest first, and the deciding tests.
     pub(super) fn sort(mut self) -> Result<(Vec<u32>, Decisions), MethodError> {
         let mut order = Vec::with_capacity(self.list.len());
         while let Some(candidate) = self.next() {
@@ -83,7 +82,7 @@ impl<'a> Sorter<'a> {
                 self.replace(piece, &halves)?;
                 self.decisions.cuts += 1;
             } else {
-                // All is within the epsilon: the search goes on past the pair.
+                // Everything is within the epsilon: the search continues past the pair.
                 self.decisions.passed += 1;
             }
         }
@@ -91,7 +90,7 @@ impl<'a> Sorter<'a> {
         Ok((order, self.decisions))
     }
 
-    /// The piece to look at: that of the chain's end, or the furthest that is left.
+    /// The next piece: the end of the chain, or the furthest remaining one.
     fn next(&mut self) -> Option<Candidate> {
         if self.chain.is_empty() {
             if 2 * self.gone > self.list.len() {
@@ -144,7 +143,7 @@ impl<'a> Sorter<'a> {
         if self.comparisons > limit { Err(MethodError::comparisons(limit)) } else { Ok(found) }
     }
 
-    /// Whether a plane says that Q, which P may hide, may be painted before P.
+    /// Whether a plane proves that Q, which P may hide, may be painted before P.
     fn may_precede(&self, q: u32, p: u32) -> bool {
         let epsilon = self.method.epsilon;
         is_behind(self.pieces, q, p, epsilon) || is_in_front(self.pieces, p, q, epsilon)

@@ -37,8 +37,7 @@ pub(super) fn by_outline(
     })
 }
 
-/// Cuts a convex polygon where the distance changes its sign; vertices within the slack are of both
-/// parts.
+/// Cuts a convex polygon where the distance changes its sign; vertices within the slack belong to both parts.
 fn cut(
     polygon: &[Vertex],
     distance: impl Fn(&Vertex) -> f64,
@@ -63,7 +62,7 @@ fn cut(
             back.push(*here);
         }
         if a < 0.0 && b > 0.0 || a > 0.0 && b < 0.0 {
-            // From the front, whichever way the edge runs: neighbours get the same vertex.
+            // From the front, in either direction of the edge: neighbours get the same vertex.
             let vertex = if a > 0.0 {
                 Vertex::between(here, next, a / (a - b))
             } else {

@@ -1,4 +1,4 @@
-//! What depth buffers of limited precision can and cannot tell apart.
+//! The resolving power of depth buffers of limited precision.
 
 use super::oracle::{Meeting, meet};
 use super::{Polygons, cameras, disjoint, faces, judge, polygons_of, show};
@@ -22,7 +22,7 @@ fn wall(depth: f64) -> Vec<DVec3> {
     [(-c, -c), (c, -c), (c, c), (-c, c)].map(|(x, y)| DVec3::new(x, y, -depth)).to_vec()
 }
 
-/// In how many of the pairs of walls, `gap` apart, the further, which comes first, is shown.
+/// The number of pairs of walls, `gap` apart, in which the further, which comes first, is shown.
 fn mistaken(format: DepthFormat, gap: f64) -> usize {
     let camera = ahead([2, 2]);
     let method = DepthBuffer::new(format).with_range(1.0, 1000.0);
@@ -42,7 +42,7 @@ fn precision_is_that_of_the_format() {
     assert_eq!(mistaken(Integer(16), 4.0), 0);
     assert_eq!(mistaken(LinearInteger(16), 0.016), 0);
     assert!(mistaken(LinearInteger(16), 0.004) > 20);
-    // A step of 24 bits is 6e-8 of z, or 0.015 units; that of an f32 between ½ and 1 is the same.
+    // A step of 24 bits is 6e-8 of z, or 0.015 units; a step of an f32 between ½ and 1 is the same.
     assert_eq!(mistaken(Integer(24), 0.016), 0);
     assert!(mistaken(Integer(24), 0.004) > 20);
     assert!(mistaken(Float, 0.004) > 20);
@@ -52,8 +52,8 @@ fn precision_is_that_of_the_format() {
     assert!(mistaken(FloatReversed, 1e-6) > 20 && mistaken(LinearFloat, 1e-6) > 20);
 }
 
-/// What two pictures that differ in a pixel have to say for themselves: one of the two polygons has
-/// an edge there, or both are at about the same depth.
+/// The justification of two pictures that differ in a pixel: one of the two polygons has an edge there, or
+/// both are at about the same depth.
 fn is_excused(polygons: &Polygons, camera: &Camera, [x, y]: [u32; 2], shown: [u32; 2]) -> bool {
     let meeting = shown.map(|face| match face {
         NONE => Meeting::Nothing,
@@ -84,7 +84,7 @@ fn walks_along_edges_agree_with_edge_functions() {
                     for (pixel, (&exact, &shown)) in (0u32..).zip(pairs) {
                         differ[walk] += usize::from(exact != shown);
                         let (at, both) = ([pixel % 80, pixel / 80], [exact, shown]);
-                        // Vertices are rounded to 1/256 of a pixel: more than the doubt about a rim.
+                        // Vertices are rounded to 1/256 of a pixel: more than the uncertainty of a boundary.
                         let excused = exact == shown
                             || Interpolation::ALL[walk] == Interpolation::IntegerEdges
                             || is_excused(polygons, &camera, at, both);

@@ -45,7 +45,7 @@ fn every_method_paints_every_kind_of_scene() {
             cameras(polygons, [40, 30], 4)
         };
         for method in all(&Options::DEFAULT) {
-            // What is not closed shows its backs.
+            // An open surface shows its backs.
             if method.name().starts_with("fronts") {
                 continue;
             }

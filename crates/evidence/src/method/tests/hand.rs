@@ -53,7 +53,7 @@ fn the_nearer_of_two_triangles_wins_pixel_by_pixel() {
         assert_eq!(drawn(&*method, &there, &camera()), NEARER_WINS, "{name}");
         assert_eq!(drawn(&*method, &back, &camera()), swapped, "{name}, the other order");
     }
-    // What comes last is on top, wherever it is; with its back to the eye it is not there.
+    // The last face is on top, wherever it is; with its back to the eye it is not there.
     let all_a = "AAAAAA ".repeat(6);
     let b_on_top = "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA";
     assert_eq!(drawn(&InputOrder, &there, &camera()), b_on_top);

@@ -18,8 +18,8 @@ use testkit::prelude::*;
 
 type Polygons = Vec<Vec<DVec3>>;
 
-/// Triangles of which none touches another: each in a cell of its own of a cubic grid in the cube
-/// from −1 to 1, and away from its walls.
+/// Triangles that do not touch each other: each in its own cell of a cubic grid in the cube from −1 to 1, and
+/// away from its walls.
 fn disjoint(side: usize, seed: u64) -> Polygons {
     let mut random = SplitMix64::new(seed);
     let cell = 2.0 / side as f64;
@@ -75,7 +75,7 @@ fn cameras(polygons: &Polygons, size: [u32; 2], seed: u64) -> Vec<Camera> {
     cameras
 }
 
-/// Whether a method does not cover exactly what the judge covers.
+/// Whether a method's coverage differs from the judge's.
 fn covers_by_itself(name: &str) -> bool {
     let ends = ["incremental", "trapezoids", "integer edges", "cleared"];
     name.starts_with("bsp f32") || ends.iter().any(|end| name.ends_with(end))
@@ -86,7 +86,7 @@ fn show(method: &dyn Method, faces: &Faces, camera: &Camera) -> Painted {
     method.prepare(faces).unwrap().paint(camera, &rays).unwrap()
 }
 
-/// What the judge says of a method's picture.
+/// The judge's result for a method's picture.
 fn judge(method: &dyn Method, faces: &Faces, camera: &Camera) -> Comparison {
     let rays = Rays::new(camera, faces).unwrap();
     let painted = method.prepare(faces).unwrap().paint(camera, &rays).unwrap();

@@ -6,9 +6,8 @@ use super::{
 use crate::method::{Options, all};
 use testkit::prelude::*;
 
-/// Eyes at corners, in planes, a hair's breadth off them, and far away; and, marked so, those that
-/// touch a face but for their rounding. These may see it all over the picture at no distance, and
-/// whatever has a near plane cuts it off.
+/// Eyes at corners, in planes, a hair's breadth off them, and far away. Eyes that touch a face up to rounding
+/// are marked. These may see it all over the picture at no distance, and any near plane cuts it off.
 fn in_line(polygons: &Polygons, size: [u32; 2]) -> Vec<(bool, Camera)> {
     let corners = || polygons.iter().flatten();
     let centre = corners().sum::<DVec3>() / corners().count() as f64;

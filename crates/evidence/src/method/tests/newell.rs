@@ -9,8 +9,8 @@ use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
 use binspace::raster::NONE;
 
-/// Asserts that every pixel that brute force is sure of shows what it says; and gives back the
-/// pieces of all views together.
+/// Asserts that every pixel for which brute force is certain shows its result; and returns the pieces of all
+/// views together.
 fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     let faces = faces(polygons, Some(0.0));
     let (mut certain, mut all, mut pieces) = (0, 0, 0);
@@ -113,7 +113,7 @@ fn three_bars() -> Polygons {
 fn a_cycle_of_three_is_cut() {
     for camera in from_above(2.5, [60, 60]) {
         let pieces = assert_right("three bars", &three_bars(), &[camera]);
-        // One cut would do, but each plane cuts both other bars, which counts as penetration.
+        // One cut would suffice, but each plane cuts both other bars, which counts as penetration.
         assert!((4..=7).contains(&pieces), "{pieces}");
     }
 }
@@ -199,7 +199,7 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
     }
 }
 
-/// The upper one reaches further down the slope, so that its depth alone would have it painted first.
+/// The upper one reaches further down the slope, so a sort by depth alone would paint it first.
 #[test]
 fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
     let slope = |half, lift: f64| square(half, |x, y| DVec3::new(x, y, x + lift));
@@ -238,8 +238,8 @@ fn budgets_run_out_with_a_figure() {
 
 #[test]
 fn a_long_chain_of_swaps_needs_no_stack() {
-    // Parallel and tilted: the higher a plank, the deeper it reaches, so that of all that are left
-    // the highest is always the furthest, and all others take its place, one after the other.
+    // Parallel and tilted: the higher a plank, the deeper it reaches. So of all remaining planks the highest
+    // is always the furthest, and all others take its place, one after the other.
     let count = 4000;
     let plank = |i: i32| {
         let (height, reach) = (1e-4 * f64::from(i), -1.0 - 1e-3 * f64::from(i));
@@ -258,7 +258,7 @@ fn a_long_chain_of_swaps_needs_no_stack() {
     std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
 }
 
-/// Two squares, or what stands in for them, of which the further, P, is the first: one test decides.
+/// Two squares, or their substitutes. The further, P, is the first: one test decides.
 #[test]
 fn each_test_decides_the_pair_that_it_is_for() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 12.0, [120, 120]).unwrap();

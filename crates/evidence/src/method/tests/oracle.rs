@@ -1,5 +1,5 @@
-//! What is nearest along a ray, found polygon by polygon in world coordinates and plain `f64`,
-//! without anything of the library but the camera's vectors.
+//! The nearest polygon along a ray, found polygon by polygon in world coordinates and plain `f64`, without
+//! any code of the library except the camera's vectors.
 
 use super::Polygons;
 use binspace::view::Projection;
@@ -17,13 +17,13 @@ fn ray(camera: &Camera, x: u32, y: u32) -> (DVec3, DVec3) {
     }
 }
 
-/// What a ray meets of a polygon.
+/// The intersection of a ray and a polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
     Nothing,
-    /// How far along its direction, in lengths of the direction.
+    /// The distance along its direction, in lengths of the direction.
     At(f64),
-    /// It passes too near an edge, or too much along the polygon, to tell.
+    /// It passes too near an edge, or is too parallel to the polygon, to tell.
     Doubtful,
 }
 
@@ -59,7 +59,7 @@ pub(super) fn meet(polygon: &[DVec3], camera: &Camera, x: u32, y: u32) -> Meetin
     }
 }
 
-/// The nearest polygon in a pixel, if there is one; `None` if that is doubtful.
+/// The nearest polygon in a pixel, if there is one; `None` if that is uncertain.
 pub(super) fn nearest(polygons: &Polygons, camera: &Camera, x: u32, y: u32) -> Option<Option<u32>> {
     let mut hits: Vec<(f64, u32)> = Vec::new();
     for (polygon, number) in polygons.iter().zip(0..) {

@@ -6,8 +6,8 @@ use crate::{Precision, RoundedPiece, RoundedPlane};
 use binspace::internals::{PreparedPlane, Side, SplitMix64, Vertex, split};
 use testkit::prelude::*;
 
-/// The least distance of positions from the plane of a face, as a share of half the extent and of
-/// up to four times that: what an epsilon is a share of.
+/// The least distance of positions from the plane of a face, as a share of half the extent and of up to four
+/// times that: the unit of an epsilon.
 fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let normal = (q - p).cross(r - p).normalize();
@@ -16,8 +16,8 @@ fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     least / 2f64.powi(51)
 }
 
-/// What a plane's rounding grows by: a sliver's plane is as uncertain as its corners are, times its
-/// length over its width.
+/// The growth of a plane's rounding: a sliver's plane is as uncertain as its corners, times its length over
+/// its width.
 fn reach(faces: &Faces, plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let longest = (q - p).length().max((r - p).length()).max((r - q).length());
@@ -25,7 +25,7 @@ fn reach(faces: &Faces, plane: u32) -> f64 {
     2f64.powi(53) / width
 }
 
-/// Crossing and disjoint triangles, and such as lie but for a little in the plane of another.
+/// Crossing and disjoint triangles, and triangles that almost lie in the plane of another.
 fn with_close_calls() -> Faces {
     let mut random = SplitMix64::new(3);
     let mut polygons = disjoint(3, 4);
@@ -80,9 +80,9 @@ impl Twins {
     }
 }
 
-/// Holds every face against all planes, cuts it several times, and asserts that rounded sides are the
-/// exact ones of each piece wherever none of its vertices is within the epsilon, its drift and the
-/// plane's rounding. Returns how many of the others differ.
+/// Compares every face with all planes, cuts it several times, and asserts that rounded sides are the exact
+/// ones of each piece wherever none of its vertices is within the epsilon, its drift and the plane's
+/// rounding. Returns the number of other sides that differ.
 fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;

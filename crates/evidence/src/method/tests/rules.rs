@@ -19,7 +19,7 @@ const LARGER: DepthRules = DepthRules {
     writes: true,
 };
 
-/// What walls at these depths show, drawn in this order.
+/// The visible wall among walls at these depths, drawn in this order.
 fn walls(depths: &[f64], format: DepthFormat, rules: DepthRules) -> u32 {
     let wall = |&depth: &f64| {
         let corners = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)];
@@ -67,7 +67,7 @@ fn each_rule_decides_what_it_says() {
             let nearest = u32::from(order[1] < order[0]);
             assert_eq!(walls(&order, format, smaller), nearest, "{format}");
             assert_eq!(walls(&order, format, LARGER), nearest);
-            // The wrong test, from the end that it asks for: the furthest shows.
+            // The wrong test, from the end that it selects: the furthest shows.
             let wrong = smaller.with_test(DepthTest::Greater).with_clear(Clear::Smallest);
             assert_eq!(walls(&order, format, wrong), 1 - nearest);
             let wrong = LARGER.with_test(DepthTest::Less).with_clear(Clear::Largest);
@@ -81,7 +81,7 @@ fn each_rule_decides_what_it_says() {
         // Of two at the same depth the first shows, or the last.
         assert_eq!(walls(&[3.0, 3.0], format, smaller), 0);
         assert_eq!(walls(&[3.0, 3.0], format, or_equal), 1);
-        // What is at the far plane is not nearer than what the buffer is cleared to.
+        // A face at the far plane is not nearer than the clear value.
         assert_eq!(walls(&[8.0], format, smaller), NONE, "{format}");
         assert_eq!(walls(&[8.0], format, or_equal), 0, "{format}");
         assert_eq!(walls(&[8.0], format, DepthRules::DEFAULT), 0);
@@ -94,7 +94,7 @@ fn sections_make_the_same_picture_for_any_number_of_rows_and_threads() {
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [64, 50], 2) {
         let rays = Rays::new(&camera, &faces).unwrap();
-        // With a number that the buffer is cleared to, what another section leaves in it would show.
+        // If a number equalled the clear value, the data that another section leaves in it would show.
         let rules = [Clear::Nothing, Clear::Largest].map(|c| DepthRules::DEFAULT.with_clear(c));
         for (format, rules) in FORMATS.into_iter().flat_map(|f| rules.map(|rules| (f, rules))) {
             for how in Interpolation::ALL {
@@ -145,8 +145,8 @@ fn translucent_fragments_over_opaque_polygons_are_the_exact_layers() {
         }
     }
     assert!(several > 2000, "{several}");
-    // Drawn from back to front, each is nearer than those before it: depths left behind do no harm
-    // until the order is wrong.
+    // Drawn from back to front, each is nearer than all before it: remaining depths have no effect until the
+    // order is wrong.
     assert_eq!(wrong[..2], [0, 0]);
     assert!(wrong[2] > 500 && wrong[3] > 500 && lost > 500, "{wrong:?} {lost}");
 }

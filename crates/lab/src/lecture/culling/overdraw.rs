@@ -1,4 +1,4 @@
-//! Pixels painted in vain.
+//! Pixels painted without need.
 
 use binspace::BspTree;
 use binspace::glam::{DVec3, dvec3};

@@ -21,7 +21,7 @@ const WIDTH: f64 = 8.0 * SIDE as f64;
 const EYES: usize = 40;
 const SMALL: [u32; 2] = [160, 120];
 
-/// The level with what is known of it.
+/// The level with its derived data.
 struct Level {
     tree: BspTree,
     cells: Cells,
@@ -62,7 +62,7 @@ impl Level {
         Ok(shown.map(|&face| faces.polygon(face)).collect())
     }
 
-    /// What may be seen from the cells that a point is in.
+    /// The set that may be seen from the cells that contain a point.
     fn set_of(&self, eye: DVec3) -> Vec<bool> {
         let sets = self.cells.at(eye).into_iter().map(|cell| self.cells.seen_from_cell(cell));
         sets.fold(vec![false; self.polygons], |all, set: Seen| {
@@ -84,7 +84,7 @@ impl Level {
     }
 }
 
-/// What an eye sees, and a plan of what is kept for it and for its cell.
+/// The view of an eye, and a plan of the polygons kept for it and for its cell.
 fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Result<(), Failure> {
     let failure = |error| Failure::about("a view", error);
     let camera = Camera::perspective(eye, target, DVec3::Z, 0.9, SIZE).map_err(failure)?;
@@ -167,7 +167,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Adds to how many polygons are kept, and how many of the owners are not.
+/// Adds to the number of kept polygons, and to the number of owners that are not kept.
 fn add([kept, missing]: &mut [usize; 2], polygons: &[bool], owners: &BTreeSet<usize>) {
     *kept += polygons.iter().filter(|&&is_kept| is_kept).count();
     *missing += owners.iter().filter(|&&polygon| !polygons[polygon]).count();
