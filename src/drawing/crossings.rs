@@ -9,7 +9,7 @@ use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::graph::Pair;
 use super::lines::{HalfPlane, Table, compare};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
-use super::pairs::{Found, add, sorted};
+use super::pairs::{Found, sorted};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
 use super::segments::{ProjectedSegment, parts};
@@ -78,7 +78,7 @@ impl VisibilityMap<'_> {
 
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let inner = InnerEdges::of(self.primitives.lines.frame.faces);
+            let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
             let mut common = self.common_sides(&inner, watch)?;
             let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
             sort_by(&mut common, watch, |a, b| {
@@ -124,7 +124,8 @@ impl VisibilityMap<'_> {
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
-                for b in ahead {
+                for b in each(watch, VISITED, ahead) {
+                    let b = b?;
                     if b.is_negative != a.is_negative
                         && self.do_cross(a, b, inner, &mut are_crossing)
                     {
@@ -231,7 +232,6 @@ impl VisibilityMap<'_> {
         if !is_bent && lines.is_cut_of(a.line, [one, other]) {
             return true;
         }
-        known.reserve(1);
         *known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
                 // Of the edges of both only those on this line: others may end on it.
@@ -291,7 +291,7 @@ impl VisibilityMap<'_> {
         self.reporter.watch(phases, |watch| {
             let primitives = &self.primitives;
             let faces = primitives.lines.frame.faces;
-            let inner = InnerEdges::of(faces);
+            let inner = InnerEdges::of(faces, watch)?;
             let mut shown = self.common_sides(&inner, watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
             let mut pairs = straddling(primitives, &inner, watch)?;
@@ -434,7 +434,7 @@ fn straddling(
                 if let Some([below, above]) =
                     if is_crossed { Some([a.min(b), a.max(b)]) } else { bend() }
                 {
-                    add(found, Pair { below, above });
+                    found.insert(Pair { below, above });
                 }
             }
         }
@@ -518,14 +518,14 @@ pub(super) struct Bend {
 }
 
 impl InnerEdges {
-    pub(super) fn of(faces: &Faces) -> Self {
+    pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
         // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
         // outline's on the other side.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
-            for numbered in &faces.numbered {
-                let face = numbered.0;
+            for numbered in each(watch, VISITED, &faces.numbered) {
+                let face = numbered?.0;
                 let edges = 0..faces.corners(face).len() as u32;
                 for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
                     let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
@@ -543,7 +543,7 @@ impl InnerEdges {
                 }
             }
         }
-        Self(across)
+        Ok(Self(across))
     }
 
     /// The face on the other side of an edge, and which of its edges it is.

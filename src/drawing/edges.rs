@@ -174,12 +174,12 @@ impl VisibilityMap<'_> {
             *points.entry(place).or_insert(next)
         };
         let mut by_points: Table<[u32; 2], u32> = Table::default();
-        let inner = InnerEdges::of(faces);
+        let inner = InnerEdges::of(faces, watch)?;
         let mut numbers = Numbers::default();
         let mut all: Vec<SharedEdge> = Vec::new();
         for face in (0..faces.len() as u32).filter(|&face| primitives.opacity(face) > 0.0) {
             let range = faces.corner_range(face);
-            for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
+            for k in 0..range.len() {
                 watch.work(CUT)?;
                 let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
                 let [a, b] = [point(range.start + k), point(next)];

@@ -195,9 +195,7 @@ impl Graph<'_> {
                     }
                 }
                 nodes.retain(|&node| !self.is_last(node));
-                let mut left = self.components(&nodes)?;
-                open.reserve(left.len());
-                open.append(&mut left);
+                open.append(&mut self.components(&nodes)?);
             }
             self.give_back(&nodes, clipped)?;
         }

@@ -545,10 +545,7 @@ impl LineIndex {
 
     /// Adds a line that was sought without success.
     pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) {
-        self.0.reserve(1);
-        let lines = self.0.entry(foot.place()).or_default();
-        lines.reserve(1);
-        lines.insert(at, line);
+        self.0.entry(foot.place()).or_default().insert(at, line);
     }
 }
 

@@ -6,7 +6,7 @@ use super::edges::SHORTEST;
 use super::graph::Pair;
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
-use super::pairs::{Found, add};
+use super::pairs::Found;
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Candidates, VISITED};
 use super::segments::{
@@ -221,11 +221,12 @@ impl Between {
         for (number, marker) in (0..).zip(&self.markers) {
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.point == number));
             rest = others;
+            watch.work(own.len() * VISITED)?;
             let mut passed = Passed::new();
             for pass in own {
                 passed.insert((pass.is_behind, places[pass.piece as usize], pass.piece), 1);
             }
-            add_missed(&passed, &mut missed);
+            add_missed(&passed, &mut missed, watch)?;
             let below = Room::between(&passed, count).most;
             placed.push((below, Overlaid::Marker(*marker)));
         }
@@ -276,17 +277,18 @@ fn outermost(passed: &Passed) -> [Option<Key>; 2] {
 /// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
 /// and does not; and of what is first of all that has to come after, and all that has to come before and does
 /// not.
-fn add_missed(passed: &Passed, missed: &mut Found) {
-    let [Some(below), Some(above)] = outermost(passed) else { return };
+fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
+    let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
     if above.1 >= below.1 {
-        return;
+        return Ok(());
     }
-    for early in passed.range((true, 0, 0)..(true, below.1, 0)) {
-        add(missed, Pair { below: below.2, above: early.0.2 });
+    for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
+        missed.insert(Pair { below: below.2, above: early?.0.2 });
     }
-    for late in passed.range((false, above.1 + 1, 0)..(true, 0, 0)) {
-        add(missed, Pair { below: late.0.2, above: above.2 });
+    for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
+        missed.insert(Pair { below: late?.0.2, above: above.2 });
     }
+    Ok(())
 }
 
 /// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
@@ -315,7 +317,7 @@ fn in_order(
     for numbered in each(watch, 2 * VISITED, stops.chain([ends[1]]).enumerate()) {
         let (i, to) = numbered?;
         if to - done >= SHORTEST {
-            add_missed(&passed, missed);
+            add_missed(&passed, missed, watch)?;
             let next = Room::between(&passed, count);
             if let Some(common) = room.common(next) {
                 room = common;

@@ -20,12 +20,6 @@ use crate::progress::Watch;
 /// Pairs that were found so far, each once.
 pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
 
-/// Adds a pair.
-pub(super) fn add(found: &mut Found, pair: Pair) {
-    found.reserve(1);
-    found.insert(pair);
-}
-
 /// All pairs of several sets, sorted, each once.
 pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs: Vec<Pair> = parts.into_iter().flatten().collect();
@@ -139,7 +133,7 @@ impl LeafLists<'_, '_> {
                 }
                 watch.work(CUT)?;
                 if cell.meets(&primitives.lines, opaque.halves_of(face), watch)? {
-                    add(found, pair);
+                    found.insert(pair);
                 }
             }
         }
@@ -172,7 +166,7 @@ impl LeafLists<'_, '_> {
                 continue;
             }
             if cell.meets(&primitives.lines, self.translucent.halves_of(candidate), watch)? {
-                add(found, pair);
+                found.insert(pair);
             }
         }
         Ok(())
@@ -234,7 +228,9 @@ fn add_overlaps(
     found: &mut Found,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
-    let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+    let mut add = |below: u32, above: u32| {
+        found.insert(Pair { below, above });
+    };
     // The last item that covers the part, and those behind it so far.
     let mut cover: Option<u32> = None;
     let mut behind: Vec<&Visible> = Vec::new();

@@ -282,7 +282,6 @@ impl Area {
     }
 
     pub(super) fn push(&mut self, part: &[Side]) -> Result<(), Error> {
-        self.sides.reserve(part.len());
         self.sides.extend_from_slice(part);
         self.ends.push(place(self.sides.len())?);
         Ok(())
@@ -381,7 +380,6 @@ impl<'a> Sides<'a> {
             let line = half(group[0]).positive();
             let rounded = self.lines.rounded(line);
             ends.clear();
-            ends.reserve(2 * group.len());
             ends.extend(group.iter().flat_map(|&side| self.ends(side, &rounded)));
             sort_by(&mut ends, watch, |a, b| self.compare(&rounded, a, b))?;
             self.add_pieces(line, &ends, points, &mut pieces);
@@ -440,7 +438,6 @@ impl<'a> Sides<'a> {
             let is_back = count < 0;
             let [start, end] = if is_back { [point, from] } else { [from, point] };
             let piece = Piece { half: line.flipped(is_back), from: start, to: end };
-            pieces.reserve(count.unsigned_abs() as usize);
             pieces.extend((0..count.abs()).map(|_| piece));
             (count, from) = (after, point);
         }

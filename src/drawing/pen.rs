@@ -127,17 +127,14 @@ impl Net {
             let corner = self.begins.len() as u32 - 1;
             self.segments[end as usize / 2].corners[end as usize % 2] = corner;
         }
-        self.done.reserve(self.begins.len());
         self.done.extend_from_slice(&self.begins);
         self.begins.push(self.ends.len() as u32);
-        self.is_used.reserve(self.segments.len());
         self.is_used.resize(self.segments.len(), false);
         self.pair_odd_corners();
     }
 
     fn pair_odd_corners(&mut self) {
         let corners = self.done.len();
-        self.jumps.reserve(corners);
         self.jumps.resize(corners, None);
         let mut open = None;
         for corner in 0..corners {

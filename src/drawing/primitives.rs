@@ -83,8 +83,8 @@ impl<'t> Primitives<'t> {
         }
         let faces = tree.faces();
         let frame = ViewFrame { rays, faces };
-        let order = tree.order(frame.rays.viewpoint()).front_to_back();
-        let order: Vec<u32> = order.into_iter().map(|fragment| fragment.index()).collect();
+        let mut order = Vec::new();
+        tree.order(frame.rays.viewpoint()).front_to_back().write_into(&mut order);
         let lines = LineTable::new(frame);
         let mut primitives =
             Self { tree, lines, halves: vec![], items: vec![], views: vec![], opacities };
@@ -285,9 +285,9 @@ fn shared<T: Send>(
     Ok(parts.into_iter().flatten().collect())
 }
 
-/// Edges do not go through the corners as given where one of these was moved further along an axis, in lattice units:
-/// 2⁻³³ of the lattice. Too small: cracks between faces that share an edge; too large: the picture differs from that
-/// of the faces as moved, which decide what is in front.
+/// A face is drawn with its given corners unless one was moved further than this along an axis. In lattice units:
+/// 2⁻³² of the extent, or up to twice that. Too small: cracks between faces that share an edge. Too large: the
+/// outlines differ from those of the moved faces, which decide the depth order.
 const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {

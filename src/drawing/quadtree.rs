@@ -319,13 +319,13 @@ impl<'p> Candidates<'p> {
             part.list.push(Candidate { number, halves: [place(start)?, place(end)?] });
         }
         if self.ends_at_cover {
-            part.end_at_face(sides);
+            part.end_at_face(sides, watch)?;
         }
         Ok(part)
     }
 
     /// Ends a list of items with the last item of a face that covers the box, in however many items.
-    fn end_at_face(&mut self, sides: &Rect) {
+    fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
         let primitives = self.primitives;
         let mut end = self.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
@@ -337,8 +337,12 @@ impl<'p> Candidates<'p> {
             let View { last, is_opaque, .. } = primitives.views[face as usize];
             // If items of it are missing from the list, the others alone may not cover the box.
             let is_in_list = last <= self.limit;
-            if is_opaque && is_in_list && !tried.contains(&face) && primitives.covers(face, sides) {
-                tried.push(face);
+            if !is_opaque || !is_in_list || tried.contains(&face) {
+                continue;
+            }
+            tried.push(face);
+            watch.work(primitives.edges_work(face))?;
+            if primitives.covers(face, sides) {
                 let mut numbers = self.list.iter().rev().map(|candidate| candidate.number);
                 let last = numbers.find(|&item| primitives.face(item) == face);
                 end = last.map_or(end, |last| end.min(last));
@@ -346,6 +350,7 @@ impl<'p> Candidates<'p> {
         }
         self.limit = end;
         self.list.truncate(self.list.partition_point(|candidate| candidate.number <= end));
+        Ok(())
     }
 }
 

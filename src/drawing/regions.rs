@@ -231,17 +231,14 @@ impl Divided {
                 };
                 watch.work(CUT)?;
                 let LayeredCell { layer, .. } = open.swap_remove(i);
-                left.reserve(outside.len() + 1);
                 left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
                 let behind = LayeredCell::new(common, divided.behind(layer, *item));
                 if primitives.is_opaque(*item) { &mut divided.cells } else { &mut left }
                     .push(behind);
             }
-            open.reserve(left.len());
             open.append(&mut left);
         }
         open.retain(|part| part.layer != 0);
-        divided.cells.reserve(open.len());
         divided.cells.append(&mut open);
         Ok(divided)
     }

@@ -6,7 +6,7 @@ use super::cell::Cell;
 use super::graph::{Groups, Ordered, Pair, Wanted, contracted, cycles, order};
 use super::map::{Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by};
 use super::overlaid::Between;
-use super::pairs::{Found, add, overlaps, pairs, sorted};
+use super::pairs::{Found, overlaps, pairs, sorted};
 use super::paths::{Area, Drawing, add_piece};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Leaf, Visible};
@@ -89,7 +89,7 @@ impl Drawing {
                     break (parts, ordered, placed);
                 }
                 for pair in new {
-                    add(&mut known, pair);
+                    known.insert(pair);
                     touching.push(pair);
                 }
             };
