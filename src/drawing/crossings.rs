@@ -32,7 +32,7 @@ struct CutSide {
     ends: [[f64; 2]; 2],
 }
 
-/// What two such sides have in common: a part of a crossing that shows.
+/// The common part of two such sides: a visible part of a crossing.
 #[derive(Clone, Copy, Debug)]
 struct CommonSide {
     line: HalfPlane,
@@ -48,22 +48,22 @@ struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// The lines in which polygons go through one another: runs of [`EdgeKind::Crossing`], each once, with the
-    /// polygon of the lower number first. Where an edge of a polygon only touches another, [`edges`](Self::edges) has
-    /// it.
+    /// The lines in which polygons go through one another: runs of [`EdgeKind::Crossing`], each once, with
+    /// the polygon of the lower number first. Where an edge of a polygon only touches another,
+    /// [`edges`](Self::edges) has it.
     ///
-    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is read off the
-    /// map, so it is as exact: only the ends of runs are rounded. Along an edge that triangulation made, a polygon is
-    /// crossed where the other one lies between the two triangles there; a corner no further from a plane than the
-    /// tolerance is treated as on it.
+    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is read
+    /// off the map, so it is as exact: only the ends of runs are rounded. Along an edge that triangulation
+    /// made, a polygon is crossed where the other one lies between the two triangles there; a corner no
+    /// further from a plane than the tolerance is treated as on it.
     ///
-    /// Unless they are [skipped](Hidden::Skip), hidden runs are those of polygons that both have corners on both
-    /// sides of the other, further from it than the tolerance. Of polygons in several faces, each pair of faces then
-    /// has runs of its own.
+    /// Unless they are [skipped](Hidden::Skip), hidden runs are those of polygons that both have corners on
+    /// both sides of the other, further from it than the tolerance. Of polygons in several faces, each pair
+    /// of faces then has runs of its own.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
-    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are many with
-    /// overlapping boxes, as at the tip of a cone of many faces.
+    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are
+    /// many with overlapping boxes, as at the tip of a cone of many faces.
     ///
     /// # Errors
     ///
@@ -108,8 +108,8 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// What sides of cells have in common that lie on either side of a line in which their faces go through one
-    /// another, line by line: two phases.
+    /// The common parts of sides of cells, where the cells lie on opposite sides of a line in which their
+    /// faces go through one another; line by line: two phases.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -137,8 +137,9 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes may have
-    /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
+    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes
+    /// may have cut along one line, and cells beyond a border of a tile or a third polygon's edge were not
+    /// cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -169,7 +170,7 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    /// The outlines of faces: none of those that the picture does not show.
+    /// The outlines of faces, empty for faces outside the picture.
     fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
         let faces = 0..self.primitives.views.len() as u32;
         faces.map(|face| (face, self.primitives.outline(face)))
@@ -240,7 +241,7 @@ impl VisibilityMap<'_> {
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);
-            // Faces of one plane have no line in common but all of it.
+            // Faces of one plane have no line of intersection.
             let is_line = cut.iter().any(|c| c.sign().is_ne());
             is_line && compare(&cut, &lines.exact(a.line)).is_eq()
         })
@@ -274,7 +275,7 @@ impl CommonSide {
     }
 }
 
-/// So many pairs are looked at by one thread.
+/// The number of pairs in one job of a thread.
 const SHARE: usize = 256;
 
 /// Two faces, and the line in which they go through one another.
@@ -286,7 +287,7 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of all crossings in the picture, in so many phases.
+    /// The runs of all crossings in the picture, in `phases` phases.
     fn all_crossings(&self, phases: usize, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(phases, |watch| {
             let primitives = &self.primitives;
@@ -295,7 +296,7 @@ impl VisibilityMap<'_> {
             let mut shown = self.common_sides(&inner, watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
             let mut pairs = straddling(primitives, &inner, watch)?;
-            // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+            // The visible part of a crossing may be nearer to the end of a polygon than the tolerance.
             let of_shown = shown.iter().map(|side| side.faces);
             pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
             sort_unique(&mut pairs, watch)?;
@@ -324,7 +325,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Those pairs that go through one another in the picture: a phase.
+/// The crossings of pairs that go through one another in the picture: a phase.
 fn crossings_of(
     pairs: &[Pair],
     primitives: &Primitives<'_>,
@@ -390,7 +391,8 @@ fn bent(
     Ok(common.and_then(|common| segment.within(common)))
 }
 
-/// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
+/// Blocks of at most this many faces are not halved. Too small: more blocks. Too large: more pairs are
+/// compared.
 const FEW: usize = 16;
 /// A box in the scene: its least and its largest coordinates.
 type Aabb = [[f64; 3]; 2];
@@ -503,8 +505,8 @@ fn are_apart([low, high]: &Aabb, [from, to]: &Aabb) -> bool {
 /// A face, and which of its edges.
 pub(super) type FaceEdge = (u32, u32);
 
-/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge twice, edges of
-/// their outlines may be among them.
+/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge
+/// twice, edges of their outlines may be among them.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
 /// Where two polygons go through one another along an edge inside one of them.
@@ -520,8 +522,8 @@ pub(super) struct Bend {
 impl InnerEdges {
     pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
-        // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
-        // outline's on the other side.
+        // Edges of which one face was met. Inner edges are first paired with inner edges. On the other side
+        // of an unpaired one, the edge may be the outline's.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
             for numbered in each(watch, VISITED, &faces.numbered) {
@@ -551,8 +553,8 @@ impl InnerEdges {
         self.0.get(&edge).copied()
     }
 
-    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where the faces
-    /// on either side of the edge lie on opposite sides of the other polygon.
+    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where
+    /// the faces on either side of the edge lie on opposite sides of the other polygon.
     pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
         if self.0.is_empty() {
             return None;

@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a visible
-    /// run: polygons that it is seen through do not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a
+    /// visible run: polygons that it is seen through do not count.
     pub layers: Option<u32>,
 }
 
@@ -63,16 +63,17 @@ impl LineRun {
 
 impl VisibilityMap<'_> {
     /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
-    /// or, unless they are [skipped](Hidden::Skip), hidden: in input order, and along each segment from its beginning to its end.
+    /// or, unless they are [skipped](Hidden::Skip), hidden: in input order, and along each segment from its
+    /// beginning to its end.
     ///
     /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
     /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the
-    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only is treated as
-    /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
+    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only is treated
+    /// as wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of pairs that
-    /// have points in common.
+    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of
+    /// pairs that have points in common.
     ///
     /// # Errors
     ///
@@ -198,8 +199,8 @@ impl Between {
         Ok(Self { segments, projected, markers, passes })
     }
 
-    /// What comes where in an order of so many parts, by the place of each item in it; and pairs of items that
-    /// the order would have to keep for a line or point between them.
+    /// Places lines and points in an order of `count` parts; `places` has the place of each item. Also
+    /// returns the pairs of items that the order would have to keep to have a place for each line and point.
     pub(super) fn placed(
         &self,
         places: &[u32],
@@ -237,10 +238,10 @@ impl Between {
 /// An item that is passed: whether it is in front, its place in the order, and its number.
 type Key = (bool, u32, u32);
 
-/// What is passed somewhere, and how often.
+/// The items that are passed at a point, and how often.
 type Passed = BTreeMap<Key, i32>;
 
-/// Where in an order something may come: after so many parts.
+/// The places that an order allows: after at least `least` and at most `most` parts.
 #[derive(Clone, Copy, Debug)]
 struct Room {
     least: u32,
@@ -253,30 +254,29 @@ impl Room {
         Self { least: 0, most: count }
     }
 
-    /// After what is passed before it, and before what is in front. Where that is nowhere, only the first.
+    /// After the items behind, and before the items in front. If no place satisfies both, the first wins.
     fn between(passed: &Passed, count: u32) -> Self {
         let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
         Self { least, most: first.map_or(count, |first| first.1).max(least) }
     }
 
-    /// What is in both.
+    /// The intersection.
     fn common(self, other: Self) -> Option<Self> {
         let (least, most) = (self.least.max(other.least), self.most.min(other.most));
         (least <= most).then_some(Self { least, most })
     }
 }
 
-/// What comes last of what is passed before it, and first of what is in front.
+/// The last item of those behind, and the first of those in front.
 fn outermost(passed: &Passed) -> [Option<Key>; 2] {
     let before = passed.range(..(true, 0, 0)).next_back();
     let in_front = passed.range((true, 0, 0)..).next();
     [before, in_front].map(|end| end.map(|(key, _)| *key))
 }
 
-/// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
-/// and does not; and of what is first of all that has to come after, and all that has to come before and does
-/// not.
+/// If no place is left, adds the pairs that are in the wrong order. These are the last item behind with each
+/// item in front that precedes it, and the first item in front with each item behind that follows it.
 fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
     let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
     if above.1 >= below.1 {

@@ -140,8 +140,8 @@ impl LeafLists<'_, '_> {
         Ok(())
     }
 
-    /// Adds the pairs of what is visible with translucent items. What is visible of two of these needs one
-    /// pair, that of the one behind.
+    /// Adds the pairs of a visible cell with translucent items. Two translucent items need one pair, which
+    /// the cell of the rear one adds.
     fn add_blended(
         &self,
         primitives: &Primitives<'_>,
@@ -197,12 +197,13 @@ pub(super) fn around(leaves: &[Leaf]) -> Rect {
     })
 }
 
-/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
-/// pairs are compared; smaller: more tiles.
+/// Tiles are not halved where at most this many items lie between two that cover the tile. Too small: more
+/// tiles. Too large: more pairs are compared.
 const FEW: usize = 8;
 
-/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
-/// an item covers a part of the picture, pairs with it stand for those of what is behind and in front of it.
+/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where an
+/// item covers a part of the picture, pairs with it replace the pairs of items behind it with items in front
+/// of it.
 pub(super) fn overlaps<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,

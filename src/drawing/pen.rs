@@ -2,11 +2,12 @@
 
 use crate::Error;
 
-/// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller:
-/// corners that two projections rounded apart tear lines; larger: lines of a very fine mesh lose their shape.
+/// Ends are rounded to a grid with this step, in pixels; equal grid points are one corner. Too small: corners
+/// that two projections rounded differently interrupt lines. Too large: lines of a very fine mesh lose their
+/// shape.
 const GRID: f64 = 1.0 / 1024.0;
-/// Of how many segments at a corner the straightest is taken. Larger: time at corners of many; smaller:
-/// lines turn where they could go on.
+/// At a corner, at most this many segments are compared to find the straightest continuation. Too small:
+/// lines turn where they could go straight on. Too large: corners of many segments take time.
 const CHOICES: usize = 8;
 
 /// A line through points, which a pen draws without being lifted.

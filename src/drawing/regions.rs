@@ -18,12 +18,13 @@ pub struct Region {
     outlines: Vec<Vec<[f64; 2]>>,
 }
 
-/// So many tiles are divided at once, by all threads. Larger: more memory for their parts; smaller: threads wait
-/// for one another.
+/// The number of tiles that all threads together divide before the results are collected. Too small: threads
+/// wait for one another. Too large: more memory for the parts.
 const TILES_AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
-    /// The parts of the picture that differ in what shows, side by side; what shows nothing is in none.
+    /// Divides the picture into regions, in each of which the same polygons are visible. Parts without a
+    /// visible polygon are in no region.
     ///
     /// Where all polygons are opaque, there is one for each that shows. Translucent polygons divide what they
     /// lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled each with
@@ -41,7 +42,7 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// What shows of polygons that lie one behind the other: a phase.
+    /// The visible parts of polygons that lie one behind the other: a phase.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
@@ -68,7 +69,7 @@ struct PolygonLayer {
 #[derive(Default)]
 struct Stacks {
     layers: Vec<PolygonLayer>,
-    /// Layers by what is before them and their polygons.
+    /// Layers, by the layer in front of them and their polygons.
     numbers: Table<(u32, usize), u32>,
     /// The parts of regions, and whose they are.
     parts: Area,
@@ -187,12 +188,12 @@ pub(super) struct LayeredCell {
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,
-    /// The newest of those that have this one before them.
+    /// The newest of the layers directly behind this one.
     newest: u32,
 }
 
 impl Divided {
-    /// What is visible in a tile is laid over what was there, front to back.
+    /// Visible cells of a tile are combined with the parts found so far, front to back.
     pub(super) fn new(
         leaf: &Leaf,
         primitives: &Primitives<'_>,

@@ -282,7 +282,7 @@ impl Work<'_> {
     }
 }
 
-/// Adds a piece to those that are in place.
+/// Adds a piece to the placed pieces.
 fn add(
     pieces: &mut Parts,
     face: u32,
@@ -316,7 +316,7 @@ impl Region {
     /// A cell without fragments.
     const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
 
-    /// The root of a tree of so many nodes and fragments.
+    /// The root of a tree of `nodes` nodes and `fragments` fragments.
     fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
         Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
     }

@@ -16,9 +16,9 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither
-    /// the one that the overlay was made for nor a clone of it. The overlay is empty then. The error names
-    /// the polygon where one is to blame, counted from 0.
+    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither the
+    /// one that the overlay was made for nor a clone of it. The overlay is empty then. If a polygon caused
+    /// the error, [`Error::polygon`] is its number, counted from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,
@@ -32,8 +32,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`replace`](Self::replace). [`Error::line`] or [`Error::point`] is what is to blame, if
-    /// it is no polygon.
+    /// As for [`replace`](Self::replace). If a line or a point caused the error, [`Error::line`] or
+    /// [`Error::point`] is its number.
     pub fn replace_with<P, L, Q>(
         &mut self,
         tree: &BspTree,

@@ -65,7 +65,7 @@ fn cheapest(
     best
 }
 
-/// So many pieces of a set, or all, spread evenly.
+/// At most `most` pieces of a set, spread evenly.
 fn spread(pieces: &[Piece], most: usize) -> impl Iterator<Item = &Piece> {
     let count = pieces.len().min(most);
     (0..count).map(move |i| &pieces[i * pieces.len() / count])

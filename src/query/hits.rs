@@ -1,4 +1,4 @@
-//! The hits of a ray, the nearest first; whether there is any; and what is known of one.
+//! The hits of a ray, the nearest first; whether there is one; and the properties of a hit.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

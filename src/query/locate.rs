@@ -56,8 +56,8 @@ impl PartialEq for Location<'_> {
 
 impl BspTree {
     /// The leaf that a point is in, and the partition planes that it is on: exact for the point as it is
-    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a
-    /// coordinate is NaN or infinite, and possibly if the point is further from the scene than 2⁶⁸ extents. O(depth).
+    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a coordinate
+    /// is NaN or infinite, and possibly if the point is further from the scene than 2⁶⁸ extents. O(depth).
     ///
     /// A leaf is a convex region that no partition plane divides, with a fragment in it or none.
     ///
