@@ -71,8 +71,8 @@ pub struct VisibilityMap<'t> {
 #[derive(Clone, Default)]
 #[non_exhaustive]
 pub struct ViewOptions<'a> {
-    /// Whether polygons that are seen from behind are left out: those whose corners run clockwise in the
-    /// picture. Default: `false`.
+    /// Whether polygons that are seen from behind are left out: their corners run clockwise in the picture.
+    /// Default: `false`.
     pub front_faces_only: bool,
     /// The opacity of each polygon, from 0 to 1, by its number in the input. Polygons with less than 1 hide
     /// nothing, and those with 0 are left out. Default: an empty list, all are opaque.
@@ -80,7 +80,7 @@ pub struct ViewOptions<'a> {
     /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square
     /// pixels is less. Default: 0, all are drawn; so they are with NaN.
     pub least_area: f64,
-    /// A callback that is told how far the work is, and can cancel it: [Progress](VisibilityMap#progress).
+    /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
     pub progress: Option<&'a (dyn Fn(Progress) -> ControlFlow<()> + Sync)>,
 }
@@ -136,15 +136,15 @@ pub enum Hidden {
     Keep,
     /// As `Keep`, cut where the number of polygons in front changes: a run's `layers`.
     ///
-    /// All polygons count that show a side to the camera, once each, be they hidden themselves, but not the
-    /// faces that have the edge (of a polygon that is not planar, another face may lie in front). The number
-    /// is 1 at least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go
-    /// with the number of polygons in front of hidden parts. (A. Appel, "The notion of quantitative
-    /// invisibility and the machine rendering of solids", 1967.)
+    /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
+    /// have the edge do not count, but another face of a polygon that is not planar may lie in front. The
+    /// number is at least 1, for instance where the edge of a shelf lies on the wall that hides the shelf.
+    /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
+    /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
 }
 
-/// A polygon of which some is visible.
+/// A polygon with a visible part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VisiblePolygon {
@@ -166,16 +166,16 @@ pub struct MapCell<'m> {
 impl BspTree {
     /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where nothing opaque
-    /// is before it, so that cells of translucent polygons lie over those of others. The number of cells, and
-    /// the time, grow with the number of translucent polygons that lie over one another.
+    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where no opaque
+    /// polygon is in front of it, so cells of translucent polygons overlap the cells of other polygons. The
+    /// number of cells, and the time, grow with the number of translucent polygons that lie over one another.
     ///
     /// # Errors
     ///
     /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is
-    /// that of one cell of a partition; if there is not one opacity for each polygon, or one is not a number
-    /// from 0 to 1 (of which [`Error::polygon`] tells the first); if there is not enough memory, or if it was
-    /// cancelled.
+    /// that of one cell of a partition; if there is not one opacity for each polygon; if an opacity is not a
+    /// number from 0 to 1, where [`Error::polygon`] is the first such polygon; if there is not enough memory,
+    /// or if it was cancelled.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -234,7 +234,7 @@ impl VisibilityMap<'_> {
         found.into_values().map(|(shown, _)| shown)
     }
 
-    /// The polygons, by their numbers and sorted, that drawings leave out as too little of them is visible.
+    /// The sorted numbers of the polygons that drawings leave out because their visible area is too small.
     pub(super) fn left_out(&self) -> Vec<usize> {
         if self.least_area.is_nan() || self.least_area <= 0.0 {
             return vec![];
@@ -314,8 +314,7 @@ const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
-/// Tells a callback how far operations are, each from its beginning to its end, and lets it cancel them; or
-/// tells nobody.
+/// Reports the progress of operations to a callback, if there is one, and lets it cancel them.
 #[derive(Default)]
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 

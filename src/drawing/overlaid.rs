@@ -291,8 +291,8 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
     Ok(())
 }
 
-/// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
-/// passes. Adds pairs that leave no place between them.
+/// Divides a segment into as few runs as possible, each with the number of parts of the drawing that come
+/// before it, according to the items that it passes. Adds pairs that leave no place between them.
 fn in_order(
     ends: [f64; 2],
     passes: &[Pass],
@@ -335,7 +335,7 @@ fn in_order(
             }
         }
     }
-    // The last place: what lies beside then covers least of a wide stroke.
+    // The last possible place: neighbours then cover least of a wide stroke.
     parts.push((room.most, [start, ends[1]]));
     Ok(parts)
 }

@@ -366,7 +366,7 @@ impl<'a> Sides<'a> {
         Ok(Self { lines, sides: &area.sides, before, after })
     }
 
-    /// The sides without what two of them have in common, in opposite directions.
+    /// The sides, without the common parts of two that run in opposite directions.
     fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
         let mut by_line: Vec<u32> = (0..self.sides.len() as u32).collect();

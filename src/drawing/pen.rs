@@ -40,7 +40,7 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// Joins segments that have ends in common to as few lines as there can be, and puts these in an order,
 /// each from that of its ends, in which a pen travels little between them.
 ///
-/// It is for [runs of edges](super::EdgeRun), those that are drawn alike:
+/// Use it for [runs of edges](super::EdgeRun) of the same style:
 ///
 /// ```
 /// use binspace::drawing::{Hidden, VisibilityMap, polylines};
@@ -101,7 +101,7 @@ struct Net {
     /// Up to where the ends at a corner are used, and which segments are.
     done: Vec<u32>,
     is_used: Vec<bool>,
-    /// To each corner where an odd number of ends meet another such, to be reached without drawing.
+    /// For each corner where an odd number of ends meet, another such corner, to be reached without drawing.
     jumps: Vec<Option<u32>>,
 }
 

@@ -26,9 +26,9 @@ impl VisibilityMap<'_> {
     /// Divides the picture into regions, in each of which the same polygons are visible. Parts without a
     /// visible polygon are in no region.
     ///
-    /// Where all polygons are opaque, there is one for each that shows. Translucent polygons divide what they
-    /// lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled each with
-    /// one blended colour, and added up instead of painted over one another, regions have no seams.
+    /// Where all polygons are opaque, each visible polygon has one region. Translucent polygons divide what
+    /// they lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled
+    /// each with one blended colour, and added up instead of painted over one another, regions have no seams.
     ///
     /// # Errors
     ///
@@ -79,7 +79,7 @@ struct Stacks {
 impl Stacks {
     /// Adds the parts of a tile.
     fn add(&mut self, divided: &Divided, polygon: impl Fn(u32) -> usize) -> Result<(), Error> {
-        // The layers of all tiles that those of this one are.
+        // For each layer of this tile, its number among the layers of all tiles.
         let mut own: Vec<u32> = Vec::with_capacity(divided.layers.len());
         own.push(0);
         for layer in &divided.layers[1..] {
@@ -129,7 +129,7 @@ impl Stacks {
     }
 }
 
-/// The polygons of a layer and of those before it, front to back.
+/// The polygons of a layer and of the layers in front of it, front to back.
 fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
     let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
     let all = std::iter::successors(at(last), |layer| at(layer.before));
@@ -150,7 +150,7 @@ impl Region {
         self.outlines.iter().map(|outline| area(outline)).sum::<f64>().max(0.0)
     }
 
-    /// Its outlines, to be filled together, as those of a [`Path`](super::Path): those of two regions have
+    /// Its outlines, to be filled together, as those of a [`Path`](super::Path): outlines of two regions have
     /// no area in common.
     pub fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + Clone {
         self.outlines.iter().map(Vec::as_slice)
@@ -183,8 +183,8 @@ pub(super) struct LayeredCell {
     pub(super) layer: u32,
 }
 
-/// An item that shows, and what is in front of it. Cells have them in common, so that they take no more memory
-/// where many items lie over one another.
+/// A visible item, and the layer in front of it. Cells share layers, so that they take no more memory where
+/// many items lie over one another.
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,

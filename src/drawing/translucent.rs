@@ -140,7 +140,7 @@ pub(super) struct Parts {
     of_item: Vec<u32>,
     /// The items of each, one face after another.
     items: Vec<Vec<u32>>,
-    /// Pairs of items that touch, which an order of the parts can keep beside those that overlap.
+    /// Pairs of items that touch, which an order of the parts can keep in addition to the pairs that overlap.
     touching: Vec<Pair>,
 }
 
@@ -308,7 +308,7 @@ impl Counts {
         Self { of_face, of_polygon }
     }
 
-    /// Adds items to an area, those of one face after another.
+    /// Adds items to an area, face by face.
     fn add_pieces(
         &self,
         primitives: &Primitives<'_>,

@@ -83,6 +83,12 @@ use crate::viewpoint::Ray;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
+/// # Queries
+///
+/// [`hits`](Self::hits) returns the polygons of the tree and of the overlay along a ray, the nearest first.
+/// [`is_occluded`](Self::is_occluded) returns whether one of them blocks the line of sight between two points.
+/// [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices and triangles for a renderer.
+///
 /// # What it holds
 ///
 /// Each polygon is cut by the planes of the tree on the way to the leaves that it lies in. Pieces
@@ -99,8 +105,8 @@ use crate::viewpoint::Ray;
 /// # Order
 ///
 /// The order is as exact as the tree's: the rules on the page of [`BspTree`](BspTree#order) hold for the
-/// polygons of both. Coplanar polygons come in input order, those of the overlay after those of the tree. The
-/// tree's fragments come in the tree's own order, with pieces between them.
+/// polygons of both. Coplanar polygons come in input order, the overlay's after the tree's. The tree's
+/// fragments come in the tree's own order, with pieces between them.
 ///
 /// Where two lines or points, or one of them and a polygon, coincide in the picture but not in space, the
 /// nearer one comes later. There is one exception. If both lie, within the tolerance, in one dividing plane
@@ -138,9 +144,11 @@ use crate::viewpoint::Ray;
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
 /// | [`order`](Self::order), written or read | that of the tree, and a copy of its list |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | that of the tree, and of the overlay's boxes that the ray crosses; the first call makes the boxes of both, O(n) for n fragments and pieces |
+/// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
-/// While many faces, as those of a body, lie on one side of a plane by their bounding box, they go there at
-/// once: such a body costs little until it meets the leaf that it is in. Give the faces of a body in a row.
+/// If the bounding box of many faces, such as those of a body, lies on one side of a plane, they are moved
+/// there at once. Such a body takes little time until it reaches its leaf. Give the faces of a body in a row.
 /// Its own small tree is built again each time, so a body of thousands of faces takes milliseconds.
 ///
 /// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube about
@@ -151,8 +159,7 @@ use crate::viewpoint::Ray;
 /// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon. The first `replace`
 /// makes it, in O(n).
 pub struct Overlay {
-    /// The faces of the tree, and those of the overlay after them: planes of both have names in one
-    /// space.
+    /// The faces of the tree, then the faces of the overlay: planes of both are numbered together.
     faces: Faces,
     base: Base,
     preparer: Preparer,
@@ -339,7 +346,7 @@ impl Overlay {
         &self.preparation
     }
 
-    /// The faces of the tree, and those of the overlay behind them.
+    /// The faces of the tree, then the faces of the overlay.
     #[doc(hidden)]
     pub fn faces(&self) -> &Faces {
         &self.faces

@@ -108,7 +108,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Puts a set on the stack of those to be divided, unless nothing is to be put in place there.
+    /// Pushes a set onto the stack of sets to divide, unless it has no pieces to place.
     fn push(&mut self, place: Place, region: Region, pieces: Range<usize>) {
         let Placer { arena, pending, .. } = &mut *self.placer;
         if !pieces.is_empty() || region.has_pieces() {

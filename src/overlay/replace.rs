@@ -1,4 +1,4 @@
-//! What an overlay is given, and how it replaces what the overlay had.
+//! The shapes that an overlay is given, and how they replace its contents.
 
 use std::ops::ControlFlow;
 

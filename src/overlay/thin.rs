@@ -44,7 +44,7 @@ pub(super) fn between(
     best.map_or(first, |(_, plane)| plane)
 }
 
-/// The cheapest of some planes, with what it costs.
+/// The cheapest of some planes, with its cost.
 fn cheapest(
     faces: &Faces,
     sample: &Sample<'_>,
@@ -112,7 +112,7 @@ fn medians<'a>(
     })
 }
 
-/// What it costs to divide a set by a plane; `None` if as many are left on a side.
+/// The cost of dividing a set by a plane; `None` if one side keeps all pieces.
 fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) -> Option<usize> {
     let prepared = PreparedPlane::new(faces, plane);
     let (mut front, mut back, mut cuts) = (0, 0, 0);

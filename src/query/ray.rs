@@ -1,4 +1,4 @@
-//! A ray, prepared to be compared with a tree, and what it has in common with a fragment: by floats where these
+//! A ray, prepared to be compared with a tree, and its intersection with a fragment: by floats where these
 //! are certain, else by integers.
 
 use std::cmp::Ordering;
@@ -147,7 +147,7 @@ impl RoundedAtRay {
     }
 }
 
-/// A point of a ray by what defines it.
+/// A point of a ray by its definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
     /// Where the ray begins.
@@ -202,7 +202,7 @@ fn dominant_axis(faces: &Faces, face: u32) -> usize {
     faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
-/// How far along a ray a spot is: between two parameters, and exactly, by what defines the spot.
+/// The distance of a spot along a ray: an interval of parameters, and exactly, by the definition of the spot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     pub(super) spot: Spot,

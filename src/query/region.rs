@@ -125,9 +125,9 @@ impl Iterator for FragmentsIn<'_> {
 impl FusedIterator for FragmentsIn<'_> {}
 
 impl BspTree {
-    /// The numbers of the fragments that have a point in a region, in ascending order: what is in a box, or
-    /// in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon meets
-    /// the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
+    /// The numbers of the fragments that have a point in a region, in ascending order: the fragments in a
+    /// box, or in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon
+    /// meets the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
     ///
     /// ```
     /// use binspace::glam::DVec3;

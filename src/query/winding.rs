@@ -18,7 +18,7 @@ const MARGIN: f64 = 1e-6;
 impl BspTree {
     /// How many times the polygons wind around a point: 0 outside, 1 inside a body whose fronts face
     /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` on the
-    /// boundary; the polygons there are those that `hits(Ray::between(point, point))` returns.
+    /// boundary; `hits(Ray::between(point, point))` returns the polygons there.
     ///
     /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the point as
     /// you give it, except for points within the tolerance of polygons that were
