@@ -48,17 +48,17 @@ struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// The lines in which polygons go through one another: runs of [`EdgeKind::Crossing`], each once, with
-    /// the polygon of the lower number first. Where an edge of a polygon only touches another,
-    /// [`edges`](Self::edges) has it.
+    /// Returns the lines in which polygons intersect: runs of [`EdgeKind::Crossing`], each once, with the
+    /// polygon of the lower number first. An edge that only touches another polygon is in
+    /// [`edges`](Self::edges) instead.
     ///
-    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is read
-    /// off the map, so it is as exact: only the ends of runs are rounded. Along an edge that triangulation
-    /// made, a polygon is crossed where the other one lies between the two triangles there; a corner no
-    /// further from a plane than the tolerance is treated as on it.
+    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is as
+    /// exact as the map: only the ends of runs are rounded. Along an edge that triangulation made, a polygon
+    /// is crossed where the other one lies between the two triangles there; a corner no further from a plane
+    /// than the tolerance is treated as on it.
     ///
-    /// Unless they are [skipped](Hidden::Skip), hidden runs are those of polygons that both have corners on
-    /// both sides of the other, further from it than the tolerance. Of polygons in several faces, each pair
+    /// Except with [`Hidden::Skip`], hidden runs are returned too: where each of two polygons has corners on
+    /// both sides of the other, further from it than the tolerance. If a polygon has several faces, each pair
     /// of faces then has runs of its own.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which

@@ -19,12 +19,12 @@ impl VisibilityMap<'_> {
     /// divided into visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are
     /// sorted by polygon, then by edge, then from the beginning of the edge to its end.
     ///
-    /// Visibility is read off the map, so it is as exact: only the ends of runs are rounded. The faces that
-    /// have an edge do not hide it (though another part of a polygon that is not planar may). Polygons share
-    /// an edge if both of its corners are the same. Edges that triangulation made inside a polygon are left
-    /// out, except silhouettes: a polygon that is not planar may be seen from its front on one side of such
-    /// an edge, and from behind on the other. Edges at which all polygons are seen exactly edge-on are left
-    /// out too, and those along a border of the picture with all polygons on its other side.
+    /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
+    /// not hide it (though another part of a polygon that is not planar may). Polygons share an edge if both
+    /// of its corners are the same. Edges that triangulation made inside a polygon are left out, except
+    /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge, and
+    /// from behind on the other. Edges at which all polygons are seen exactly edge-on are left out too, and
+    /// those along a border of the picture with all polygons on its other side.
     /// [`crossings`](Self::crossings) has the lines in which polygons go through one another.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
@@ -277,20 +277,20 @@ impl SharedEdge {
     }
 }
 
-/// What a line is in a drawing of lines.
+/// The kind of a line in a line drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
     /// The polygon shares this edge with no other polygon, or with more than one.
     Border,
-    /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on; or so
-    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye. (Of two whose
-    /// fronts are not on one side of the surface, one is turned round for this.)
+    /// One polygon at the edge is seen from its front and the other from behind, or one of them edge-on. The
+    /// same may hold for two parts of one polygon that is not planar. Seen from the eye, a body ends there.
+    /// (If the fronts of the two are on different sides of the surface, one of them counts as reversed.)
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
     /// back on the other.
     Crease(f64),
-    /// The polygon and another one, of this number, go through one another there.
+    /// The polygon intersects another one, with this number, there.
     Crossing(usize),
 }
 
@@ -300,18 +300,18 @@ pub enum EdgeKind {
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing, and of a
+    /// The number, within that polygon, of the corner where the edge begins; `None` for a crossing, and for a
     /// silhouette inside a polygon that is not planar.
     pub edge: Option<u32>,
-    /// What the line is.
+    /// The kind of the line.
     pub kind: EdgeKind,
-    /// Where the run begins and ends in the picture, in pixels: in the direction
-    /// in which the polygon runs along the edge; a crossing has either.
+    /// Where the run begins and ends in the picture, in pixels: in the direction in which the polygon runs
+    /// along the edge. A crossing has either direction.
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a
-    /// visible run: polygons that it is seen through do not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
+    /// visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 

@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a
-    /// visible run: polygons that it is seen through do not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
+    /// visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 
@@ -62,14 +62,14 @@ impl LineRun {
 }
 
 impl VisibilityMap<'_> {
-    /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
-    /// or, unless they are [skipped](Hidden::Skip), hidden: in input order, and along each segment from its
-    /// beginning to its end.
+    /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
+    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs come in input
+    /// order, and along each segment from its beginning to its end.
     ///
-    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
-    /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the
-    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only is treated
-    /// as wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
+    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, even
+    /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on it, and the
+    /// polygon does not hide it. A segment that is further from the plane on one side only is treated as
+    /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
     /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of
@@ -118,9 +118,9 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The points of an overlay of the same tree that are in the picture, in input order.
+    /// Returns the points of an overlay of the same tree that are in the picture, in input order.
     ///
-    /// A point is hidden as a point of a line is: see [`lines`](Self::lines).
+    /// The rules of [`lines`](Self::lines) decide whether a point is hidden.
     ///
     /// # Errors
     ///

@@ -159,7 +159,7 @@ impl<'d> Path<'d> {
 }
 
 /// A side is part of an edge if its middle is at most this far beyond the edge's ends, in pixels. Too small:
-/// roundings take edges away. Too large: sides along collinear edges of other polygons are taken for edges.
+/// edges are lost to rounding. Too large: sides along collinear edges of other polygons are taken for edges.
 const BEYOND: f64 = 1e-3;
 
 /// The edges of a polygon's faces, by the lines that they are on.
@@ -459,16 +459,16 @@ impl<'a> Sides<'a> {
 const SHARE: usize = 256;
 
 impl VisibilityMap<'_> {
-    /// The view as filled outlines, one for each visible opaque polygon.
+    /// Returns the view as filled outlines, one path for each visible opaque polygon.
     ///
     /// Polygons are drawn whole, each before those that are visible above it. Polygons in cycles, none in most
     /// scenes, are clipped: only their visible parts are drawn. Polygons whose visible area is less than
     /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons come after the polygons behind them. Translucent polygons in cycles are in
-    /// several paths, as in [`Drawing::translucent`]; each visible point of one is in one path. Time and
-    /// memory are proportional to the square of the number of translucent polygons that lie over one another;
-    /// where all are translucent, `Drawing::translucent` takes less.
+    /// Translucent polygons come after the polygons behind them. A translucent polygon in a cycle has several
+    /// paths, as in [`Drawing::translucent`]; each of its visible points is in one path. Time and memory are
+    /// quadratic in the number of translucent polygons that overlap one another. If all polygons are
+    /// translucent, `Drawing::translucent` takes less.
     ///
     /// # Errors
     ///
@@ -526,12 +526,12 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// The polygons that show.
+/// The visible polygons.
 struct Nodes {
     polygons: Vec<usize>,
     /// The place of each face's polygon in the list; `u32::MAX` for polygons that are not visible.
     places: Vec<u32>,
-    /// The faces of each polygon that the camera sees, whether they show or not.
+    /// The faces of each polygon that the camera sees, visible or hidden.
     faces: Vec<Vec<u32>>,
     ranks: Vec<Ranks>,
 }
@@ -601,8 +601,8 @@ pub enum DisplayItem<'d> {
 }
 
 impl Drawing {
-    /// All that is painted, in order: [`paths`](Self::paths), with the lines and points between them that
-    /// the drawing was made with.
+    /// Returns the [`paths`](Self::paths) in painting order, with the overlay's lines and points between
+    /// them.
     pub fn display_list(&self) -> impl Iterator<Item = DisplayItem<'_>> + Clone {
         let mut overlaid = self.overlaid.iter().peekable();
         let mut paths = self.paths();

@@ -37,8 +37,8 @@ impl AsRef<[[f64; 2]]> for Polyline {
     }
 }
 
-/// Joins segments that have ends in common to as few lines as there can be, and puts these in an order,
-/// each from that of its ends, in which a pen travels little between them.
+/// Joins segments that share ends into as few polylines as possible, and sorts and directs them to shorten
+/// pen travel.
 ///
 /// Use it for [runs of edges](super::EdgeRun) of the same style:
 ///
@@ -54,11 +54,11 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// # }
 /// ```
 ///
-/// Each segment is drawn once. Where an odd number of them meet, a line ends, and nowhere else: these are
-/// Euler's trails, found by Hierholzer's algorithm (1873). Where a line can go on in several ways, it
-/// takes the straightest of a few. Ends are common if they are the same when rounded
-/// to a thousandth of a pixel; so two that are nearer than that may be kept apart.
-/// Segments with an infinite or NaN coordinate are left out.
+/// Each segment is drawn once. Open lines end only where an odd number of segments meet: they are Eulerian
+/// trails, found by Hierholzer's algorithm (1873). Where a line can continue in several ways, it takes the
+/// straightest of a few. Two ends are shared if they are equal when rounded to a thousandth of a pixel, so
+/// two ends that are closer than that may stay separate. Segments with an infinite or NaN coordinate are left
+/// out.
 ///
 /// The next line is always the one with an end nearest to the pen, which begins at (0, 0). O(n log n) for
 /// n segments, unless ends are spread very unevenly.

@@ -1,5 +1,5 @@
-//! What makes a drawing fit for printers and viewers: paths of one look follow one another, and trapping
-//! closes the seams between neighbours.
+//! Prepares a drawing for printers and viewers: paths of one style follow one another, and trapping closes
+//! the seams between neighbours.
 
 use std::collections::{BTreeMap, BinaryHeap};
 
@@ -13,8 +13,8 @@ const THIN: f64 = 1e-3;
 /// Outlines with more corners than this are taken for the boxes around them. Too small: fewer paths move. Too
 /// large: more time.
 const MOST_COMPARED_CORNERS: usize = 64;
-/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too large:
-/// time and memory where many large polygons lie over one another; too small: longer files.
+/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too small:
+/// longer files. Too large: time and memory where many large polygons overlap.
 const MOST_PAIRS: usize = 400;
 
 impl Drawing {

@@ -1,4 +1,4 @@
-//! What a picture is made of: pieces of faces, front to back, and the lines that bound them.
+//! The primitives of a picture: pieces of faces, front to back, and the lines that bound them.
 
 use std::cmp::Ordering;
 
@@ -16,7 +16,7 @@ use crate::progress::Watch;
 use crate::raster::{RayOrigin, Rays, Sheet, normal_of};
 use crate::tree::{BspTree, Fragment};
 
-/// A piece of a face that may show.
+/// A piece of a face that may be visible.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
     pub(super) face: u32,
@@ -127,9 +127,9 @@ impl<'t> Primitives<'t> {
             }
             watch.work(LINES)?;
             // All edges of the face, because one that does not meet the box of a piece beside the picture may
-            // still be the only one that excludes it. For a face of n corners in m pieces this takes 8 nm
-            // bytes, three times while the map is made: 346 MB at most for a floor of 10 000 corners in 1 396
-            // pieces.
+            // still be the only one that excludes it. A face of n corners in m pieces takes 8 nm bytes here, and
+            // twice more in lists of candidates: with a floor of 10 000 corners in 1 396 pieces, a process
+            // peaks at 346 MB.
             let start = place(self.halves.len())?;
             self.halves.extend_from_within(halves[0] as usize..halves[1] as usize);
             for line in fragment.lines() {
@@ -271,7 +271,7 @@ impl<'t> Primitives<'t> {
     }
 }
 
-/// What a function gives for numbers, in their order, by all threads.
+/// Applies a function to numbers on all threads, and returns the results in order.
 fn shared<T: Send>(
     numbers: &[u32],
     function: impl Fn(u32) -> Option<T> + Sync,

@@ -76,9 +76,9 @@ impl Tile {
         Self { low: [0; 2], high: size.map(|side| STEPS as i64 * i64::from(side)) }
     }
 
-    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. What a
-    /// camera looks at is often right in the middle of the picture, and what lies on a border by chance is
-    /// told by integers.
+    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. The target
+    /// of a camera is often exactly in the middle of the picture, and points that lie on a border by chance
+    /// are compared in integers.
     pub(super) fn halves(&self) -> [Self; 2] {
         let size = [0, 1].map(|axis: usize| self.high[axis] - self.low[axis]);
         let axis = usize::from(size[1] > size[0]);
@@ -144,8 +144,8 @@ pub(super) const LINES: usize = 64;
 pub(super) const VISITED: usize = 4;
 
 /// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
-/// thing for each of the parts that are shared out to threads. What is found, and in which order, does not
-/// depend on how many threads there are. It is one phase of the operation that is watched.
+/// thing for each of the parts that are shared out to threads. The result and its order do not depend on the
+/// number of threads. It is one phase of the operation that is watched.
 pub(super) fn found_in<P: Send, F: Send + Default>(
     all: P,
     halves: impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync,

@@ -11,7 +11,7 @@ use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
-/// A part of the picture in which the same polygons show, one behind the other.
+/// A part of the picture in which the same polygons are visible, one behind the other.
 #[derive(Clone, Debug)]
 pub struct Region {
     polygons: Vec<usize>,
@@ -26,9 +26,10 @@ impl VisibilityMap<'_> {
     /// Divides the picture into regions, in each of which the same polygons are visible. Parts without a
     /// visible polygon are in no region.
     ///
-    /// Where all polygons are opaque, each visible polygon has one region. Translucent polygons divide what
-    /// they lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled
-    /// each with one blended colour, and added up instead of painted over one another, regions have no seams.
+    /// Where all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
+    /// polygons behind them: n overlapping ones have up to O(n²) regions, with up to n polygons each. To
+    /// avoid seams, fill each region with one blended colour and add the regions instead of painting them
+    /// over one another.
     ///
     /// # Errors
     ///
@@ -139,8 +140,8 @@ fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
 }
 
 impl Region {
-    /// The polygons that show, front to back: translucent ones, and the opaque one behind them if there is
-    /// one. One that is folded over itself is among them more than once.
+    /// The visible polygons, front to back: translucent ones, then the opaque one behind them if there is
+    /// one. A polygon that is folded over itself is listed more than once.
     pub fn polygons(&self) -> &[usize] {
         &self.polygons
     }
@@ -157,7 +158,7 @@ impl Region {
     }
 }
 
-/// The area that an outline goes around clockwise.
+/// The area inside a clockwise outline.
 fn area(outline: &[[f64; 2]]) -> f64 {
     let origin = outline.first().copied().unwrap_or_default();
     let arm = |at: &[f64; 2]| [at[0] - origin[0], at[1] - origin[1]];
@@ -295,7 +296,7 @@ impl LayeredCell {
     }
 }
 
-/// Whether nothing shows through anything in a tile.
+/// Whether nothing in a tile is seen through a translucent item.
 fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
 }

@@ -57,7 +57,7 @@ enum Source {
 /// All places.
 const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Boxes are larger than what they are around by this, in pixels: far more than rounding.
+/// Boxes are enlarged by this, in pixels: far more than rounding.
 pub(super) const MARGIN: f64 = 1e-3;
 
 impl ProjectedSegment {
@@ -415,7 +415,7 @@ impl<'a> Passing<'a> {
         self.near_segments.is_empty() && self.near_points.is_empty()
     }
 
-    /// What may be in a box.
+    /// The segments and points that may be in a box.
     fn near(&self, sides: &Rect) -> Self {
         self.filtered(|segment| segment.may_meet(sides), |point| !are_apart(sides, &point.around()))
     }

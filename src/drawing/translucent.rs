@@ -29,10 +29,10 @@ impl Drawing {
     /// a polygon are then joined as far as the joined parts still have a painting order from this viewpoint.
     /// A bent polygon that overlaps itself in the picture has at least one path for each of its faces.
     ///
-    /// The options say whether polygons are drawn that are seen from behind. Polygons with opacity 0 are left
-    /// out; other opacities, and the least area, have no effect. Where all polygons are opaque,
+    /// The option [`front_faces_only`](ViewOptions::front_faces_only) applies. Polygons with opacity 0 are
+    /// left out; other opacities, and the least area, have no effect. Where all polygons are opaque,
     /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) has fewer paths. Time and memory grow with
-    /// the number of pairs of polygons that lie over one another with none between them.
+    /// the number of pairs of polygons that overlap in the picture with none between them.
     ///
     /// # Lines and points
     ///
@@ -40,17 +40,17 @@ impl Drawing {
     /// [`display_list`](Self::display_list). To have them above all, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
-    /// A segment is cut where it goes from one place of the order to another. Each part comes after all that
-    /// lies behind it, or that it lies on, and before all that lies in front of it, as `lines` tells these
-    /// apart. Lines and points in one place of the order come in input order, lines first, and so may those
-    /// that cross in the picture. All of them are marked as visible.
+    /// A segment is cut where its place in the order changes. Each part comes after the polygons behind it
+    /// and the polygons that it lies on, and before the polygons in front of it, by the rules of `lines`.
+    /// Lines and points with one place in the order come in input order, lines first. Two that cross in the
+    /// picture may come in input order too, whichever is nearer. All of them are marked as visible.
     ///
     /// An overlay does not change the paths, except where a line runs along a border between polygons that
-    /// only touch there, one behind it and the other in front: these are then painted in that order too, and
-    /// polygons may be in more paths for it, or in fewer. Where such pairs close a cycle, or are not all
-    /// found in a few rounds, a part comes after all that lies behind it, but polygons in front may be
-    /// painted before it. So may a bent polygon that lies behind a line with one face and in front with
-    /// another: it is one path.
+    /// only touch there, one behind it and the other in front: these two are then painted in that order too,
+    /// which may change the number of paths of polygons. If such pairs close a cycle, or are not all found in
+    /// a few rounds, a part comes after all polygons behind it, but polygons in front may be painted before
+    /// it. The same holds for a bent polygon that has one face behind a line and another in front, because it
+    /// is one path.
     ///
     /// # Errors
     ///
@@ -202,7 +202,7 @@ impl Parts {
         Ok(Self { of_item, items, touching: kept })
     }
 
-    /// An order to paint the parts in: it keeps all pairs of items, and else that of the tree. Where
+    /// A painting order of the parts: it keeps all pairs of items, and otherwise the tree's order. Where
     /// something is hidden, `leaves` have the visible parts, and opaque polygons in cycles are clipped.
     pub(super) fn order(
         &self,

@@ -82,7 +82,7 @@ pub(super) enum Place {
 }
 
 impl InsertionTree {
-    /// That of an overlay of nothing on a tree with a number of fragments.
+    /// For an empty overlay of a tree with this number of fragments.
     pub(super) fn new(fragments: usize) -> Self {
         Self { root: SlotSide::empty(fragments), branches: vec![], groups: vec![] }
     }

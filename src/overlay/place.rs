@@ -49,7 +49,7 @@ struct Pending {
     place: Place,
 }
 
-/// What one placing reads and writes.
+/// The data that one placing reads and writes.
 struct Work<'a> {
     tree: &'a BspTree,
     faces: &'a Faces,
@@ -306,7 +306,7 @@ struct Region {
 /// Whose part a region is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whose {
-    /// The tree's, that stays as it is.
+    /// The tree's, which is not changed.
     Tree,
     /// Of the small tree of the polygons that meet in one of its cells.
     Cell,
@@ -411,7 +411,7 @@ pub(crate) struct GivenSegment {
     pub(crate) ends: [[f64; 3]; 2],
 }
 
-/// What a drawing needs of an overlay: its lines and points, whole.
+/// The whole lines and points of an overlay, for drawings.
 #[cfg(feature = "drawing")]
 impl super::Overlay {
     /// An error if the overlay is not one for the tree, or has polygons.

@@ -12,7 +12,7 @@ use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::{BspTree, Fragment};
 
 impl Overlay {
-    /// Replaces all that the overlay has by polygons, and cuts them down to the leaves of the tree.
+    /// Replaces the overlay's contents by polygons, and cuts them down to the leaves of the tree.
     ///
     /// # Errors
     ///
@@ -27,8 +27,8 @@ impl Overlay {
         self.replace_with(tree, Shapes::NONE.with_polygons(polygons))
     }
 
-    /// Replaces all that the overlay has by polygons, lines and points, and cuts them down to the
-    /// leaves of the tree.
+    /// Replaces the overlay's contents by polygons, lines and points, and cuts them down to the leaves of the
+    /// tree.
     ///
     /// # Errors
     ///
@@ -271,7 +271,7 @@ impl Marker {
 }
 
 impl Overlay {
-    /// What a number stands for; `None` if it is that of a fragment of the tree, or of nothing.
+    /// The piece with a number; `None` if a fragment of the tree or nothing has the number.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
@@ -289,7 +289,7 @@ impl Overlay {
         })
     }
 
-    /// The piece of a polygon by its number; `None` if it is that of anything else.
+    /// The piece of a polygon by its number; `None` if the number is not a polygon's piece.
     pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
         self.shape(number)?.fragment()
     }

@@ -10,11 +10,11 @@ use crate::exact::faces::Thin;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
 use crate::progress::Watch;
 
-/// How many pieces of a set a plane is tried on, spread evenly over the set. More: time; fewer: worse
-/// planes for large sets.
+/// How many pieces of a set a plane is tried on, spread evenly over the set. Too small: worse planes for
+/// large sets. Too large: more time.
 const SAMPLE: usize = 64;
-/// How many planes of segments are tried. More: time; fewer: more cuts where lines cross each other in
-/// a tangle.
+/// How many planes of segments are tried. Too small: more cuts in a tangle of crossing lines. Too large: more
+/// time.
 const OWN: usize = 6;
 /// A cut costs as much as this many pieces more on one side. Too small: more pieces. Too large:
 /// trees degenerate to lists, which take quadratic time.
