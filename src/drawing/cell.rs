@@ -124,8 +124,8 @@ impl Cell {
         Ok(Some(part))
     }
 
-    /// To look at all corners takes as long as a build takes to examine so many pieces; 0 for few, which are part
-    /// of what is counted for a cell.
+    /// The cost of all corners, in pieces that a build examines. It is 0 for few corners, which the cost of
+    /// the cell includes.
     fn corners_work(&self) -> usize {
         if self.sides.len() > FEW_CORNERS { self.sides.len() } else { 0 }
     }
@@ -142,9 +142,9 @@ impl Cell {
         around
     }
 
-    /// On which side of a half's line each corner lies. Floats tell it where the line's value at the rounded corner is
-    /// larger than its error and what it can change by on the way from there to the corner: the length of the way times
-    /// that of the slope.
+    /// On which side of a half's line each corner lies. Floats tell it where the line's value at the rounded
+    /// corner is larger than its error and what it can change by on the way from there to the corner: the
+    /// length of the way times that of the slope.
     pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
@@ -212,14 +212,15 @@ pub(super) fn side_on_line(signs: &[Ordering]) -> Option<usize> {
 impl Corner {
     /// Where two lines meet.
     ///
-    /// With a and b the lines' slopes and e the way from there to the point that is computed, a·e and b·e are the exact
-    /// values at that point: at most the rounded ones and the lines' errors, α and β. So e = (β a⊥ − α b⊥) / (a × b), and
+    /// With a and b the lines' slopes and e the way from there to the point that is computed, a·e and b·e are
+    /// the exact values at that point: at most the rounded ones and the lines' errors, α and β. So e = (β a⊥
+    /// − α b⊥) / (a × b), and
     /// |e| ≤ (|α| |b| + |β| |a|) / |a × b|.
     ///
-    /// The products of a × b are off by a rounding each, and so is their difference: by 2 roundings of their sizes, where
-    /// 8 are taken away. If parts of the slopes are off by s and t, a × b is off by s (|b₁| + |b₂|) + t (|a₁| + |a₂|) +
-    /// 2 s t, of which a sum of two parts is at most 1.4 of a line's `slope`; 2 are taken away. A hundredth is added for
-    /// the roundings of the bound itself.
+    /// The products of a × b are off by a rounding each, and so is their difference: by 2 roundings of their
+    /// sizes, where 8 are taken away. If parts of the slopes are off by s and t, a × b is off by s (|b₁| +
+    /// |b₂|) + t (|a₁| + |a₂|) + 2 s t, of which a sum of two parts is at most 1.4 of a line's `slope`; 2 are
+    /// taken away. A hundredth is added for the roundings of the bound itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
@@ -283,8 +284,8 @@ mod tests {
     use crate::view::Camera;
     use glam::DVec3;
 
-    /// Corners are where lines of a picture meet in integers, as near as they say; and where floats tell on which side of a
-    /// third line one is, it is there.
+    /// Corners are where lines of a picture meet in integers, as near as they say; and where floats tell on
+    /// which side of a third line one is, it is there.
     #[test]
     fn corners_are_as_near_as_they_say_and_on_the_sides_that_floats_tell() {
         let mut random = SplitMix64::new(3);

@@ -9,7 +9,7 @@ use super::edges::{EdgeKind, EdgeRun, SHORTEST};
 use super::graph::Pair;
 use super::lines::{HalfPlane, Table, compare};
 use super::map::{Hidden, VisibilityMap, each, finish_item, sort_by, sort_unique};
-use super::pairs::{Found, add, sorted};
+use super::pairs::{Found, sorted};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Growth, NARROWED, VISITED, found_in};
 use super::segments::{ProjectedSegment, parts};
@@ -32,7 +32,7 @@ struct CutSide {
     ends: [[f64; 2]; 2],
 }
 
-/// What two such sides have in common: a part of a crossing that shows.
+/// The common part of two such sides: a visible part of a crossing.
 #[derive(Clone, Copy, Debug)]
 struct CommonSide {
     line: HalfPlane,
@@ -48,22 +48,22 @@ struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// The lines in which polygons go through one another: runs of [`EdgeKind::Crossing`], each once, with the
-    /// polygon of the lower number first. Where an edge of a polygon only touches another, [`edges`](Self::edges) has
-    /// it.
+    /// Returns the lines in which polygons intersect: runs of [`EdgeKind::Crossing`], each once, with the
+    /// polygon of the lower number first. An edge that only touches another polygon is in
+    /// [`edges`](Self::edges) instead.
     ///
-    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is read off the
-    /// map, so it is as exact: only the ends of runs are rounded. Along an edge that triangulation made, a polygon is
-    /// crossed where the other one lies between the two triangles there; a corner no further from a plane than the
-    /// tolerance is treated as on it.
+    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is as
+    /// exact as the map: only the ends of runs are rounded. Along an edge that triangulation made, a polygon
+    /// is crossed where the other one lies between the two triangles there; a corner no further from a plane
+    /// than the tolerance is treated as on it.
     ///
-    /// Unless they are [skipped](Hidden::Skip), hidden runs are those of polygons that both have corners on both
-    /// sides of the other, further from it than the tolerance. Of polygons in several faces, each pair of faces then
-    /// has runs of its own.
+    /// Except with [`Hidden::Skip`], hidden runs are returned too: where each of two polygons has corners on
+    /// both sides of the other, further from it than the tolerance. If a polygon has several faces, each pair
+    /// of faces then has runs of its own.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
-    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are many with
-    /// overlapping boxes, as at the tip of a cone of many faces.
+    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are
+    /// many with overlapping boxes, as at the tip of a cone of many faces.
     ///
     /// # Errors
     ///
@@ -78,7 +78,7 @@ impl VisibilityMap<'_> {
 
     fn visible_crossings(&self) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(2, |watch| {
-            let inner = InnerEdges::of(self.primitives.lines.frame.faces);
+            let inner = InnerEdges::of(self.primitives.lines.frame.faces, watch)?;
             let mut common = self.common_sides(&inner, watch)?;
             let key = |side: &CommonSide| (side.line, self.polygons_of(side.faces));
             sort_by(&mut common, watch, |a, b| {
@@ -108,8 +108,8 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// What sides of cells have in common that lie on either side of a line in which their faces go through one
-    /// another, line by line: two phases.
+    /// The common parts of sides of cells, where the cells lie on opposite sides of a line in which their
+    /// faces go through one another; line by line: two phases.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -124,7 +124,8 @@ impl VisibilityMap<'_> {
         for line in sides.chunk_by(|a, b| a.line == b.line) {
             for (i, a) in line.iter().enumerate() {
                 let ahead = line[i + 1..].iter().take_while(|b| b.places[0] < a.places[1]);
-                for b in ahead {
+                for b in each(watch, VISITED, ahead) {
+                    let b = b?;
                     if b.is_negative != a.is_negative
                         && self.do_cross(a, b, inner, &mut are_crossing)
                     {
@@ -136,8 +137,9 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes may have
-    /// cut along one line, and what is beyond a border of a tile or a third polygon's edge was not cut again.
+    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes
+    /// may have cut along one line, and cells beyond a border of a tile or a third polygon's edge were not
+    /// cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -168,7 +170,7 @@ impl VisibilityMap<'_> {
         Ok(found)
     }
 
-    /// The outlines of faces: none of those that the picture does not show.
+    /// The outlines of faces, empty for faces outside the picture.
     fn outlines(&self) -> impl Iterator<Item = (u32, &[HalfPlane])> {
         let faces = 0..self.primitives.views.len() as u32;
         faces.map(|face| (face, self.primitives.outline(face)))
@@ -231,7 +233,6 @@ impl VisibilityMap<'_> {
         if !is_bent && lines.is_cut_of(a.line, [one, other]) {
             return true;
         }
-        known.reserve(1);
         *known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
                 // Of the edges of both only those on this line: others may end on it.
@@ -240,7 +241,7 @@ impl VisibilityMap<'_> {
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);
-            // Faces of one plane have no line in common but all of it.
+            // Faces of one plane have no line of intersection.
             let is_line = cut.iter().any(|c| c.sign().is_ne());
             is_line && compare(&cut, &lines.exact(a.line)).is_eq()
         })
@@ -274,7 +275,7 @@ impl CommonSide {
     }
 }
 
-/// So many pairs are looked at by one thread.
+/// The number of pairs in one job of a thread.
 const SHARE: usize = 256;
 
 /// Two faces, and the line in which they go through one another.
@@ -286,16 +287,16 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of all crossings in the picture, in so many phases.
+    /// The runs of all crossings in the picture, in `phases` phases.
     fn all_crossings(&self, phases: usize, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(phases, |watch| {
             let primitives = &self.primitives;
             let faces = primitives.lines.frame.faces;
-            let inner = InnerEdges::of(faces);
+            let inner = InnerEdges::of(faces, watch)?;
             let mut shown = self.common_sides(&inner, watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
             let mut pairs = straddling(primitives, &inner, watch)?;
-            // What shows of a crossing may be nearer to the end of a polygon than the tolerance.
+            // The visible part of a crossing may be nearer to the end of a polygon than the tolerance.
             let of_shown = shown.iter().map(|side| side.faces);
             pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
             sort_unique(&mut pairs, watch)?;
@@ -324,7 +325,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Those pairs that go through one another in the picture: a phase.
+/// The crossings of pairs that go through one another in the picture: a phase.
 fn crossings_of(
     pairs: &[Pair],
     primitives: &Primitives<'_>,
@@ -390,7 +391,8 @@ fn bent(
     Ok(common.and_then(|common| segment.within(common)))
 }
 
-/// Blocks of at most so many faces are not halved. Larger: more pairs are compared; smaller: more blocks.
+/// Blocks of at most this many faces are not halved. Too small: more blocks. Too large: more pairs are
+/// compared.
 const FEW: usize = 16;
 /// A box in the scene: its least and its largest coordinates.
 type Aabb = [[f64; 3]; 2];
@@ -434,7 +436,7 @@ fn straddling(
                 if let Some([below, above]) =
                     if is_crossed { Some([a.min(b), a.max(b)]) } else { bend() }
                 {
-                    add(found, Pair { below, above });
+                    found.insert(Pair { below, above });
                 }
             }
         }
@@ -503,8 +505,8 @@ fn are_apart([low, high]: &Aabb, [from, to]: &Aabb) -> bool {
 /// A face, and which of its edges.
 pub(super) type FaceEdge = (u32, u32);
 
-/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge twice, edges of
-/// their outlines may be among them.
+/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge
+/// twice, edges of their outlines may be among them.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
 /// Where two polygons go through one another along an edge inside one of them.
@@ -518,14 +520,14 @@ pub(super) struct Bend {
 }
 
 impl InnerEdges {
-    pub(super) fn of(faces: &Faces) -> Self {
+    pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
-        // Edges of which one face was met. First inner ones with inner ones; what is left of these may be an
-        // outline's on the other side.
+        // Edges of which one face was met. Inner edges are first paired with inner edges. On the other side
+        // of an unpaired one, the edge may be the outline's.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
-            for numbered in &faces.numbered {
-                let face = numbered.0;
+            for numbered in each(watch, VISITED, &faces.numbered) {
+                let face = numbered?.0;
                 let edges = 0..faces.corners(face).len() as u32;
                 for k in edges.filter(|&k| faces.outline_edge(face, k).is_none() == is_inner) {
                     let mut ends = faces.ends(face, k).map(|end| end.map(|c| (c + 0.0).to_bits()));
@@ -543,7 +545,7 @@ impl InnerEdges {
                 }
             }
         }
-        Self(across)
+        Ok(Self(across))
     }
 
     /// The face on the other side of an edge, and which of its edges it is.
@@ -551,8 +553,8 @@ impl InnerEdges {
         self.0.get(&edge).copied()
     }
 
-    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where the faces
-    /// on either side of the edge lie on opposite sides of the other polygon.
+    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where
+    /// the faces on either side of the edge lie on opposite sides of the other polygon.
     pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
         if self.0.is_empty() {
             return None;

@@ -15,17 +15,17 @@ use crate::exact::{Faces, PlaneId};
 use crate::progress::Watch;
 
 impl VisibilityMap<'_> {
-    /// The edges of polygons that show a side to the camera, as far as they are in the picture, in runs
-    /// that are visible or, unless they are [skipped](Hidden::Skip), hidden. Runs of one polygon follow one another, and those of an edge from its
-    /// beginning to its end.
+    /// Returns the edges of polygons that show a side to the camera, clipped to the picture. Each edge is
+    /// divided into visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are
+    /// sorted by polygon, then by edge, then from the beginning of the edge to its end.
     ///
-    /// Visibility is read off the map, so it is as exact: only the ends of runs are rounded. The faces that have an
-    /// edge do not hide it (though another part of a polygon that is not planar may). Polygons share an edge
-    /// if both of its corners are the same. Edges that triangulation made inside a polygon are left out, except
-    /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge,
-    /// and from behind on the other. Edges at which all polygons are seen exactly edge-on are left out too, and
-    /// those along a border of the picture with all polygons on its other side. [`crossings`](Self::crossings) has
-    /// the lines in which polygons go through one another.
+    /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
+    /// not hide it (though another part of a polygon that is not planar may). Polygons share an edge if both
+    /// of its corners are the same. Edges that triangulation made inside a polygon are left out, except
+    /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge, and
+    /// from behind on the other. Edges at which all polygons are seen exactly edge-on are left out too, and
+    /// those along a border of the picture with all polygons on its other side.
+    /// [`crossings`](Self::crossings) has the lines in which polygons go through one another.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
     ///
@@ -52,8 +52,9 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// Runs, each with the number of its segment, as far as they are wanted. With [`Hidden::Count`], hidden ones are cut
-    /// where the number of polygons in front of them changes, of faces that are not the segment's own: a phase.
+    /// Runs, each with the number of its segment, as far as they are wanted. With [`Hidden::Count`], hidden
+    /// ones are cut where the number of polygons in front of them changes, of faces that are not the
+    /// segment's own: a phase.
     pub(super) fn runs(
         &self,
         mut list: Vec<(EdgeRun, u32)>,
@@ -89,7 +90,7 @@ impl VisibilityMap<'_> {
         Ok(layered)
     }
 
-    /// Adds to each edge where it shows: a phase.
+    /// Adds to each edge the places where it is visible: a phase.
     fn collect(
         &self,
         all: &mut [SharedEdge],
@@ -161,8 +162,8 @@ impl VisibilityMap<'_> {
     }
 
     /// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
-    /// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have gaps
-    /// without them.
+    /// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have
+    /// gaps without them.
     fn shared_edges(&self, watch: &Watch<'_>) -> Result<(Vec<SharedEdge>, Numbers), Error> {
         let primitives = &self.primitives;
         let faces = primitives.lines.frame.faces;
@@ -174,12 +175,12 @@ impl VisibilityMap<'_> {
             *points.entry(place).or_insert(next)
         };
         let mut by_points: Table<[u32; 2], u32> = Table::default();
-        let inner = InnerEdges::of(faces);
+        let inner = InnerEdges::of(faces, watch)?;
         let mut numbers = Numbers::default();
         let mut all: Vec<SharedEdge> = Vec::new();
         for face in (0..faces.len() as u32).filter(|&face| primitives.opacity(face) > 0.0) {
             let range = faces.corner_range(face);
-            for k in 0..faces.reach(face).saturating_sub(usize::from(faces.reach(face) < 3)) {
+            for k in 0..range.len() {
                 watch.work(CUT)?;
                 let next = if k + 1 == range.len() { range.start } else { range.start + k + 1 };
                 let [a, b] = [point(range.start + k), point(next)];
@@ -211,7 +212,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// To look at the sides of a cell takes as long as a build takes to examine so many pieces.
+/// The cost of the sides of a cell, in pieces that a build examines.
 const SIDES: usize = 16;
 
 /// The number of an edge, by a face and which of its edges it is.
@@ -224,7 +225,7 @@ struct SharedEdge {
     faces: SmallVec<[FaceEdge; 2]>,
     /// The edge of the first of the faces in the picture; `None` if that does not show it as a line.
     segment: Option<ProjectedSegment>,
-    /// Where it shows: places along it.
+    /// The visible parts: intervals of places along it.
     visible: Vec<[f64; 2]>,
 }
 
@@ -249,15 +250,15 @@ impl SharedEdge {
         a != b
     }
 
-    /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture. (A face whose
-    /// front is seen is where its edges are negative.)
+    /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture.
+    /// (A face whose front is seen is where its edges are negative.)
     fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
         let is_turned = self.is_turned(faces, 0, number);
         let inside = if is_turned { side } else { side.reverse() };
         self.segment.is_some_and(|segment| segment.picture.is_eq() || segment.picture == inside)
     }
 
-    /// What it is, by the sides that its faces show.
+    /// The kind of the edge, by the sides that its faces show.
     fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
         // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
@@ -276,20 +277,20 @@ impl SharedEdge {
     }
 }
 
-/// What a line is in a drawing of lines.
+/// The kind of a line in a line drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
-    /// No other polygon has the same edge, or several do.
+    /// The polygon shares this edge with no other polygon, or with more than one.
     Border,
-    /// One polygon at the edge is seen from its front, the other from behind, or one of them edge-on; or so
-    /// are two parts of one polygon that is not planar: a body ends there, as seen from the eye. (Of two whose
-    /// fronts are not on one side of the surface, one is turned round for this.)
+    /// One polygon at the edge is seen from its front and the other from behind, or one of them edge-on. The
+    /// same may hold for two parts of one polygon that is not planar. Seen from the eye, a body ends there.
+    /// (If the fronts of the two are on different sides of the surface, one of them counts as reversed.)
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
     /// back on the other.
     Crease(f64),
-    /// The polygon and another one, of this number, go through one another there.
+    /// The polygon intersects another one, with this number, there.
     Crossing(usize),
 }
 
@@ -299,20 +300,20 @@ pub enum EdgeKind {
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, within that polygon, of the corner where the edge begins; `None` of a crossing, and of a
+    /// The number, within that polygon, of the corner where the edge begins; `None` for a crossing, and for a
     /// silhouette inside a polygon that is not planar.
     pub edge: Option<u32>,
-    /// What the line is.
+    /// The kind of the line.
     pub kind: EdgeKind,
-    /// Where the run begins and ends in the picture, in pixels: in the direction
-    /// in which the polygon runs along the edge; a crossing has either.
+    /// Where the run begins and ends in the picture, in pixels: in the direction in which the polygon runs
+    /// along the edge. A crossing has either direction.
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a visible
-    /// run: polygons that it is seen through do not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
+    /// visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 
-/// Runs and gaps shorter than this, in pixels, are what rounding has left.
+/// Runs and gaps shorter than this, in pixels, are caused by rounding.
 pub(super) const SHORTEST: f64 = 1e-6;

@@ -1,8 +1,8 @@
-//! Orders of polygons in which each comes before those that show above it, except for a few.
+//! Orders of polygons in which each comes before the polygons that are visible above it, with few exceptions.
 //!
 //! An opaque polygon that is drawn whole has to come before each opaque one that is visible where it would be
 //! painted too; a piece of a translucent one, before or after each that is visible there, by their depths.
-//! What is hidden by a third needs no order.
+//! Where a third polygon hides both, no order is needed.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -17,25 +17,26 @@ use crate::progress::Watch;
 pub(super) struct Ordered {
     /// All nodes; for each pair, `below` comes first unless it is clipped and `above` is opaque.
     pub(super) order: Vec<u32>,
-    /// Nodes of which only what shows is drawn: they need not come before any opaque one.
+    /// Nodes of which only the visible part is drawn: they need not come before any opaque node.
     pub(super) is_clipped: Vec<bool>,
 }
 
-/// Of a large component, one in so many nodes is clipped at once. Larger: components are searched
-/// again and again; smaller: more is clipped (and given back one by one).
+/// Of a large component, one in this many nodes is clipped at once. Too small: more nodes are clipped, and
+/// restored one by one. Too large: components are searched many times.
 const CLIPPED_AT_ONCE: usize = 64;
 
-/// At least this many pairs are examined in each component to give nodes back, or this many times all of its pairs. Too
-/// small: more is clipped; too large: the time of components of many thousand nodes.
+/// At least this many pairs are examined in each component to give nodes back, or this many times all of its
+/// pairs. Too small: more nodes stay clipped. Too large: components of many thousand nodes take long.
 const EXAMINED: usize = 1 << 22;
 const EXAMINED_PER_PAIR: usize = 32;
 
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
 /// nodes alone.
 ///
-/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides. Then those are given
-/// back that close no cycle, as far as searches for cycles come in a time proportional to that of the pairs. (To
-/// clip as few as possible is hard: R. M. Karp, "Reducibility among combinatorial problems", 1972.)
+/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides. Then those are
+/// given back that close no cycle, as far as searches for cycles come in a time proportional to that of the
+/// pairs. (To clip as few as possible is hard: R. M. Karp, "Reducibility among combinatorial problems",
+/// 1972.)
 pub(super) fn order(
     nodes: usize,
     pairs: &[Pair],
@@ -89,16 +90,18 @@ impl Ranks {
     }
 }
 
-/// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the pairs that are wanted.
+/// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the pairs that are
+/// wanted.
 ///
-/// If `below` has to be drawn before `above`, one of its pieces is behind a visible piece of `above`. Then all of its
-/// pieces are (`is_before`), or the places of the two interleave (`is_around`). Pairs of the first kind need not be
-/// found. A chain of nodes, one for each place in the tree's order at which a polygon ends, implies all of them, and
-/// more, as most of those polygons do not overlap. The chain alone has no cycle, because the place of the last piece
-/// increases along it. Pairs of the second kind are found. One of their polygons is in several pieces.
+/// If `below` has to be drawn before `above`, one of its pieces is behind a visible piece of `above`. Then
+/// all of its pieces are (`is_before`), or the places of the two interleave (`is_around`). Pairs of the first
+/// kind need not be found. A chain of nodes, one for each place in the tree's order at which a polygon ends,
+/// implies all of them, and more, as most of those polygons do not overlap. The chain alone has no cycle,
+/// because the place of the last piece increases along it. Pairs of the second kind are found. One of their
+/// polygons is in several pieces.
 ///
-/// An order of the strongly connected components of both kinds together keeps all pairs between components. Within a
-/// component, the chain may demand more than the picture needs. There all pairs are found instead.
+/// An order of the strongly connected components of both kinds together keeps all pairs between components.
+/// Within a component, the chain may demand more than the picture needs. There all pairs are found instead.
 pub(super) fn order_by_rank(
     ranks: &[Ranks],
     mut pairs: impl FnMut(Wanted<'_>) -> Result<Vec<Pair>, Error>,
@@ -195,9 +198,7 @@ impl Graph<'_> {
                     }
                 }
                 nodes.retain(|&node| !self.is_last(node));
-                let mut left = self.components(&nodes)?;
-                open.reserve(left.len());
-                open.append(&mut left);
+                open.append(&mut self.components(&nodes)?);
             }
             self.give_back(&nodes, clipped)?;
         }
@@ -292,8 +293,6 @@ impl Graph<'_> {
             waits[pair.above as usize] += u32::from(self.holds(pair));
         }
         let mut ready: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
-        // Each node is in it once at most.
-        ready.reserve(nodes);
         let first = (0..nodes as u32).filter(|&node| waits[node as usize] == 0);
         ready.extend(first.map(|node| Reverse((rank[node as usize], node))));
         let mut order = Vec::with_capacity(nodes);
@@ -336,7 +335,7 @@ struct Graph<'p> {
 /// What a search for components knows of each node.
 #[derive(Default)]
 struct Search {
-    /// When it was met: its number among those that were.
+    /// The number of nodes that were met before it.
     number: Vec<u32>,
     /// The least number that it leads to.
     least: Vec<u32>,
@@ -396,7 +395,7 @@ impl Graph<'_> {
         self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
 
-    /// Whether the order has to keep a pair: what is drawn of a clipped node lies under no opaque one.
+    /// Whether the order has to keep a pair: the visible part of a clipped node lies under no opaque node.
     fn holds(&self, Pair { below, above }: Pair) -> bool {
         !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
@@ -521,7 +520,7 @@ pub(super) struct Groups {
     leader: Vec<u32>,
     /// The place of each group in the order.
     place: Vec<u32>,
-    /// What has to come after each group, and before it: nodes of other groups, some more than once.
+    /// The nodes of other groups that have to come after each group, and before it; some are repeated.
     after: Vec<Vec<u32>>,
     before: Vec<Vec<u32>>,
     /// In which search each group was met last.
@@ -529,9 +528,8 @@ pub(super) struct Groups {
     search: u64,
 }
 
-/// Searches of joins end after so many groups, and what they asked for is not joined. Larger: up to a sixth
-/// fewer pieces in heaps of crossing polygons, and many times the time there; other scenes do not
-/// notice.
+/// Searches for joins end after this many groups, without a join. Too small: more pieces. Too large: many
+/// times the time in heaps of crossing polygons, for up to a sixth fewer pieces; other scenes do not change.
 const BUDGET: usize = 300;
 
 #[derive(Clone, Copy)]
@@ -585,9 +583,9 @@ impl Groups {
         Ok(())
     }
 
-    /// Adds a pair of nodes, unless `above` has to come before `below`. Whether it was added. The search has no
-    /// limit: in a grid of 900 crossing triangles, that of joins would refuse a third of 39 000 pairs, nearly all
-    /// of them in vain, and all searches take less than a sixtieth of the drawing's time.
+    /// Adds a pair of nodes, unless `above` has to come before `below`. Whether it was added. The search has
+    /// no limit: in a grid of 900 crossing triangles, the limit of joins would refuse a third of 39 000
+    /// pairs, nearly all of them without need. All searches take less than a sixtieth of the drawing's time.
     pub(super) fn add(&mut self, pair: Pair, watch: &Watch<'_>) -> Result<bool, Error> {
         watch.work(VISITED)?;
         let [below, above] = [self.group(pair.below), self.group(pair.above)];
@@ -602,8 +600,9 @@ impl Groups {
         Ok(true)
     }
 
-    /// Moves groups so that `b`, until now after `a`, is next before it, and all pairs are kept. Whether it did:
-    /// not if these ask for `a` before `b`, or may, as far as a search can tell that ends after so many groups.
+    /// Moves `b`, which comes after `a`, to the place directly before `a`, with all pairs kept; returns
+    /// whether it did. It does not if pairs require `a` before `b`, or if a search of `most` groups cannot
+    /// exclude that.
     fn bring_together(
         &mut self,
         a: u32,
@@ -613,8 +612,8 @@ impl Groups {
     ) -> Result<bool, Error> {
         let Some(after) = self.reach([a, b], Way::After, most, watch)? else { return Ok(false) };
         let Some(before) = self.reach([b, a], Way::Before, most, watch)? else { return Ok(false) };
-        // What has to come before keeps its order in the first of their places, then the two groups, then what
-        // has to come after.
+        // The first places go to the groups that have to come before, in their order. Then come the two
+        // groups, then the groups that have to come after.
         let groups = [&before[..], &[b, a], &after[..]].concat();
         let mut places: Vec<u32> = groups.iter().map(|&group| self.place[group as usize]).collect();
         places.sort_unstable();
@@ -624,8 +623,8 @@ impl Groups {
         Ok(true)
     }
 
-    /// The groups between two that are reached from the first, in their order; `None` if the second is
-    /// one of them, or there are more than so many.
+    /// The groups between two that are reached from the first, in their order; `None` if the second is one of
+    /// them, or if there are more than `most`.
     fn reach(
         &mut self,
         [from, to]: [u32; 2],
@@ -699,8 +698,9 @@ mod order_tests {
 
     use super::*;
 
-    /// Between two calls of the callback few pairs are looked at, and before the first and after the last one, though
-    /// all pairs begin at one node. What is behind each pair is asked of a function that counts.
+    /// Between two calls of the callback few pairs are looked at, and before the first and after the last
+    /// one, though all pairs begin at one node. The function `is_opaque`, called for each pair, counts its
+    /// calls.
     #[test]
     fn between_two_calls_few_pairs_are_looked_at() {
         let nodes = 1 << 19;

@@ -96,9 +96,9 @@ impl<'t> LineTable<'t> {
         Ok(half)
     }
 
-    /// The half of a line that has no key yet. What makes one line of the picture, as edges of walls side by side, cuts
-    /// along them, and borders of tiles, has one half: else sides of cells would not be known to lie on one line, and it
-    /// would be found out again and again that they meet everywhere.
+    /// The half of a line that has no key yet. What makes one line of the picture, as edges of walls side by
+    /// side, cuts along them, and borders of tiles, has one half: else sides of cells would not be known to
+    /// lie on one line, and it would be found out again and again that they meet everywhere.
     fn half_of_line(
         &mut self,
         key: Key,
@@ -284,8 +284,8 @@ impl<'t> LineTable<'t> {
         self.cuts.contains_key(&half.positive())
     }
 
-    /// Whether the cut of a face by another's plane, the lower number first, is known to have been made along a half's
-    /// line.
+    /// Whether the cut of a face by another's plane, the lower number first, is known to have been made along
+    /// a half's line.
     pub(super) fn is_cut_of(&self, half: HalfPlane, [one, other]: [u32; 2]) -> bool {
         let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
@@ -356,8 +356,8 @@ impl LineTable<'_> {
     }
 }
 
-/// What made a line. Equal keys are equal lines, up to their direction; those of other keys may be, too,
-/// but for edges: edges on one line have its first key.
+/// The origin of a line. Equal keys are equal lines, up to their direction. Lines of different keys may be
+/// equal too, except those of edges: all edges on one line have its first key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
@@ -478,19 +478,19 @@ pub(super) struct Foot {
     cosine: f64,
 }
 
-/// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture that
-/// shows a scene from very far, all are in one place.
+/// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture
+/// that shows a scene from very far, all are in one place.
 #[derive(Debug, Default)]
 struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
 
 type Place = [i64; 3];
 
-/// Places are so large, in pixels and of the cosine. Too small: feet of one line are in several; too large: more
-/// lines are compared in integers.
+/// The size of a place, in pixels and of the cosine. Too small: feet of one line are in several places. Too
+/// large: more lines are compared in integers.
 const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-/// Feet are looked for in neighbouring places if they are nearer to these than this share of a step. (Values of lines
-/// that the picture shows are off by less than 2⁻³¹ pixels, feet by less than four times as much: 2⁻⁹ of a
-/// step.)
+/// Feet are looked for in neighbouring places if they are nearer to these than this share of a step. (Values
+/// of lines that the picture shows are off by less than 2⁻³¹ pixels, feet by less than four times as much:
+/// 2⁻⁹ of a step.)
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Foot {
@@ -545,10 +545,7 @@ impl LineIndex {
 
     /// Adds a line that was sought without success.
     pub(super) fn add(&mut self, foot: &Foot, at: usize, line: u32) {
-        self.0.reserve(1);
-        let lines = self.0.entry(foot.place()).or_default();
-        lines.reserve(1);
-        lines.insert(at, line);
+        self.0.entry(foot.place()).or_default().insert(at, line);
     }
 }
 
@@ -562,8 +559,8 @@ pub(super) const STEP_BITS: u32 = 24;
 
 /// A line, and which of its sides is meant.
 ///
-/// The last bit is set for the side on which the line is negative. Above it is the number of the line;
-/// or, with the first bit set, what a border of a tile is: so these need no list.
+/// The last bit is set for the side on which the line is negative. Above it is the number of the line; or,
+/// with the first bit set, the axis and place of a tile's border, so that borders need no list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct HalfPlane(u64);
 
@@ -577,7 +574,7 @@ impl HalfPlane {
         Self((line as u64) << 1)
     }
 
-    /// The points whose coordinate (axis 0, 1 for x, y) is at least so many [`STEPS`] of a pixel.
+    /// The points whose coordinate (axis 0, 1 for x, y) is at least `steps` [`STEPS`] of a pixel.
     pub(super) const fn beyond(axis: usize, steps: i64) -> Self {
         Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
     }
@@ -776,8 +773,9 @@ pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
     (term(0) + term(1) + term(2)).sign()
 }
 
-/// An order of lines: those that are one, in whatever direction, are equal. Lines are compared by the first of their
-/// coefficients in an order, slopes first, that is not 0, and then by the ratios of the others to it.
+/// An order of lines: those that are one, in whatever direction, are equal. Lines are compared by the first
+/// of their coefficients in an order, slopes first, that is not 0, and then by the ratios of the others to
+/// it.
 pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
     let order = [1, 2, 0];
     let [first, second] = [a, b].map(|line| order.iter().position(|&i| line[i].sign().is_ne()));

@@ -1,8 +1,8 @@
 //! The visibility map: what is visible in a picture, found tile by tile.
 //!
-//! A tile has a list of the pieces that may show in it, front to back. The list ends with the first piece that
-//! covers the tile. Where it is short, the tile is a leaf, and what is visible of each piece is
-//! subtracted from what is left open; otherwise the tile is halved.
+//! A tile has a list of the pieces that may show in it, front to back. The list ends with the first piece
+//! that covers the tile. Where it is short, the tile is a leaf, and the visible part of each piece is
+//! subtracted from the uncovered part; otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -13,8 +13,7 @@ use super::cell::Cell;
 use super::primitives::Primitives;
 use super::quadtree::{Candidates, Leaf, SHORT, TINY, TileList, Visible, found_in};
 use crate::error::{Error, Kind};
-use crate::progress::Progress;
-use crate::progress::{Watch, one_at_a_time};
+use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::raster::Rays;
 use crate::tree::BspTree;
 use crate::view::Camera;
@@ -22,34 +21,35 @@ use crate::view::Camera;
 /// The visible parts of polygons in one view: convex cells side by side, each a part of one polygon.
 /// [`BspTree::visibility`] makes it.
 ///
-/// It is exact, without a tolerance of its own. Lines of the picture are planes through the eye in integers, and a
-/// corner is where two of them meet, never a rounded point. A polygon is in the map if and only if some of it is
-/// visible, however small. Where two polygons of one plane overlap, the map has the one that the tree's order
-/// paints last.
+/// It is exact, without a tolerance of its own. Lines of the picture are planes through the eye in integers,
+/// and a corner is where two of them meet, never a rounded point. A polygon is in the map if and only if some
+/// of it is visible, however small. Where two polygons of one plane overlap, the map has the one that the
+/// tree's order paints last.
 ///
-/// The edges of a polygon go through its corners as given if none was moved by more than 2⁻³² of the extent, which is
-/// more than the rounding of `f64`. So nothing is visible between neighbours that share an edge. The planes onto
-/// which corners were moved decide which polygon is in front. Edges go through the corners as moved where these
-/// were moved further, where the given ones are not convex in the picture, or where there are more than eight.
+/// The edges of a polygon go through its corners as given if none was moved by more than 2⁻³² of the extent,
+/// which is more than the rounding of `f64`. So there is no crack between neighbours that share an edge. The
+/// planes onto which corners were moved decide which polygon is in front. Edges go through the corners as
+/// moved where these were moved further, where the given ones are not convex in the picture, or where there
+/// are more than eight.
 ///
-/// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of
-/// the edges of hidden polygons in the frustum. With feature `parallel`, tiles of the picture are shared out to all threads; the map is the same, bit
-/// for bit.
+/// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of the edges of hidden
+/// polygons in the frustum. With feature `parallel`, tiles of the picture are shared out to all threads; the
+/// map is the same, bit for bit.
 ///
-/// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
-/// right, y down. The centre of the first pixel is at (½, ½).
+/// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to
+/// the right, y down. The centre of the first pixel is at (½, ½).
 ///
 /// # Progress
 ///
 /// A map keeps [the callback](ViewOptions::progress) that it is made with: each later operation that can fail
-/// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the number
-/// of its parts; it does not change during the operation. `done` begins with 0, never decreases, and is `total` in
-/// the last call, when the result is ready. Parts do not take equally long. The callback is called about once a
-/// millisecond, by any thread, one call at a time; only sorting a long list and passing over it take longer (a tenth
-/// of a second for a million items). If it returns `Break`, the operation ends with an error whose
-/// [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation starts from the beginning. If
-/// several threads use one map at once, the callback is called for each of them in turn, and the last call of an
-/// operation may be missing.
+/// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the
+/// number of its parts; it does not change during the operation. `done` begins with 0, never decreases, and
+/// is `total` in the last call, when the result is ready. Parts do not take equally long. The callback is
+/// called about once a millisecond, by any thread, one call at a time; only sorting a long list and passing
+/// over it take longer (a tenth of a second for a million items). If it returns `Break`, the operation ends
+/// with an error whose [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation
+/// starts from the beginning. If several threads use one map at once, the callback is called for each of them
+/// in turn, and the last call of an operation may be missing.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -71,17 +71,17 @@ pub struct VisibilityMap<'t> {
 #[derive(Clone, Default)]
 #[non_exhaustive]
 pub struct ViewOptions<'a> {
-    /// Whether polygons that are seen from behind are left out: those whose corners run clockwise in the picture.
+    /// Whether polygons that are seen from behind are left out: their corners run clockwise in the picture.
     /// Default: `false`.
     pub front_faces_only: bool,
-    /// The opacity of each polygon, from 0 to 1, by its number in the input. Polygons with less than 1 hide nothing,
-    /// and those with 0 are left out. Default: an empty list, all are opaque.
+    /// The opacity of each polygon, from 0 to 1, by its number in the input. Polygons with less than 1 hide
+    /// nothing, and those with 0 are left out. Default: an empty list, all are opaque.
     pub opacities: Vec<f64>,
-    /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square pixels is
-    /// less. Default: 0, all are drawn; so they are with NaN.
+    /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square
+    /// pixels is less. Default: 0, all are drawn; so they are with NaN.
     pub least_area: f64,
-    /// A callback that is told how far the work is, and can cancel it: [Progress](VisibilityMap#progress). Default:
-    /// `None`.
+    /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
+    /// Default: `None`.
     pub progress: Option<&'a (dyn Fn(Progress) -> ControlFlow<()> + Sync)>,
 }
 
@@ -126,7 +126,7 @@ impl fmt::Debug for ViewOptions<'_> {
     }
 }
 
-/// What happens to hidden parts of edges, crossings and lines.
+/// How hidden parts of edges, crossings and lines are returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Hidden {
     /// They are left out.
@@ -136,15 +136,15 @@ pub enum Hidden {
     Keep,
     /// As `Keep`, cut where the number of polygons in front changes: a run's `layers`.
     ///
-    /// All polygons count that show a side to the camera, once each, be they hidden themselves, but not the faces
-    /// that have the edge (of a polygon that is not planar, another face may lie in front). The number is 1 at
-    /// least, as where the edge of a shelf lies on the wall that hides the shelf. Time and memory go with the number
-    /// of polygons in front of hidden parts. (A. Appel, "The notion of quantitative invisibility and the machine
-    /// rendering of solids", 1967.)
+    /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
+    /// have the edge do not count, but another face of a polygon that is not planar may lie in front. The
+    /// number is at least 1, for instance where the edge of a shelf lies on the wall that hides the shelf.
+    /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
+    /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
 }
 
-/// A polygon of which some is visible.
+/// A polygon with a visible part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VisiblePolygon {
@@ -164,17 +164,18 @@ pub struct MapCell<'m> {
 }
 
 impl BspTree {
-    /// Computes what of the tree's polygons is visible to a camera.
+    /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where nothing opaque is before
-    /// it, so that cells of translucent polygons lie over those of others. The number of cells, and the time, grow
-    /// with the number of translucent polygons that lie over one another.
+    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where no opaque
+    /// polygon is in front of it, so cells of translucent polygons overlap the cells of other polygons. The
+    /// number of cells, and the time, grow with the number of translucent polygons that lie over one another.
     ///
     /// # Errors
     ///
-    /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is that of
-    /// one cell of a partition; if there is not one opacity for each polygon, or one is not a number from 0 to 1 (of
-    /// which [`Error::polygon`] tells the first); if there is not enough memory, or if it was cancelled.
+    /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is
+    /// that of one cell of a partition; if there is not one opacity for each polygon; if an opacity is not a
+    /// number from 0 to 1, where [`Error::polygon`] is the first such polygon; if there is not enough memory,
+    /// or if it was cancelled.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -217,8 +218,8 @@ impl VisibilityMap<'_> {
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] leaves none of them out. Each call
-    /// computes the list again, in O(c log c) for c cells.
+    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] leaves none of them out.
+    /// Each call computes the list again, in O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
         for cell in self.cells() {
@@ -233,7 +234,7 @@ impl VisibilityMap<'_> {
         found.into_values().map(|(shown, _)| shown)
     }
 
-    /// The polygons, by their numbers and sorted, that drawings leave out as too little of them is visible.
+    /// The sorted numbers of the polygons that drawings leave out because their visible area is too small.
     pub(super) fn left_out(&self) -> Vec<usize> {
         if self.least_area.is_nan() || self.least_area <= 0.0 {
             return vec![];
@@ -300,21 +301,20 @@ pub(super) fn visible<'p>(
     Ok(parts.into_iter().flatten().collect())
 }
 
-/// Each phase of an operation has so many parts.
+/// The number of parts of each phase of an operation.
 const PARTS: usize = 64;
-/// Loops look for cancellation each time they have worked as long as a build takes to examine so many pieces: a
-/// tenth of a millisecond.
+/// Loops poll for cancellation after this much work, in pieces that a build examines: a tenth of a
+/// millisecond. Too small: polling takes time. Too large: cancelling takes longer.
 const STRETCH: usize = 1 << 12;
-/// To sort a list takes, for each of its items, as long as a build takes to examine so many pieces.
+/// The cost of sorting one item of a list, in pieces that a build examines.
 const SORTED: usize = 6;
-/// How many items are sorted between two polls for cancellation. Too small: time to merge. Too large: a cancel is
-/// late.
+/// How many items are sorted between two polls for cancellation. Too small: merging takes time. Too large:
+/// cancelling takes longer.
 const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
-/// Tells a callback how far operations are, each from its beginning to its end, and lets it cancel them; or
-/// tells nobody.
+/// Reports the progress of operations to a callback, if there is one, and lets it cancel them.
 #[derive(Default)]
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 
@@ -323,7 +323,7 @@ impl<'c> Reporter<'c> {
         Self(progress.map(|progress| Box::new(one_at_a_time(progress)) as Box<Report<'c>>))
     }
 
-    /// Does an operation of so many phases. Only its end is the end of the last part.
+    /// Runs an operation of `phases` phases. The last part is reported only when the operation ends.
     pub(super) fn watch<T>(
         &self,
         phases: usize,
@@ -354,8 +354,8 @@ pub(super) fn finish_item(watch: &Watch<'_>, i: usize, n: usize) {
     }
 }
 
-/// Wraps an iterator so that the loop polls for cancellation. `pieces` is the cost of one item, in pieces that a build
-/// examines.
+/// Wraps an iterator so that the loop polls for cancellation. `pieces` is the cost of one item, in pieces
+/// that a build examines.
 pub(super) fn each<T>(
     watch: &Watch<'_>,
     pieces: usize,
@@ -408,7 +408,7 @@ pub(super) fn sort_by<T>(
     Ok(())
 }
 
-/// Sorts a list and keeps one of those that are equal.
+/// Sorts a list and removes duplicates.
 pub(super) fn sort_unique<T: Ord>(list: &mut Vec<T>, watch: &Watch<'_>) -> Result<(), Error> {
     sort_by(list, watch, T::cmp)?;
     watch.work(list.len())?;

@@ -1,8 +1,8 @@
 //! One view as a vector picture.
 //!
 //! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts.
-//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: where each polygon is visible,
-//! exactly. From the map come
+//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: where each polygon is
+//! visible, exactly. From the map come
 //!
 //! | call | result |
 //! |---|---|
@@ -13,7 +13,8 @@
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
-//! A [`VectorPicture`] takes any of these with its own colours and lines, and writes SVG or, with the feature `pdf`, PDF.
+//! A [`VectorPicture`] takes any of these with its own colours and lines, and writes SVG or, with the feature
+//! `pdf`, PDF.
 //!
 //! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
 //! map.

@@ -6,7 +6,7 @@ use super::edges::SHORTEST;
 use super::graph::Pair;
 use super::lines::LineTable;
 use super::map::{Hidden, VisibilityMap, each, sort_by};
-use super::pairs::{Found, add};
+use super::pairs::Found;
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Candidates, VISITED};
 use super::segments::{
@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 of a visible
-    /// run: polygons that it is seen through do not count.
+    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
+    /// visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 
@@ -62,17 +62,18 @@ impl LineRun {
 }
 
 impl VisibilityMap<'_> {
-    /// The lines of an overlay of the same tree, as far as they are in the picture, in runs that are visible
-    /// or, unless they are [skipped](Hidden::Skip), hidden: in input order, and along each segment from its beginning to its end.
+    /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
+    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs come in input
+    /// order, and along each segment from its beginning to its end.
     ///
-    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, be it
-    /// with its edge or a corner alone. A segment that is no further from a polygon's plane than the
-    /// tolerance lies on it, and is not hidden by it; one that is further from it on one side only is treated as
+    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, even
+    /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on it, and the
+    /// polygon does not hide it. A segment that is further from the plane on one side only is treated as
     /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of pairs that
-    /// have points in common.
+    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of
+    /// pairs that have points in common.
     ///
     /// # Errors
     ///
@@ -117,9 +118,9 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The points of an overlay of the same tree that are in the picture, in input order.
+    /// Returns the points of an overlay of the same tree that are in the picture, in input order.
     ///
-    /// A point is hidden as a point of a line is: see [`lines`](Self::lines).
+    /// The rules of [`lines`](Self::lines) decide whether a point is hidden.
     ///
     /// # Errors
     ///
@@ -198,8 +199,8 @@ impl Between {
         Ok(Self { segments, projected, markers, passes })
     }
 
-    /// What comes where in an order of so many parts, by the place of each item in it; and pairs of items that
-    /// the order would have to keep for a line or point between them.
+    /// Places lines and points in an order of `count` parts; `places` has the place of each item. Also
+    /// returns the pairs of items that the order would have to keep to have a place for each line and point.
     pub(super) fn placed(
         &self,
         places: &[u32],
@@ -221,11 +222,12 @@ impl Between {
         for (number, marker) in (0..).zip(&self.markers) {
             let (own, others) = rest.split_at(rest.partition_point(|pass| pass.point == number));
             rest = others;
+            watch.work(own.len() * VISITED)?;
             let mut passed = Passed::new();
             for pass in own {
                 passed.insert((pass.is_behind, places[pass.piece as usize], pass.piece), 1);
             }
-            add_missed(&passed, &mut missed);
+            add_missed(&passed, &mut missed, watch)?;
             let below = Room::between(&passed, count).most;
             placed.push((below, Overlaid::Marker(*marker)));
         }
@@ -236,10 +238,10 @@ impl Between {
 /// An item that is passed: whether it is in front, its place in the order, and its number.
 type Key = (bool, u32, u32);
 
-/// What is passed somewhere, and how often.
+/// The items that are passed at a point, and how often.
 type Passed = BTreeMap<Key, i32>;
 
-/// Where in an order something may come: after so many parts.
+/// The places that an order allows: after at least `least` and at most `most` parts.
 #[derive(Clone, Copy, Debug)]
 struct Room {
     least: u32,
@@ -252,45 +254,45 @@ impl Room {
         Self { least: 0, most: count }
     }
 
-    /// After what is passed before it, and before what is in front. Where that is nowhere, only the first.
+    /// After the items behind, and before the items in front. If no place satisfies both, the first wins.
     fn between(passed: &Passed, count: u32) -> Self {
         let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
         Self { least, most: first.map_or(count, |first| first.1).max(least) }
     }
 
-    /// What is in both.
+    /// The intersection.
     fn common(self, other: Self) -> Option<Self> {
         let (least, most) = (self.least.max(other.least), self.most.min(other.most));
         (least <= most).then_some(Self { least, most })
     }
 }
 
-/// What comes last of what is passed before it, and first of what is in front.
+/// The last item of those behind, and the first of those in front.
 fn outermost(passed: &Passed) -> [Option<Key>; 2] {
     let before = passed.range(..(true, 0, 0)).next_back();
     let in_front = passed.range((true, 0, 0)..).next();
     [before, in_front].map(|end| end.map(|(key, _)| *key))
 }
 
-/// Adds pairs that leave no place: of what is last of all that has to come before, and all that has to come after
-/// and does not; and of what is first of all that has to come after, and all that has to come before and does
-/// not.
-fn add_missed(passed: &Passed, missed: &mut Found) {
-    let [Some(below), Some(above)] = outermost(passed) else { return };
+/// If no place is left, adds the pairs that are in the wrong order. These are the last item behind with each
+/// item in front that precedes it, and the first item in front with each item behind that follows it.
+fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
+    let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
     if above.1 >= below.1 {
-        return;
+        return Ok(());
     }
-    for early in passed.range((true, 0, 0)..(true, below.1, 0)) {
-        add(missed, Pair { below: below.2, above: early.0.2 });
+    for early in each(watch, VISITED, passed.range((true, 0, 0)..(true, below.1, 0))) {
+        missed.insert(Pair { below: below.2, above: early?.0.2 });
     }
-    for late in passed.range((false, above.1 + 1, 0)..(true, 0, 0)) {
-        add(missed, Pair { below: late.0.2, above: above.2 });
+    for late in each(watch, VISITED, passed.range((false, above.1 + 1, 0)..(true, 0, 0))) {
+        missed.insert(Pair { below: late?.0.2, above: above.2 });
     }
+    Ok(())
 }
 
-/// A segment in as few runs as can be, each with how many parts of the drawing come before it, by what it
-/// passes. Adds pairs that leave no place between them.
+/// Divides a segment into as few runs as possible, each with the number of parts of the drawing that come
+/// before it, according to the items that it passes. Adds pairs that leave no place between them.
 fn in_order(
     ends: [f64; 2],
     passes: &[Pass],
@@ -315,7 +317,7 @@ fn in_order(
     for numbered in each(watch, 2 * VISITED, stops.chain([ends[1]]).enumerate()) {
         let (i, to) = numbered?;
         if to - done >= SHORTEST {
-            add_missed(&passed, missed);
+            add_missed(&passed, missed, watch)?;
             let next = Room::between(&passed, count);
             if let Some(common) = room.common(next) {
                 room = common;
@@ -333,7 +335,7 @@ fn in_order(
             }
         }
     }
-    // The last place: what lies beside then covers least of a wide stroke.
+    // The last possible place: neighbours then cover least of a wide stroke.
     parts.push((room.most, [start, ends[1]]));
     Ok(parts)
 }

@@ -20,12 +20,6 @@ use crate::progress::Watch;
 /// Pairs that were found so far, each once.
 pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
 
-/// Adds a pair.
-pub(super) fn add(found: &mut Found, pair: Pair) {
-    found.reserve(1);
-    found.insert(pair);
-}
-
 /// All pairs of several sets, sorted, each once.
 pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs: Vec<Pair> = parts.into_iter().flatten().collect();
@@ -139,15 +133,15 @@ impl LeafLists<'_, '_> {
                 }
                 watch.work(CUT)?;
                 if cell.meets(&primitives.lines, opaque.halves_of(face), watch)? {
-                    add(found, pair);
+                    found.insert(pair);
                 }
             }
         }
         Ok(())
     }
 
-    /// Adds the pairs of what is visible with translucent items. What is visible of two of these needs one
-    /// pair, that of the one behind.
+    /// Adds the pairs of a visible cell with translucent items. Two translucent items need one pair, which
+    /// the cell of the rear one adds.
     fn add_blended(
         &self,
         primitives: &Primitives<'_>,
@@ -172,7 +166,7 @@ impl LeafLists<'_, '_> {
                 continue;
             }
             if cell.meets(&primitives.lines, self.translucent.halves_of(candidate), watch)? {
-                add(found, pair);
+                found.insert(pair);
             }
         }
         Ok(())
@@ -203,12 +197,13 @@ pub(super) fn around(leaves: &[Leaf]) -> Rect {
     })
 }
 
-/// Tiles are not halved where at most so many items lie between two that cover them. Larger: more
-/// pairs are compared; smaller: more tiles.
+/// Tiles are not halved where at most this many items lie between two that cover the tile. Too small: more
+/// tiles. Too large: more pairs are compared.
 const FEW: usize = 8;
 
-/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where
-/// an item covers a part of the picture, pairs with it stand for those of what is behind and in front of it.
+/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where an
+/// item covers a part of the picture, pairs with it replace the pairs of items behind it with items in front
+/// of it.
 pub(super) fn overlaps<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
@@ -234,7 +229,9 @@ fn add_overlaps(
     found: &mut Found,
     watch: &Watch<'_>,
 ) -> Result<(), Error> {
-    let mut add = |below: u32, above: u32| add(found, Pair { below, above });
+    let mut add = |below: u32, above: u32| {
+        found.insert(Pair { below, above });
+    };
     // The last item that covers the part, and those behind it so far.
     let mut cover: Option<u32> = None;
     let mut behind: Vec<&Visible> = Vec::new();

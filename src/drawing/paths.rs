@@ -44,7 +44,7 @@ pub(super) struct Record {
     pub(super) outlines: Range<u32>,
 }
 
-/// What is filled for a polygon.
+/// The filled area of a polygon.
 #[derive(Clone, Copy, Debug)]
 pub struct Path<'d> {
     drawing: &'d Drawing,
@@ -107,7 +107,7 @@ impl Drawing {
         self.size
     }
 
-    /// What is filled, in the order to paint it.
+    /// The paths, in painting order.
     pub fn paths(&self) -> impl DoubleEndedIterator<Item = Path<'_>> + ExactSizeIterator + Clone {
         self.paths.iter().map(|record| Path { drawing: self, record })
     }
@@ -119,29 +119,29 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Whether the path is only a part of its polygon: the visible part of one in a cycle with others, or one of several
-    /// parts of a translucent one.
+    /// Whether the path is only a part of its polygon: the visible part of one in a cycle with others, or one
+    /// of several parts of a translucent one.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
 
     /// The outlines of the part in the picture; fill them together by the nonzero rule. There is at least one.
     ///
-    /// Each is a list of at least three corners in pixels: x to the right, y down, and the corner of the first
-    /// pixel at (0, 0). Outer outlines run clockwise, and holes counter-clockwise. The outlines of a folded polygon
-    /// overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of needles may
-    /// coincide.
+    /// Each is a list of at least three corners in pixels: x to the right, y down, and the corner of the
+    /// first pixel at (0, 0). Outer outlines run clockwise, and holes counter-clockwise. The outlines of a
+    /// folded polygon overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of
+    /// needles may coincide.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
         let corners = &self.drawing.corners;
         self.ranges().map(move |range| &corners[range])
     }
 
-    /// For each of the [`outlines`](Self::outlines), the edges of the polygon along which its sides run: a list as long as
-    /// that of corners, in which a number belongs to the side that begins at the corner.
+    /// For each of the [`outlines`](Self::outlines), the edges of the polygon along which its sides run: a
+    /// list as long as that of corners, in which a number belongs to the side that begins at the corner.
     ///
-    /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the border of the
-    /// picture, along other polygons, and along edges that triangulation made. Where a side runs along several edges of
-    /// one line, it has the number of the one at its middle.
+    /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the
+    /// border of the picture, along other polygons, and along edges that triangulation made. Where a side
+    /// runs along several edges of one line, it has the number of the one at its middle.
     pub fn edges(&self) -> impl Iterator<Item = &'d [Option<u32>]> + Clone + use<'d> {
         let edges = &self.drawing.edges;
         self.ranges().map(move |range| &edges[range])
@@ -158,8 +158,8 @@ impl<'d> Path<'d> {
     }
 }
 
-/// A side is part of an edge if its middle is at most this far beyond the edge's ends, in pixels. Too small: roundings
-/// take edges away. Too large: sides along collinear edges of other polygons are taken for edges.
+/// A side is part of an edge if its middle is at most this far beyond the edge's ends, in pixels. Too small:
+/// edges are lost to rounding. Too large: sides along collinear edges of other polygons are taken for edges.
 const BEYOND: f64 = 1e-3;
 
 /// The edges of a polygon's faces, by the lines that they are on.
@@ -282,7 +282,6 @@ impl Area {
     }
 
     pub(super) fn push(&mut self, part: &[Side]) -> Result<(), Error> {
-        self.sides.reserve(part.len());
         self.sides.extend_from_slice(part);
         self.ends.push(place(self.sides.len())?);
         Ok(())
@@ -293,8 +292,9 @@ impl Area {
         &self.sides[start as usize..self.ends[i] as usize]
     }
 
-    /// The closed outlines of all parts, by their sides, each with the area on its left. Sides that two neighbouring parts share in
-    /// opposite directions cancel. Where parts overlap, outlines wind around both.
+    /// The closed outlines of all parts, by their sides, each with the area on its left. Sides that two
+    /// neighbouring parts share in opposite directions cancel. Where parts overlap, outlines wind around
+    /// both.
     pub(super) fn outlines(
         &self,
         lines: &LineTable<'_>,
@@ -335,7 +335,8 @@ impl Area {
                 let from_here =
                     std::iter::successors(some(begin[point as usize]), |&i| some(others[i]));
                 let left = from_here.filter(|&i| !is_used[i]);
-                // Of several the one that turns furthest to the left, so that outlines that touch in a point stay apart.
+                // Of several the one that turns furthest to the left, so that outlines that touch in a point
+                // stay apart.
                 let turn = |i: usize| sides.turn(piece.half, pieces[i].half);
                 next = left.max_by(|&a, &b| turn(a).total_cmp(&turn(b)));
                 debug_assert!(next.is_some(), "an outline is open");
@@ -365,7 +366,7 @@ impl<'a> Sides<'a> {
         Ok(Self { lines, sides: &area.sides, before, after })
     }
 
-    /// The sides without what two of them have in common, in opposite directions.
+    /// The sides, without the common parts of two that run in opposite directions.
     fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
         let mut by_line: Vec<u32> = (0..self.sides.len() as u32).collect();
@@ -381,7 +382,6 @@ impl<'a> Sides<'a> {
             let line = half(group[0]).positive();
             let rounded = self.lines.rounded(line);
             ends.clear();
-            ends.reserve(2 * group.len());
             ends.extend(group.iter().flat_map(|&side| self.ends(side, &rounded)));
             sort_by(&mut ends, watch, |a, b| self.compare(&rounded, a, b))?;
             self.add_pieces(line, &ends, points, &mut pieces);
@@ -404,8 +404,8 @@ impl<'a> Sides<'a> {
 
     /// In which order two ends of sides lie on their line, in the direction of its positive half: exact.
     fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
-        // A corner is off by its radius at most, which changes its place by so much, and the place is rounded three
-        // times.
+        // A corner is off by its radius at most, which changes its place by so much, and the place is rounded
+        // three times.
         let size: f64 = self.lines.reach.iter().sum();
         let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
         if (a.place - b.place).abs() > off {
@@ -417,8 +417,8 @@ impl<'a> Sides<'a> {
         if b.is_ahead { side } else { side.reverse() }
     }
 
-    /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the ends of
-    /// these sides in order along the line; ends in one place become one point.
+    /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the
+    /// ends of these sides in order along the line; ends in one place become one point.
     fn add_pieces(
         &self,
         line: HalfPlane,
@@ -440,7 +440,6 @@ impl<'a> Sides<'a> {
             let is_back = count < 0;
             let [start, end] = if is_back { [point, from] } else { [from, point] };
             let piece = Piece { half: line.flipped(is_back), from: start, to: end };
-            pieces.reserve(count.unsigned_abs() as usize);
             pieces.extend((0..count.abs()).map(|_| piece));
             (count, from) = (after, point);
         }
@@ -456,20 +455,20 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// So many paths are made by one thread.
+/// The number of paths in one job of a thread.
 const SHARE: usize = 256;
 
 impl VisibilityMap<'_> {
-    /// The view as filled outlines, one for each visible opaque polygon.
+    /// Returns the view as filled outlines, one path for each visible opaque polygon.
     ///
     /// Polygons are drawn whole, each before those that are visible above it. Polygons in cycles, none in most
     /// scenes, are clipped: only their visible parts are drawn. Polygons whose visible area is less than
     /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons come after the polygons behind them. Translucent polygons in cycles are in several paths, as in
-    /// [`Drawing::translucent`]; each visible point of one is in one path. Time and memory are proportional to the
-    /// square of the number of translucent polygons that lie over one another; where all are translucent,
-    /// `Drawing::translucent` takes less.
+    /// Translucent polygons come after the polygons behind them. A translucent polygon in a cycle has several
+    /// paths, as in [`Drawing::translucent`]; each of its visible points is in one path. Time and memory are
+    /// quadratic in the number of translucent polygons that overlap one another. If all polygons are
+    /// translucent, `Drawing::translucent` takes less.
     ///
     /// # Errors
     ///
@@ -527,12 +526,12 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// The polygons that show.
+/// The visible polygons.
 struct Nodes {
     polygons: Vec<usize>,
-    /// The place of each face's polygon in the list; `u32::MAX` for those that do not show.
+    /// The place of each face's polygon in the list; `u32::MAX` for polygons that are not visible.
     places: Vec<u32>,
-    /// The faces of each polygon that the camera sees, whether they show or not.
+    /// The faces of each polygon that the camera sees, visible or hidden.
     faces: Vec<Vec<u32>>,
     ranks: Vec<Ranks>,
 }
@@ -589,7 +588,7 @@ impl Nodes {
     }
 }
 
-/// What is painted next.
+/// The next thing to paint.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum DisplayItem<'d> {
@@ -602,8 +601,8 @@ pub enum DisplayItem<'d> {
 }
 
 impl Drawing {
-    /// All that is painted, in order: [`paths`](Self::paths), with the lines and points between them that
-    /// the drawing was made with.
+    /// Returns the [`paths`](Self::paths) in painting order, with the overlay's lines and points between
+    /// them.
     pub fn display_list(&self) -> impl Iterator<Item = DisplayItem<'_>> + Clone {
         let mut overlaid = self.overlaid.iter().peekable();
         let mut paths = self.paths();

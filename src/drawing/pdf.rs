@@ -23,9 +23,9 @@ impl VectorPicture {
     /// assert!(picture.to_pdf().starts_with(b"%PDF"));
     /// ```
     ///
-    /// Viewers may refuse pages with a side of more than 14 400 points (ISO 32000-1, annex C). Labels are in Helvetica,
-    /// which every viewer has: see [`add_label`](Self::add_label). Without a background, the page is the colour of the
-    /// paper.
+    /// Viewers may refuse pages with a side of more than 14 400 points (ISO 32000-1, annex C). Labels are in
+    /// Helvetica, which every viewer has: see [`add_label`](Self::add_label). Without a background, the page
+    /// is the colour of the paper.
     pub fn to_pdf(&self) -> Vec<u8> {
         let [catalog, pages, page, content, font] = [1, 2, 3, 4, 5].map(Ref::new);
         let [width, height] = self.size.map(|side| side as f32);
@@ -256,8 +256,8 @@ fn add_circle(content: &mut Content, at: [i64; 2], radius: f32) {
     content.close_path();
 }
 
-/// A text in WinAnsiEncoding, which is Windows-1252. Minus signs become dashes, which are as wide; other characters that
-/// it lacks become question marks.
+/// A text in WinAnsiEncoding, which is Windows-1252. Minus signs become dashes, which are as wide; other
+/// characters that it lacks become question marks.
 fn win_ansi(text: &str) -> Vec<u8> {
     // From 0x80 on. Where there is no character, there is a space.
     const SPECIAL: &str = "€ ‚ƒ„…†‡ˆ‰Š‹Œ Ž  ‘’“”•–—˜™š›œ žŸ";

@@ -2,11 +2,12 @@
 
 use crate::Error;
 
-/// Ends are rounded to a grid of this step, in pixels, and are common if they fall on one place. Smaller:
-/// corners that two projections rounded apart tear lines; larger: lines of a very fine mesh lose their shape.
+/// Ends are rounded to a grid with this step, in pixels; equal grid points are one corner. Too small: corners
+/// that two projections rounded differently interrupt lines. Too large: lines of a very fine mesh lose their
+/// shape.
 const GRID: f64 = 1.0 / 1024.0;
-/// Of how many segments at a corner the straightest is taken. Larger: time at corners of many; smaller:
-/// lines turn where they could go on.
+/// At a corner, at most this many segments are compared to find the straightest continuation. Too small:
+/// lines turn where they could go straight on. Too large: corners of many segments take time.
 const CHOICES: usize = 8;
 
 /// A line through points, which a pen draws without being lifted.
@@ -36,10 +37,10 @@ impl AsRef<[[f64; 2]]> for Polyline {
     }
 }
 
-/// Joins segments that have ends in common to as few lines as there can be, and puts these in an order,
-/// each from that of its ends, in which a pen travels little between them.
+/// Joins segments that share ends into as few polylines as possible, and sorts and directs them to shorten
+/// pen travel.
 ///
-/// It is for [runs of edges](super::EdgeRun), those that are drawn alike:
+/// Use it for [runs of edges](super::EdgeRun) of the same style:
 ///
 /// ```
 /// use binspace::drawing::{Hidden, VisibilityMap, polylines};
@@ -53,11 +54,11 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// # }
 /// ```
 ///
-/// Each segment is drawn once. Where an odd number of them meet, a line ends, and nowhere else: these are
-/// Euler's trails, found by Hierholzer's algorithm (1873). Where a line can go on in several ways, it
-/// takes the straightest of a few. Ends are common if they are the same when rounded
-/// to a thousandth of a pixel; so two that are nearer than that may be kept apart.
-/// Segments with an infinite or NaN coordinate are left out.
+/// Each segment is drawn once. Open lines end only where an odd number of segments meet: they are Eulerian
+/// trails, found by Hierholzer's algorithm (1873). Where a line can continue in several ways, it takes the
+/// straightest of a few. Two ends are shared if they are equal when rounded to a thousandth of a pixel, so
+/// two ends that are closer than that may stay separate. Segments with an infinite or NaN coordinate are left
+/// out.
 ///
 /// The next line is always the one with an end nearest to the pen, which begins at (0, 0). O(n log n) for
 /// n segments, unless ends are spread very unevenly.
@@ -100,7 +101,7 @@ struct Net {
     /// Up to where the ends at a corner are used, and which segments are.
     done: Vec<u32>,
     is_used: Vec<bool>,
-    /// To each corner where an odd number of ends meet another such, to be reached without drawing.
+    /// For each corner where an odd number of ends meet, another such corner, to be reached without drawing.
     jumps: Vec<Option<u32>>,
 }
 
@@ -127,17 +128,14 @@ impl Net {
             let corner = self.begins.len() as u32 - 1;
             self.segments[end as usize / 2].corners[end as usize % 2] = corner;
         }
-        self.done.reserve(self.begins.len());
         self.done.extend_from_slice(&self.begins);
         self.begins.push(self.ends.len() as u32);
-        self.is_used.reserve(self.segments.len());
         self.is_used.resize(self.segments.len(), false);
         self.pair_odd_corners();
     }
 
     fn pair_odd_corners(&mut self) {
         let corners = self.done.len();
-        self.jumps.reserve(corners);
         self.jumps.resize(corners, None);
         let mut open = None;
         for corner in 0..corners {

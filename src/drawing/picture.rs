@@ -12,12 +12,12 @@ use super::paths::{Drawing, Path};
 const MOST_STEPS: f64 = 1e9;
 /// Shapes and lengths reach no further than this, in pixels: in steps, they are whole numbers of 64 bits.
 const FURTHEST: f64 = 1e6;
-/// Shorter lengths, in pixels, are nothing. Too small: they are written as 0, which makes no dashes; too large: lines that
-/// are visible in an enlarged picture are left out.
+/// Shorter lengths, in pixels, count as 0. Too small: they are written as 0, which makes no dashes. Too
+/// large: lines that are visible in an enlarged picture are left out.
 const SHORTEST: f64 = 1e-4;
-/// If the longer side of a picture is at least this, units are fiftieths of a pixel: corners are off by a hundredth,
-/// which is not visible, even if the picture is enlarged a few times. For each tenth of this side, units are a tenth as
-/// large.
+/// If the longer side of a picture is at least this, units are fiftieths of a pixel: corners are off by a
+/// hundredth, which is not visible, even if the picture is enlarged a few times. For each tenth of this side,
+/// units are a tenth as large.
 const LARGE: u32 = 480;
 const UNITS: u32 = 50;
 
@@ -44,11 +44,11 @@ const UNITS: u32 = 50;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Positions and lengths are in pixels, as those of [`Camera::project`](crate::view::Camera::project). They are rounded
-/// to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a coordinate that is NaN,
-/// infinite, or further away than a million pixels is left out. A length that is NaN or less than 10⁻⁴ pixels is 0; shapes and
-/// strokes of this size are left out. Opacities are clamped to 0 to 1, and NaN is 0. So files are well-formed whatever
-/// the numbers are.
+/// Positions and lengths are in pixels, as those of [`Camera::project`](crate::view::Camera::project). They
+/// are rounded to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a
+/// coordinate that is NaN, infinite, or further away than a million pixels is left out. A length that is NaN
+/// or less than 10⁻⁴ pixels is 0; shapes and strokes of this size are left out. Opacities are clamped to 0 to
+/// 1, and NaN is 0. So files are well-formed whatever the numbers are.
 #[derive(Clone, Debug)]
 pub struct VectorPicture {
     pub(super) size: [u32; 2],
@@ -86,8 +86,8 @@ pub struct Stroke {
     pub colour: [u8; 3],
     /// From 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid; so it is if
-    /// one of the lengths is 0.
+    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid; so
+    /// it is if one of the lengths is 0.
     pub dashes: Option<[f64; 2]>,
     /// Whether ends are half discs beyond the line's end. Default: `true`; dashes are flat.
     pub round_ends: bool,
@@ -246,9 +246,10 @@ impl VectorPicture {
     /// Adds the paths of a drawing, with closed seams: [batched](Drawing::batched) by paint, and
     /// [trapped](Drawing::trapped). `paint` is called once for each polygon that has a path, with its number.
     ///
-    /// A stroke follows the polygon's own [edges](Path::edges). It is painted right after its path, so later paths cover
-    /// it. Drawings with strokes are not batched. The lines and points of an overlay are not added: go through
-    /// [`Drawing::display_list`] for these. To draw edges over all paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
+    /// A stroke follows the polygon's own [edges](Path::edges). It is painted right after its path, so later
+    /// paths cover it. Drawings with strokes are not batched. The lines and points of an overlay are not
+    /// added: go through [`Drawing::display_list`] for these. To draw edges over all paths, add polylines of
+    /// [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
         drawing: &Drawing,
@@ -324,12 +325,13 @@ impl VectorPicture {
         }
     }
 
-    /// Adds one line of text. Its middle is at the point: that of its width, and half the height of a capital letter above
-    /// its baseline. `size` is the height of the font.
+    /// Adds one line of text. Its middle is at the point: that of its width, and half the height of a capital
+    /// letter above its baseline. `size` is the height of the font.
     ///
-    /// The paint's stroke is below the letters: half of its width is visible around them, which keeps them legible on
-    /// anything. The font is Helvetica or, in SVG, what the viewer has in its place. A PDF has the characters of
-    /// Windows-1252; others are `?` there, except that minus signs are dashes. A text is one line, whatever it holds.
+    /// The paint's stroke is below the letters: half of its width is visible around them, which keeps them
+    /// legible on anything. The font is Helvetica or, in SVG, what the viewer has in its place. A PDF has the
+    /// characters of Windows-1252; others are `?` there, except that minus signs are dashes. A text is one
+    /// line, whatever it holds.
     pub fn add_label(&mut self, at: [f64; 2], text: &str, size: f64, paint: impl Into<Paint>) {
         let (size, [x, y]) = (length(size), at);
         if is_near(&at) && size > 0.0 && !text.is_empty() {
@@ -340,11 +342,12 @@ impl VectorPicture {
         }
     }
 
-    /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG: `class`, `id`, and names that begin with `data-`.
+    /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG: `class`, `id`, and
+    /// names that begin with `data-`.
     ///
-    /// The attributes of a group of one shape are those of the shape. Values may be any text. Other names than these,
-    /// names with characters other than small letters, digits and hyphens, and names that are given again are left out.
-    /// A PDF has no groups.
+    /// The attributes of a group of one shape are those of the shape. Values may be any text. Other names
+    /// than these, names with characters other than small letters, digits and hyphens, and names that are
+    /// given again are left out. A PDF has no groups.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;
@@ -368,11 +371,12 @@ impl VectorPicture {
         self.group_with(written, add)
     }
 
-    /// Groups areas side by side that are added by `add`. In an SVG they have no seams between them, translucent or not.
+    /// Groups areas side by side that are added by `add`. In an SVG they have no seams between them,
+    /// translucent or not.
     ///
-    /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the picture below. It is
-    /// for [regions](super::VisibilityMap::regions), each with its blended colour. Browsers support it; viewers that do
-    /// not, and a PDF, paint the areas one after another.
+    /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the
+    /// picture below. It is for [regions](super::VisibilityMap::regions), each with its blended colour.
+    /// Browsers support it; viewers that do not, and a PDF, paint the areas one after another.
     pub fn added_up<R>(&mut self, add: impl FnOnce(&mut Self) -> R) -> R {
         self.adds_up = true;
         self.group_with(" class=\"binspace-sum\" style=\"isolation:isolate\"".to_owned(), add)
@@ -443,8 +447,8 @@ pub(super) struct Line {
 }
 
 impl Steps {
-    /// Rounds outlines of an area, given in pixels, to whole units, or more finely where nothing would be left of the
-    /// area.
+    /// Rounds outlines of an area, given in pixels, to whole units, or more finely where nothing would be
+    /// left of the area.
     pub(super) fn filled(outlines: &[&[[f64; 2]]], units: u32) -> Self {
         let mut steps = f64::from(units);
         for decimals in 0.. {
@@ -487,7 +491,7 @@ fn closed(mut corners: Vec<[i64; 2]>) -> Line {
     Line { corners, is_closed: true }
 }
 
-/// Corners in steps from the corner of the picture, without those that fall on the one before.
+/// Corners in steps from the corner of the picture, without repetitions.
 fn rounded(points: &[[f64; 2]], scale: f64) -> Vec<[i64; 2]> {
     let mut rounded: Vec<[i64; 2]> = points.iter().map(|&point| in_steps(point, scale)).collect();
     rounded.dedup();

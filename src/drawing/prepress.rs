@@ -1,5 +1,5 @@
-//! What makes a drawing fit for printers and viewers: paths of one look follow one another, and trapping closes the
-//! seams between neighbours.
+//! Prepares a drawing for printers and viewers: paths of one style follow one another, and trapping closes
+//! the seams between neighbours.
 
 use std::collections::{BTreeMap, BinaryHeap};
 
@@ -7,27 +7,27 @@ use super::paths::{Drawing, Path};
 
 type Point = [f64; 2];
 
-/// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: corners that were
-/// rounded apart keep neighbours in order; too large: overlaps of this width may show.
+/// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: corners that
+/// were rounded differently keep neighbours in order. Too large: overlaps of this width may be visible.
 const THIN: f64 = 1e-3;
-/// Outlines with more corners than this are taken for the boxes around them. Too large: time; too small: fewer paths
-/// move.
+/// Outlines with more corners than this are taken for the boxes around them. Too small: fewer paths move. Too
+/// large: more time.
 const MOST_COMPARED_CORNERS: usize = 64;
-/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too large: time and
-/// memory where many large polygons lie over one another; too small: longer files.
+/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too small:
+/// longer files. Too large: time and memory where many large polygons overlap.
 const MOST_PAIRS: usize = 400;
 
 impl Drawing {
     /// Moves paths with equal keys next to one another where that does not change the picture.
     ///
     /// Paths that overlap keep their order; so does everything before and after a line or a point of an
-    /// [overlay](Self::display_list). `key` is called with numbers of polygons: files are shorter if paths of one
-    /// colour share it, and a plotter changes its pen less often.
+    /// [overlay](Self::display_list). `key` is called with numbers of polygons: files are shorter if paths of
+    /// one colour share it, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself.
     ///
-    /// A greedy topological order: of the paths below which nothing is left, it takes those with the key of the path
-    /// before, or else with the most frequent key. O(n log n) for n paths, plus the number of overlaps. If there are
-    /// too many overlaps (400 n pairs of boxes), nothing moves.
+    /// A greedy topological order: of the paths below which nothing is left, it takes those with the key of
+    /// the path before, or else with the most frequent key. O(n log n) for n paths, plus the number of
+    /// overlaps. If there are too many overlaps (400 n pairs of boxes), nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();
@@ -187,45 +187,46 @@ fn separates(sides: &[Point], other: &[Point]) -> bool {
     })
 }
 
-/// How far a path reaches under a neighbour, in pixels. Too small: the background shows where a viewer's pixels
-/// and the edge meet obliquely; too large: the neighbour's ends cut more corners.
+/// How far a path reaches under a neighbour, in pixels. Too small: the background shows where a viewer's
+/// pixels and the edge meet obliquely. Too large: the neighbour's ends cut more corners.
 const WIDTH: f64 = 1.0;
-/// A path reaches under at most this share of the neighbour's height. Too large: it comes out on the other side, where
-/// corners are rounded; too small: the background shows along thin neighbours.
+/// A path reaches under at most this share of the neighbour's height. Too small: the background shows along
+/// thin neighbours. Too large: the path protrudes on the other side where corners are rounded.
 const SHARE: f64 = 0.6;
-/// Sides that are nearer to one another than this, in pixels, are one edge. Too small: rounded corners tear edges
-/// apart; too large: sides that only pass each other are taken for edges.
+/// Sides that are closer to one another than this, in pixels, are one edge. Too small: rounded corners
+/// separate edges. Too large: sides that only pass each other are taken for edges.
 const NEAR: f64 = 0.02;
-/// A triangle replaces a strip if it has at least this share of the strip's area. Too small: the background shows near
-/// the ends of edges; too large: most neighbours get strips, which have one corner more.
+/// A triangle replaces a strip if it has at least this share of the strip's area. Too small: the background
+/// shows near the ends of edges. Too large: most neighbours get strips, which have one corner more.
 const ENOUGH: f64 = 0.85;
-/// Strips with less area than this, in square pixels, are left out. Too large: seams of small polygons show; too
-/// small: drawings of small polygons have many corners for nothing that is seen.
+/// Strips with less area than this, in square pixels, are left out. Too small: drawings of small polygons
+/// have many corners without a visible effect. Too large: seams of small polygons are visible.
 const SMALLEST: f64 = 0.1;
-/// Paths that are not convex and have more corners than this are not reached under. Too large: time that grows with
-/// the cube of it; too small: seams at polygons that are not convex.
+/// Paths that are not convex and have more corners than this are not reached under. Too large: time that
+/// grows with the cube of it; too small: seams at polygons that are not convex.
 const MOST_CORNERS: usize = 24;
-/// The grid of sides has at most this many cells. Too large: memory; too small: more sides in each cell of drawings of
-/// millions.
+/// The grid of sides has at most this many cells. Too large: memory; too small: more sides in each cell of
+/// drawings of millions.
 const MOST_CELLS: usize = 1 << 20;
 
 type Outline = Vec<Point>;
 type Segment = [Point; 2];
 
 impl Drawing {
-    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that next to no background shows
-    /// in the seams.
+    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that next to no
+    /// background shows in the seams.
     ///
-    /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that each cover half of a pixel, a
-    /// quarter of the background shows. Printers close such gaps by *trapping* (ISO 32000-1, 14.11.6): the lower area
-    /// reaches about a pixel under the upper one, which is opaque and painted later, so that the addition is not
-    /// visible. `is_opaque` is called with numbers of polygons. Other polygons keep their outlines, and so do
-    /// edges without an opaque neighbour, edges of polygons that are not convex and have many corners, and edges whose
-    /// extension would have less than a tenth of a square pixel. The list of paths stays the same; only outlines get corners. An extended side is no longer one
-    /// of its polygon's [edges](Path::edges).
+    /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that
+    /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
+    /// (ISO 32000-1, 14.11.6): the lower area reaches about a pixel under the upper one, which is opaque and
+    /// painted later, so that the addition is not visible. `is_opaque` is called with numbers of polygons.
+    /// Other polygons keep their outlines, and so do edges without an opaque neighbour, edges of polygons
+    /// that are not convex and have many corners, and edges whose extension would have less than a tenth of a
+    /// square pixel. The list of paths stays the same; only outlines get corners. An extended side is no
+    /// longer one of its polygon's [edges](Path::edges).
     ///
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself. O(n log n) for n corners,
-    /// unless they are spread very unevenly.
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself. O(n log n) for
+    /// n corners, unless they are spread very unevenly.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
         let mut grid = Grid::new(self.size, self.corners.len());
@@ -372,8 +373,8 @@ impl Grid {
     }
 }
 
-/// Convex parts inside a path that together have all of its sides, each with its own: the path itself if it is convex,
-/// otherwise a triangle on each side.
+/// Convex parts inside a path that together have all of its sides, each with its own: the path itself if it
+/// is convex, otherwise a triangle on each side.
 fn parts_of(path: Path<'_>) -> Vec<(Outline, Vec<Segment>)> {
     let outlines: Vec<&[Point]> = path.outlines().collect();
     if let [only] = outlines[..]
@@ -457,8 +458,8 @@ impl SideFrame {
         [0, 1].map(|axis| self.start[axis] + self.along[axis] * along + self.out[axis] * out)
     }
 
-    /// The range of this side along which a neighbour's side, given in local coordinates, lies: on it, or inwards by
-    /// less than a strip's width. There the neighbour's edge is blended with the paths below both.
+    /// The range of this side along which a neighbour's side, given in local coordinates, lies: on it, or
+    /// inwards by less than a strip's width. There the neighbour's edge is blended with the paths below both.
     fn along(&self, [a, b]: Segment) -> Option<[f64; 2]> {
         let [low, high] = [a[0].min(b[0]).max(0.0), a[0].max(b[0]).min(self.length)];
         if high - low <= NEAR {
@@ -481,8 +482,8 @@ fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
     Some(triangle(&corners, &strip).unwrap_or(strip))
 }
 
-/// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour. It has one
-/// corner less, which makes drawings shorter.
+/// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour. It
+/// has one corner less, which makes drawings shorter.
 fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
     let [low, high] = [*strip.first()?, *strip.last()?];
     let length = high[0] - low[0];

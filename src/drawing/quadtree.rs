@@ -1,10 +1,11 @@
-//! A quadtree of the picture: tiles that are halved until few pieces are in each, on all threads (J. E. Warnock, "A
-//! hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in place of pixels).
+//! A quadtree of the picture: tiles that are halved until few pieces are in each, on all threads (J. E.
+//! Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in
+//! place of pixels).
 //!
-//! Halving a tile does not separate triangles around one vertex, or strips side by side, but one of their edges leaves
-//! about half of them on either side. Tiles where long lists remain are divided along edges of their pieces: a binary
-//! space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible surface generation by a priori
-//! tree structures", 1980).
+//! Halving a tile does not separate triangles around one vertex, or strips side by side, but one of their
+//! edges leaves about half of them on either side. Tiles where long lists remain are divided along edges of
+//! their pieces: a binary space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible
+//! surface generation by a priori tree structures", 1980).
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -35,8 +36,9 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles of this size, in steps, are not halved where long lists are divided afterwards: 2⁻⁴ of a pixel. Too small:
-/// tiles around a vertex of many faces are halved again and again; too large: many small pieces are in one tile.
+/// Tiles of this size, in steps, are not halved where long lists are divided afterwards: 2⁻⁴ of a pixel. Too
+/// small: tiles around a vertex of many faces are halved many times. Too large: many small pieces are in one
+/// tile.
 pub(super) const TINY: i64 = 1 << 20;
 /// Nor are others of this size: 2⁻¹⁸ of a pixel.
 pub(super) const TINIEST: i64 = 1 << 6;
@@ -49,15 +51,15 @@ pub(super) const TINIEST: i64 = 1 << 6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth(f64);
 
-/// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a cone, or
-/// along a line, as the columns of a terrain do that is seen along its rows: halving would go on and on around it.
-/// Too small: long lists remain; too large: many parts with the same pieces.
+/// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a
+/// cone, or along a line, as the columns of a terrain do that is seen along its rows: halving would go on and
+/// on around it. Too small: long lists remain. Too large: many parts with the same pieces.
 const MOST: f64 = 4.0;
 
 impl Growth {
     pub(super) const NONE: Self = Self(1.0);
 
-    /// That of parts with so many pieces of a part that had `all`.
+    /// The growth of parts with these numbers of pieces, of a part that had `all`.
     pub(super) fn after(self, all: usize, parts: [usize; 2]) -> Self {
         let growth = (parts[0] + parts[1]) as f64 / all.max(1) as f64;
         Self((self.0 * growth).max(1.0))
@@ -74,8 +76,9 @@ impl Tile {
         Self { low: [0; 2], high: size.map(|side| STEPS as i64 * i64::from(side)) }
     }
 
-    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. What a camera looks
-    /// at is often right in the middle of the picture, and what lies on a border by chance is told by integers.
+    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. The target
+    /// of a camera is often exactly in the middle of the picture, and points that lie on a border by chance
+    /// are compared in integers.
     pub(super) fn halves(&self) -> [Self; 2] {
         let size = [0, 1].map(|axis: usize| self.high[axis] - self.low[axis]);
         let axis = usize::from(size[1] > size[0]);
@@ -94,7 +97,7 @@ impl Tile {
         }
     }
 
-    /// Whether it is at most so many steps wide and high.
+    /// Whether it is at most `size` steps wide and high.
     pub(super) fn is_within(&self, size: i64) -> bool {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= size)
     }
@@ -128,20 +131,21 @@ impl LineTable<'_> {
     }
 }
 
-/// So often both halves of a part are offered to all threads; deeper, one goes on alone.
+/// The number of levels on which both halves of a part are offered to all threads; deeper, one thread
+/// continues alone.
 const SHARED: usize = 6;
-/// To compare an item with a tile takes as long as a build takes to examine so many pieces.
+/// The cost of comparing an item with a tile, in pieces that a build examines.
 pub(super) const NARROWED: usize = 8;
-/// So does cutting a cell with an item.
+/// The cost of cutting a cell with an item.
 pub(super) const CUT: usize = 64;
-/// And making the lines of a piece.
+/// The cost of making the lines of a piece.
 pub(super) const LINES: usize = 64;
-/// And visiting a node of a graph.
+/// The cost of visiting a node of a graph.
 pub(super) const VISITED: usize = 4;
 
-/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one thing for
-/// each of the parts that are shared out to threads. What is found, and in which order, does not depend on how many
-/// threads there are. It is one phase of the operation that is watched.
+/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
+/// thing for each of the parts that are shared out to threads. The result and its order do not depend on the
+/// number of threads. It is one phase of the operation that is watched.
 pub(super) fn found_in<P: Send, F: Send + Default>(
     all: P,
     halves: impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync,
@@ -151,8 +155,8 @@ pub(super) fn found_in<P: Send, F: Send + Default>(
     shared(all, 0..1 << SHARED, &halves, &leaf, watch)
 }
 
-/// What is found in a part that stands for these of the shares. Both halves of it are for whichever threads are
-/// free: none waits until all parts of a size are halved.
+/// Searches a part that has these shares. Both halves of it are for whichever threads are free: none waits
+/// until all parts of a size are halved.
 fn shared<P: Send, F: Send + Default>(
     part: P,
     shares: Range<usize>,
@@ -179,7 +183,8 @@ fn shared<P: Send, F: Send + Default>(
     Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
 }
 
-/// So many faces at most, the front ones, are compared with a tile that all their items together may cover.
+/// At most this many opaque faces, the front ones, are tested for whether all their items together cover a
+/// tile. Too small: more hidden items stay in the lists. Too large: more tests without success.
 const FACES: usize = 8;
 
 /// What the candidates of a list are: numbers of items, front to back, or of whole faces.
@@ -247,7 +252,7 @@ impl<'p> Candidates<'p> {
         Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
     }
 
-    /// The same items, without what is hidden behind one that is opaque and covers a part of the picture.
+    /// The same items, without those hidden behind an opaque item that covers a part of the picture.
     pub(super) fn ending_at_covers(self) -> Self {
         Self { ends_at_cover: true, ..self }
     }
@@ -272,7 +277,7 @@ impl<'p> Candidates<'p> {
         }
     }
 
-    /// A box around what of a candidate is in the picture.
+    /// The bounding box of a candidate's part in the picture.
     pub(super) fn around(&self, number: u32) -> &Rect {
         match self.of {
             Of::Items => &self.primitives.items[number as usize].around,
@@ -280,12 +285,12 @@ impl<'p> Candidates<'p> {
         }
     }
 
-    /// Whether a candidate hides what is behind it, and the list is without what is hidden.
+    /// Whether a candidate hides items behind it, and the list leaves out hidden items.
     pub(super) fn hides(&self, number: u32) -> bool {
         self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
     }
 
-    /// Those that may reach into a box.
+    /// The candidates that may reach into a box.
     pub(super) fn narrowed(&self, sides: &Rect, watch: &Watch<'_>) -> Result<Self, Error> {
         watch.work(self.list.len() * NARROWED)?;
         let lines = &self.primitives.lines;
@@ -319,13 +324,13 @@ impl<'p> Candidates<'p> {
             part.list.push(Candidate { number, halves: [place(start)?, place(end)?] });
         }
         if self.ends_at_cover {
-            part.end_at_face(sides);
+            part.end_at_face(sides, watch)?;
         }
         Ok(part)
     }
 
     /// Ends a list of items with the last item of a face that covers the box, in however many items.
-    fn end_at_face(&mut self, sides: &Rect) {
+    fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
         let primitives = self.primitives;
         let mut end = self.limit;
         let mut tried: SmallVec<[u32; FACES]> = SmallVec::new();
@@ -337,8 +342,12 @@ impl<'p> Candidates<'p> {
             let View { last, is_opaque, .. } = primitives.views[face as usize];
             // If items of it are missing from the list, the others alone may not cover the box.
             let is_in_list = last <= self.limit;
-            if is_opaque && is_in_list && !tried.contains(&face) && primitives.covers(face, sides) {
-                tried.push(face);
+            if !is_opaque || !is_in_list || tried.contains(&face) {
+                continue;
+            }
+            tried.push(face);
+            watch.work(primitives.edges_work(face))?;
+            if primitives.covers(face, sides) {
                 let mut numbers = self.list.iter().rev().map(|candidate| candidate.number);
                 let last = numbers.find(|&item| primitives.face(item) == face);
                 end = last.map_or(end, |last| end.min(last));
@@ -346,6 +355,7 @@ impl<'p> Candidates<'p> {
         }
         self.limit = end;
         self.list.truncate(self.list.partition_point(|candidate| candidate.number <= end));
+        Ok(())
     }
 }
 
@@ -370,7 +380,7 @@ impl<'p> TileList<'p> {
         self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
     }
 
-    /// Whether halving it is of no use, or it is no larger than so many steps.
+    /// Whether halving it is of no use, or it is no larger than `least` steps.
     pub(super) fn is_small(&self, least: i64) -> bool {
         self.growth.is_too_much() || self.tile.is_within(least)
     }
@@ -389,8 +399,8 @@ impl<'p> TileList<'p> {
     }
 }
 
-/// A visible convex part of an item: inside the picture, and with no opaque item in front of it. If all items are
-/// opaque, these parts do not overlap.
+/// A visible convex part of an item: inside the picture, and with no opaque item in front of it. If all items
+/// are opaque, these parts do not overlap.
 #[derive(Clone, Debug)]
 pub(super) struct Visible {
     pub(super) item: u32,
@@ -404,9 +414,9 @@ pub(super) struct Leaf {
     pub(super) cells: Vec<Visible>,
 }
 
-/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: half as
-/// much again for all of a drawing of a scan); too large: more cells compared with more items, though 128
-/// would win another 2 to 4 %.
+/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: half as much
+/// again for all of a drawing of a scan). Too large: more cells compared with more items, though 128 would
+/// win another 2 to 4 %.
 pub(super) const SHORT: usize = 64;
 
 impl Leaf {
@@ -435,7 +445,7 @@ impl Leaf {
     }
 }
 
-/// A convex part of a tile, with what is in it.
+/// A convex part of a tile, with its contents.
 pub(super) struct SubTile<'l, 'p> {
     pub(super) candidates: &'l Candidates<'p>,
     pub(super) cell: Cell,
@@ -448,7 +458,8 @@ pub(super) struct SubTile<'l, 'p> {
 /// How many edges, each of another piece, are tried to divide a part. Too small: parts are divided unevenly, or
 /// not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
-/// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes long.
+/// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes
+/// long.
 const SAMPLE: usize = 48;
 
 impl<'l, 'p> SubTile<'l, 'p> {
@@ -474,7 +485,7 @@ impl<'l, 'p> SubTile<'l, 'p> {
         Ok(whole)
     }
 
-    /// Adds a piece behind all others, and returns whether it hides what is behind it.
+    /// Adds a piece behind all others, and returns whether it hides pieces behind it.
     fn push(&mut self, piece: Visible) -> bool {
         let is_hiding = self.candidates.hides(piece.item) && self.is_covered_by(&piece);
         self.pieces.push(piece);
@@ -535,8 +546,8 @@ impl<'l, 'p> SubTile<'l, 'p> {
         Ok(parts)
     }
 
-    /// Chooses the edge that divides the pieces best. `None` for short lists, and if no edge leaves clearly fewer
-    /// pieces on both sides.
+    /// Chooses the edge that divides the pieces best. `None` for short lists, and if no edge leaves clearly
+    /// fewer pieces on both sides.
     fn divider(&self, watch: &Watch<'_>) -> Result<Option<HalfPlane>, Error> {
         let lines = &self.candidates.primitives.lines;
         if self.pieces.len() <= SHORT || self.growth.is_too_much() {
@@ -605,7 +616,8 @@ impl OpenArea {
         Self { open: vec![cell], boxes, cells: vec![], outside: vec![], left: vec![] }
     }
 
-    /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open cells.
+    /// Adds the visible parts of an item with this bounding box. An opaque item is subtracted from the open
+    /// cells.
     fn subtract(
         &mut self,
         item: u32,

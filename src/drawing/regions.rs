@@ -11,23 +11,25 @@ use super::quadtree::{CUT, Leaf, VISITED, Visible};
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
-/// A part of the picture in which the same polygons show, one behind the other.
+/// A part of the picture in which the same polygons are visible, one behind the other.
 #[derive(Clone, Debug)]
 pub struct Region {
     polygons: Vec<usize>,
     outlines: Vec<Vec<[f64; 2]>>,
 }
 
-/// So many tiles are divided at once, by all threads. Larger: more memory for their parts; smaller: threads wait
-/// for one another.
+/// The number of tiles that all threads together divide before the results are collected. Too small: threads
+/// wait for one another. Too large: more memory for the parts.
 const TILES_AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
-    /// The parts of the picture that differ in what shows, side by side; what shows nothing is in none.
+    /// Divides the picture into regions, in each of which the same polygons are visible. Parts without a
+    /// visible polygon are in no region.
     ///
-    /// Where all polygons are opaque, there is one for each that shows. Translucent polygons divide what they
-    /// lie over: n of them that overlap have up to O(n²) regions, with up to n polygons each. Filled each with
-    /// one blended colour, and added up instead of painted over one another, regions have no seams.
+    /// Where all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
+    /// polygons behind them: n overlapping ones have up to O(n²) regions, with up to n polygons each. To
+    /// avoid seams, fill each region with one blended colour and add the regions instead of painting them
+    /// over one another.
     ///
     /// # Errors
     ///
@@ -41,7 +43,7 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// What shows of polygons that lie one behind the other: a phase.
+    /// The visible parts of polygons that lie one behind the other: a phase.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
@@ -68,7 +70,7 @@ struct PolygonLayer {
 #[derive(Default)]
 struct Stacks {
     layers: Vec<PolygonLayer>,
-    /// Layers by what is before them and their polygons.
+    /// Layers, by the layer in front of them and their polygons.
     numbers: Table<(u32, usize), u32>,
     /// The parts of regions, and whose they are.
     parts: Area,
@@ -78,7 +80,7 @@ struct Stacks {
 impl Stacks {
     /// Adds the parts of a tile.
     fn add(&mut self, divided: &Divided, polygon: impl Fn(u32) -> usize) -> Result<(), Error> {
-        // The layers of all tiles that those of this one are.
+        // For each layer of this tile, its number among the layers of all tiles.
         let mut own: Vec<u32> = Vec::with_capacity(divided.layers.len());
         own.push(0);
         for layer in &divided.layers[1..] {
@@ -128,7 +130,7 @@ impl Stacks {
     }
 }
 
-/// The polygons of a layer and of those before it, front to back.
+/// The polygons of a layer and of the layers in front of it, front to back.
 fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
     let at = |layer: u32| (layer != 0).then(|| &layers[layer as usize]);
     let all = std::iter::successors(at(last), |layer| at(layer.before));
@@ -138,8 +140,8 @@ fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
 }
 
 impl Region {
-    /// The polygons that show, front to back: translucent ones, and the opaque one behind them if there is
-    /// one. One that is folded over itself is among them more than once.
+    /// The visible polygons, front to back: translucent ones, then the opaque one behind them if there is
+    /// one. A polygon that is folded over itself is listed more than once.
     pub fn polygons(&self) -> &[usize] {
         &self.polygons
     }
@@ -149,14 +151,14 @@ impl Region {
         self.outlines.iter().map(|outline| area(outline)).sum::<f64>().max(0.0)
     }
 
-    /// Its outlines, to be filled together, as those of a [`Path`](super::Path): those of two regions have
+    /// Its outlines, to be filled together, as those of a [`Path`](super::Path): outlines of two regions have
     /// no area in common.
     pub fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + Clone {
         self.outlines.iter().map(Vec::as_slice)
     }
 }
 
-/// The area that an outline goes around clockwise.
+/// The area inside a clockwise outline.
 fn area(outline: &[[f64; 2]]) -> f64 {
     let origin = outline.first().copied().unwrap_or_default();
     let arm = |at: &[f64; 2]| [at[0] - origin[0], at[1] - origin[1]];
@@ -182,17 +184,17 @@ pub(super) struct LayeredCell {
     pub(super) layer: u32,
 }
 
-/// An item that shows, and what is in front of it. Cells have them in common, so that they take no more memory
-/// where many items lie over one another.
+/// A visible item, and the layer in front of it. Cells share layers, so that they take no more memory where
+/// many items lie over one another.
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,
-    /// The newest of those that have this one before them.
+    /// The newest of the layers directly behind this one.
     newest: u32,
 }
 
 impl Divided {
-    /// What is visible in a tile is laid over what was there, front to back.
+    /// Visible cells of a tile are combined with the parts found so far, front to back.
     pub(super) fn new(
         leaf: &Leaf,
         primitives: &Primitives<'_>,
@@ -231,17 +233,14 @@ impl Divided {
                 };
                 watch.work(CUT)?;
                 let LayeredCell { layer, .. } = open.swap_remove(i);
-                left.reserve(outside.len() + 1);
                 left.extend(outside.drain(..).map(|cell| LayeredCell::new(cell, layer)));
                 let behind = LayeredCell::new(common, divided.behind(layer, *item));
                 if primitives.is_opaque(*item) { &mut divided.cells } else { &mut left }
                     .push(behind);
             }
-            open.reserve(left.len());
             open.append(&mut left);
         }
         open.retain(|part| part.layer != 0);
-        divided.cells.reserve(open.len());
         divided.cells.append(&mut open);
         Ok(divided)
     }
@@ -297,7 +296,7 @@ impl LayeredCell {
     }
 }
 
-/// Whether nothing shows through anything in a tile.
+/// Whether nothing in a tile is seen through a translucent item.
 fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
 }

@@ -57,7 +57,7 @@ enum Source {
 /// All places.
 const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Boxes are larger than what they are around by this, in pixels: far more than rounding.
+/// Boxes are enlarged by this, in pixels: far more than rounding.
 pub(super) const MARGIN: f64 = 1e-3;
 
 impl ProjectedSegment {
@@ -282,7 +282,7 @@ impl ProjectedSegment {
             let place = self.course.place(point_of(&mean));
             return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
-        // Behind the eye: what is ahead is all on the side of the end that is.
+        // Behind the eye: the part ahead lies on the side of the end that is ahead.
         let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
         is_behind[ahead].then_some(ALL)
     }
@@ -299,7 +299,7 @@ impl ImageLine {
         x * self.direction[0] + y * self.direction[1]
     }
 
-    /// The same of a point that is on it, but for rounding.
+    /// The place of a point that lies on the segment up to rounding.
     pub(super) fn place_on(&self, point: [f64; 2]) -> f64 {
         self.place(point).clamp(self.places[0], self.places[1])
     }
@@ -392,7 +392,7 @@ pub(super) struct PointPass {
     pub(super) is_behind: bool,
 }
 
-/// Segments and points, and the numbers of those that may be in a part of the picture.
+/// Segments and points, with the numbers of the ones that may be in a part of the picture.
 #[derive(Clone)]
 pub(super) struct Passing<'a> {
     segments: &'a [ProjectedSegment],
@@ -415,12 +415,12 @@ impl<'a> Passing<'a> {
         self.near_segments.is_empty() && self.near_points.is_empty()
     }
 
-    /// What may be in a box.
+    /// The segments and points that may be in a box.
     fn near(&self, sides: &Rect) -> Self {
         self.filtered(|segment| segment.may_meet(sides), |point| !are_apart(sides, &point.around()))
     }
 
-    /// What is in a cell.
+    /// The segments and points in a cell.
     pub(super) fn over(&self, lines: &LineTable<'_>, cell: &Cell) -> Self {
         self.filtered(|segment| segment.meets(lines, cell), |point| point.is_in(lines, cell))
     }
@@ -445,12 +445,13 @@ pub(super) struct Passes {
     pub(super) points: Vec<PointPass>,
 }
 
-/// Tiles are not halved where at most so many pieces reach into them without covering them. Larger: more
-/// segments are compared with more pieces; smaller: more tiles, and more parts of segments (8: twice the
-/// time, of crossing triangles five times; 128: up to a sixth less).
+/// Tiles are not halved where at most this many pieces reach into them without covering them. Too small: more
+/// tiles, and more parts of segments (8: twice the time, for crossing triangles five times). Too large: more
+/// segments are compared with more pieces (128: up to a sixth less time).
 const FEW: usize = 64;
 
-/// All passes of segments and points that candidates are in front of, or of all if the others are wanted too: a phase.
+/// All passes of segments and points that candidates are in front of, or of all if the others are wanted too:
+/// a phase.
 pub(super) fn passes<'p>(
     candidates: Candidates<'p>,
     passing: Passing<'p>,
@@ -548,21 +549,22 @@ impl Passes {
     }
 }
 
-/// From a place of a segment on, so many polygons are in front of it.
+/// The number of polygons in front of a segment from a place on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     from: f64,
     layers: u32,
 }
 
-/// The quantitative invisibility of segments, and where that of each begins: before its first place, nothing is in front.
+/// The quantitative invisibility of segments, and where that of each begins: before its first place, nothing
+/// is in front.
 pub(super) struct Depths {
     depths: Vec<Depth>,
     begins: Vec<usize>,
 }
 
 impl Depths {
-    /// Those of so many segments, by sorted passes. A face that is a segment's own does not count.
+    /// The depths of `count` segments, by sorted passes. A segment's own faces do not count.
     pub(super) fn new(
         count: usize,
         passes: &[Pass],
@@ -609,8 +611,8 @@ pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] 
 }
 
 impl VisibilityMap<'_> {
-    /// Where faces are in front of segments, sorted by segments, polygons and places, and in front of points: a phase.
-    /// Hidden and translucent faces are among them only if all are wanted.
+    /// Where faces are in front of segments, sorted by segments, polygons and places, and in front of points:
+    /// a phase. Hidden and translucent faces are among them only if all are wanted.
     pub(super) fn in_front<'l>(
         &'l self,
         passing: Passing<'l>,
@@ -658,8 +660,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Intervals that are given in the order of their beginnings: those that lie one over another, or end where another
-/// begins but for rounding, as one.
+/// Merges intervals, given in the order of their beginnings, that overlap or meet up to rounding.
 pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
     let mut intervals = intervals.peekable();
     std::iter::from_fn(move || {

@@ -1,7 +1,7 @@
 //! Vector pictures as SVG.
 //!
-//! Coordinates are whole numbers of a small unit, relative to the point before, so that they are short. Shapes of one
-//! look that follow one another share it in a group.
+//! Coordinates are whole numbers of a small unit, relative to the point before, so that they are short.
+//! Shapes of one look that follow one another share it in a group.
 
 use std::borrow::Cow;
 use std::fmt::{self, Write};
@@ -244,8 +244,8 @@ impl Data {
         self.had_point = false;
     }
 
-    /// Adds a number of steps. Its sign separates it from the number before, or its point if that number has one too,
-    /// or else a space.
+    /// Adds a number of steps. Its sign separates it from the number before, or its point if that number has
+    /// one too, or else a space.
     fn number(&mut self, steps: i64) {
         let unit = 10u64.pow(self.decimals);
         let (whole, rest) = (steps.unsigned_abs() / unit, steps.unsigned_abs() % unit);
@@ -273,7 +273,8 @@ fn push(text: &mut String, number: u64) {
     let _ = write!(text, "{number}");
 }
 
-/// A text as the value of an attribute or as the text of an element. Characters that XML cannot hold are replaced.
+/// A text as the value of an attribute or as the text of an element. Characters that XML cannot hold are
+/// replaced.
 pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     let is_plain =
         |c: char| !matches!(c, '<' | '>' | '&' | '"' | '\u{fffe}' | '\u{ffff}') && c >= ' ';
@@ -343,7 +344,7 @@ mod tests {
         assert_eq!(filled(&[&speck], 100), "m300 300 .1 0-.1.03z");
         // Smaller than all steps: a path all the same.
         assert_eq!(filled(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 100), "m300 300z");
-        // Corners that fall together are one, and what is left of a hole is nothing.
+        // Coincident corners are one, and the hole vanishes.
         let square = [[0.0, 0.0], [0.001, 0.0], [4.0, 0.0], [4.0, 4.0], [0.001, 0.001]];
         assert_eq!(filled(&[&square, &speck], 100), "m0 0 400 0 0 400z");
     }

@@ -6,7 +6,7 @@ use super::cell::Cell;
 use super::graph::{Groups, Ordered, Pair, Wanted, contracted, cycles, order};
 use super::map::{Reporter, ViewOptions, checked, drawing_rays, each, finish_item, sort_by};
 use super::overlaid::Between;
-use super::pairs::{Found, add, overlaps, pairs, sorted};
+use super::pairs::{Found, overlaps, pairs, sorted};
 use super::paths::{Area, Drawing, add_piece};
 use super::primitives::Primitives;
 use super::quadtree::{CUT, Leaf, Visible};
@@ -16,22 +16,23 @@ use crate::progress::Watch;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
-/// So often at most an order is sought that has room for an overlay. One is enough for nearly all scenes and
-/// views; heaps of rectangles in a grid, seen along its diagonal with all their edges, need up to five.
+/// The most rounds of the search for an order with a place for each line and point of an overlay. One is
+/// enough for nearly all scenes and views; heaps of rectangles in a grid, seen along its diagonal with all
+/// their edges, need up to five.
 const ROUNDS: usize = 8;
 
 impl Drawing {
-    /// The view of all polygons as filled outlines, nothing hidden: painted one over another, each with
-    /// its polygon's opacity, they are the picture. Each point of each polygon is in one path.
+    /// Returns all polygons as filled outlines, with no hidden parts removed. Paint the paths in order, each
+    /// with its polygon's opacity. Each point of each polygon is in one path.
     ///
-    /// Polygons are whole where an order allows it. Of others, the pieces that the tree cut for all
-    /// viewpoints are joined as far as an order of them is left for this one. A bent polygon that lies
-    /// over itself in the picture has a path for each of its faces at least.
+    /// Polygons are split only where no painting order of whole polygons is found. The tree's pieces of such
+    /// a polygon are then joined as far as the joined parts still have a painting order from this viewpoint.
+    /// A bent polygon that overlaps itself in the picture has at least one path for each of its faces.
     ///
-    /// The options say whether polygons are drawn that are seen from behind. Polygons with opacity 0 are left out;
-    /// other opacities, and the least area, have no effect. Where all polygons are opaque,
-    /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) has fewer paths. Time and memory grow
-    /// with the number of pairs of polygons that lie over one another with none between them.
+    /// The option [`front_faces_only`](ViewOptions::front_faces_only) applies. Polygons with opacity 0 are
+    /// left out; other opacities, and the least area, have no effect. Where all polygons are opaque,
+    /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) has fewer paths. Time and memory grow with
+    /// the number of pairs of polygons that overlap in the picture with none between them.
     ///
     /// # Lines and points
     ///
@@ -39,16 +40,17 @@ impl Drawing {
     /// [`display_list`](Self::display_list). To have them above all, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
-    /// A segment is cut where it goes from one place of the order to another. Each part comes after all that
-    /// lies behind it, or that it lies on, and before all that lies in front of it, as `lines` tells these apart.
-    /// Lines and points in one place of the order come in input order, lines first, and so may those that
-    /// cross in the picture. All of them are marked as visible.
+    /// A segment is cut where its place in the order changes. Each part comes after the polygons behind it
+    /// and the polygons that it lies on, and before the polygons in front of it, by the rules of `lines`.
+    /// Lines and points with one place in the order come in input order, lines first. Two that cross in the
+    /// picture may come in input order too, whichever is nearer. All of them are marked as visible.
     ///
-    /// An overlay does not change the paths, except where a line runs along a border between polygons that only touch
-    /// there, one behind it and the other in front: these are then painted in that order too, and polygons may
-    /// be in more paths for it, or in fewer. Where such pairs close a cycle, or are not all found in a few
-    /// rounds, a part comes after all that lies behind it, but polygons in front may be painted before it. So may
-    /// a bent polygon that lies behind a line with one face and in front with another: it is one path.
+    /// An overlay does not change the paths, except where a line runs along a border between polygons that
+    /// only touch there, one behind it and the other in front: these two are then painted in that order too,
+    /// which may change the number of paths of polygons. If such pairs close a cycle, or are not all found in
+    /// a few rounds, a part comes after all polygons behind it, but polygons in front may be painted before
+    /// it. The same holds for a bent polygon that has one face behind a line and another in front, because it
+    /// is one path.
     ///
     /// # Errors
     ///
@@ -89,7 +91,7 @@ impl Drawing {
                     break (parts, ordered, placed);
                 }
                 for pair in new {
-                    add(&mut known, pair);
+                    known.insert(pair);
                     touching.push(pair);
                 }
             };
@@ -129,15 +131,16 @@ pub(super) fn mixed(
     Ok(drawing)
 }
 
-/// Each piece of a polygon is joined, if it can be, with so many at most that come next in the order.
+/// Each piece of a polygon is joined, if possible, with at most this many of the next pieces in the order.
+/// Too small: more paths. Too large: more time.
 const NEXT: usize = 16;
 
-/// What is painted at once: items of one polygon.
+/// A part that is painted at once: items of one polygon.
 pub(super) struct Parts {
     of_item: Vec<u32>,
     /// The items of each, one face after another.
     items: Vec<Vec<u32>>,
-    /// Pairs of items that touch, which an order of the parts can keep beside those that overlap.
+    /// Pairs of items that touch, which an order of the parts can keep in addition to the pairs that overlap.
     touching: Vec<Pair>,
 }
 
@@ -159,7 +162,7 @@ impl Parts {
         // Units in no cycle are whole. The pieces of the others start by themselves.
         let items = 0..units.len() as u32;
         let mut nodes: Vec<u32> = items.filter(|&item| cycle(item).is_some()).collect();
-        // What is further back has a higher number as an item, and a lower one as a node.
+        // From back to front, numbers of items decrease and numbers of nodes increase.
         let key = |item: u32| (cycle(item), Reverse(item));
         sort_by(&mut nodes, watch, |&a, &b| key(a).cmp(&key(b)))?;
         let mut node_of: Vec<u32> = vec![u32::MAX; units.len()];
@@ -199,8 +202,8 @@ impl Parts {
         Ok(Self { of_item, items, touching: kept })
     }
 
-    /// An order to paint the parts in: it keeps all pairs of items, and else that of the tree. Where something is
-    /// hidden, `leaves` have what shows, and opaque polygons in cycles are clipped.
+    /// A painting order of the parts: it keeps all pairs of items, and otherwise the tree's order. Where
+    /// something is hidden, `leaves` have the visible parts, and opaque polygons in cycles are clipped.
     pub(super) fn order(
         &self,
         primitives: &Primitives<'_>,
@@ -229,8 +232,8 @@ impl Parts {
         self.of_item.iter().map(|&part| places[part as usize]).collect()
     }
 
-    /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each number
-    /// of parts.
+    /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each
+    /// number of parts.
     pub(super) fn drawing(
         &self,
         primitives: &Primitives<'_>,
@@ -279,7 +282,7 @@ impl Parts {
         Ok((drawing, paths))
     }
 
-    /// What shows of each.
+    /// The visible part of each.
     fn cells<'l>(&self, leaves: &'l [Leaf]) -> Vec<Vec<&'l Cell>> {
         let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.items.len()];
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
@@ -305,7 +308,7 @@ impl Counts {
         Self { of_face, of_polygon }
     }
 
-    /// Adds items to an area, those of one face after another.
+    /// Adds items to an area, face by face.
     fn add_pieces(
         &self,
         primitives: &Primitives<'_>,

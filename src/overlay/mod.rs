@@ -1,4 +1,4 @@
-//! Polygons that move, lines and points, beside a tree that stays as it is.
+//! Moving polygons, lines and points beside a tree that does not change.
 
 mod order;
 pub(crate) mod place;
@@ -23,8 +23,8 @@ use crate::tree::parts::{Parts, Record};
 use crate::tree::{BspTree, Fragment, Mesh, Source};
 use crate::viewpoint::Ray;
 
-/// What moves and what has no area, in one exact order with a tree that stays as it is: doors,
-/// characters, a cursor; axes, curves, markers and labels.
+/// Moving polygons, lines and points in one exact order with a tree that does not change: doors, characters,
+/// a cursor; axes, curves, markers and labels.
 ///
 /// # Use
 ///
@@ -55,8 +55,7 @@ use crate::viewpoint::Ray;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// Lines and points come with [`replace_with`](Self::replace_with), and an order tells which
-/// [`Shape`] is next:
+/// [`replace_with`](Self::replace_with) adds lines and points too, and an order iterates over [`Shape`]s:
 ///
 /// ```
 /// use binspace::overlay::{Overlay, Shape, Shapes};
@@ -84,6 +83,12 @@ use crate::viewpoint::Ray;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
+/// # Queries
+///
+/// [`hits`](Self::hits) returns the polygons of the tree and of the overlay along a ray, the nearest first.
+/// [`is_occluded`](Self::is_occluded) returns whether one of them blocks the line of sight between two points.
+/// [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices and triangles for a renderer.
+///
 /// # What it holds
 ///
 /// Each polygon is cut by the planes of the tree on the way to the leaves that it lies in. Pieces
@@ -99,60 +104,62 @@ use crate::viewpoint::Ray;
 ///
 /// # Order
 ///
-/// As exact as the tree's: what the page of [`BspTree`](BspTree#order) says of polygons holds for
-/// those of both. Coplanar polygons come in input order, those of the overlay after those of the
-/// tree. The tree's fragments come in the tree's own order, with pieces between them.
+/// The order is as exact as the tree's: the rules on the page of [`BspTree`](BspTree#order) hold for the
+/// polygons of both. Coplanar polygons come in input order, the overlay's after the tree's. The tree's
+/// fragments come in the tree's own order, with pieces between them.
 ///
-/// Where two of them, or one and a polygon, are at one place of a picture but apart in space, the nearer
-/// comes later. The exception is a plane that divides: if it holds both, but for the tolerance, and goes
-/// through the eye (or along the direction of view), the order is the one below, whichever is nearer. Such
-/// planes are
+/// Where two lines or points, or one of them and a polygon, coincide in the picture but not in space, the
+/// nearer one comes later. There is one exception. If both lie, within the tolerance, in one dividing plane
+/// that is seen edge-on, they come in the order of one plane, which the next paragraphs give, whichever is
+/// nearer. Dividing planes are
 ///
 /// - those of the tree, which are [`BspTree::nodes`], and those of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
 ///   point, and those of segments: through the next corner of the line, or else the one before, that is
 ///   not in a row with the segment; or parallel to the z axis, or for a segment along z to the x axis.
 ///
-/// So of an eye that is in no plane of a polygon, has another x, y and z than each corner and point, and is
-/// in no plane of a segment, nothing is excepted. (Of markers on a grid that is seen exactly along one of its
-/// planes, the nearest may come first: move the eye a little, or give them in another order.)
+/// There is no exception for an eye that lies in no plane of a polygon or segment and shares no x, y or z
+/// coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
+/// nearest may come first. Move the eye a little, or give the markers in another order.)
 ///
-/// What is at one place in *space*, or in one such plane that is seen edge-on, depends on the plane that it
-/// lies in: on one plane first come the polygons, then the lines in input order, then the points. So an axis
-/// drawn on a wall is painted over the wall. A line that goes
-/// through a plane is cut there; a point at that place comes between its two parts. Only where lines and
-/// points meet between polygons, a point at a corner of a line comes after both segments there, if the
-/// line has no point at its next corners either way. That holds where a line is closed, and where corners
-/// are repeated in a row. Of more than two segments that meet at a point, some may come after it.
-/// The tolerance counts as for polygons:
+/// Shapes in one plane come in this order: polygons, then lines in input order, then points. It holds for
+/// shapes that coincide in *space*, and for all shapes in a dividing plane that is seen edge-on. So an axis
+/// drawn on a wall is painted over the wall. A line that goes through a plane is cut there, and a point at
+/// the cut comes between the two parts.
+///
+/// Between polygons, one rule differs: a point at a corner of a line comes after both segments there, if the
+/// line has no point at the corners before and after. Closed lines and repeated corners follow the same rule.
+/// Where more than two segments meet at a point, some may come after it.
+///
+/// The tolerance applies as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on it;
 /// - a segment that reaches further on one side only goes whole to that side.
 ///
-/// Lines that are drawn with a width, and points drawn as marks, have it in the picture only: no order
-/// can know of it. Where the edge of a wide line reaches over a polygon that the line itself only
-/// touches, as at the edge where two walls meet, it may be painted over.
+/// Line widths and marks exist in the picture only, so no order takes them into account. Where the edge of a
+/// wide line reaches over a polygon that the line itself only touches, as at the edge where two walls meet,
+/// it may be painted over.
 ///
 /// | | time |
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
 /// | [`order`](Self::order), written or read | that of the tree, and a copy of its list |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | that of the tree, and of the overlay's boxes that the ray crosses; the first call makes the boxes of both, O(n) for n fragments and pieces |
+/// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
-/// While many faces, as those of a body, lie on one side of a plane by their bounding box, they go
-/// there at once: such a body costs little until it meets the leaf that it is in. Give the faces of a
-/// body in a row. Its own small tree is built anew each time, so one of thousands of faces takes
-/// milliseconds.
+/// If the bounding box of many faces, such as those of a body, lies on one side of a plane, they are moved
+/// there at once. Such a body takes little time until it reaches its leaf. Give the faces of a body in a row.
+/// Its own small tree is built again each time, so a body of thousands of faces takes milliseconds.
 ///
-/// All is rounded to the tree's grid, and has the tree's tolerance. The grid is a cube about the middle
-/// of the tree's bounding box, with sides at least as long as the longest of the box. What reaches
-/// beyond it is an error:
-/// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
+/// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube about
+/// the middle of the tree's bounding box, with sides at least as long as the longest of the box. A shape that
+/// reaches beyond the grid is an error: [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes
+/// the grid of a tree larger.
 ///
-/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon. It is made when
-/// the overlay is first given something, in O(n).
+/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon. The first `replace`
+/// makes it, in O(n).
 pub struct Overlay {
-    /// The faces of the tree, and those of the overlay after them: planes of both have names in one
-    /// space.
+    /// The faces of the tree, then the faces of the overlay: planes of both are numbered together.
     faces: Faces,
     base: Base,
     preparer: Preparer,
@@ -187,8 +194,7 @@ impl Base {
 }
 
 impl Overlay {
-    /// An overlay of nothing for a tree. O(1): the tree's polygons are copied when the overlay is first
-    /// given something.
+    /// Makes an empty overlay for a tree. O(1): the first `replace` copies the tree's polygons.
     pub fn new(tree: &BspTree) -> Self {
         Self {
             faces: tree.faces.without_faces(),
@@ -203,7 +209,7 @@ impl Overlay {
         }
     }
 
-    /// Removes all that the overlay has.
+    /// Removes all polygons, lines and points.
     pub fn clear(&mut self) {
         self.faces.truncate(self.base.faces);
         self.pieces.clear();
@@ -227,14 +233,14 @@ impl Overlay {
         self.pieces.records.get((number as usize).checked_sub(self.base.fragments)?)
     }
 
-    /// What is stored of a piece.
+    /// The stored form of a piece.
     fn stored(&self, number: u32) -> Fragment<'_> {
         let record = number as usize - self.base.fragments;
         Fragment::new(&self.faces, self.pieces.stored(), record, number)
     }
 
-    /// What a ray or a segment hits of the tree's polygons and the overlay's, the nearest first. The
-    /// overlay's polygons are numbered after those of the tree. Lines and points are not hit.
+    /// Returns the polygons of the tree and of the overlay that a ray or a segment hits, the nearest first.
+    /// The overlay's polygons are numbered after those of the tree. Lines and points are not hit.
     ///
     /// ```
     /// use binspace::overlay::Overlay;
@@ -251,10 +257,11 @@ impl Overlay {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// All that [`BspTree::hits`] says of hits holds for those of both: they are exact, and at one point the
-    /// tree's polygons come before the overlay's. The overlay's hits are all found first; that takes time
-    /// proportional to the number of its boxes that the ray crosses. The first call after a
-    /// [`replace`](Self::replace) makes these boxes, in time proportional to the number of pieces.
+    /// The rules of [`BspTree::hits`] hold for both: hits are exact, and at one point the tree's polygons
+    /// come before the overlay's. The overlay's hits are all found first; that takes time proportional to the
+    /// number of its boxes that the ray crosses. The first call after a [`replace`](Self::replace) makes
+    /// these boxes, in time proportional to the number of pieces. The first call for a tree also makes the
+    /// tree's boxes, in O(n), as [`BspTree::bounds`] does.
     ///
     /// # Errors
     ///
@@ -339,7 +346,7 @@ impl Overlay {
         &self.preparation
     }
 
-    /// The faces of the tree, and those of the overlay behind them.
+    /// The faces of the tree, then the faces of the overlay.
     #[doc(hidden)]
     pub fn faces(&self) -> &Faces {
         &self.faces

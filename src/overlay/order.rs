@@ -20,7 +20,7 @@ use crate::tree::parts::{Parts, RawChild};
 use crate::tree::{BspTree, Culling, Order};
 use crate::viewpoint::Viewpoint;
 
-/// The planes of the tree that lead to the overlay's pieces, and those of the small trees in its cells.
+/// The planes of the tree that lead to the overlay's pieces, and the planes of the small trees in its cells.
 /// A branch comes after the one that it is attached to.
 #[derive(Debug)]
 pub(super) struct InsertionTree {
@@ -39,7 +39,7 @@ pub(super) struct Branch {
     pub(super) plane: PlaneId,
     /// How many fragments of the tree lie on the plane.
     pub(super) own: u32,
-    /// The pieces on the plane, which come after those fragments.
+    /// The pieces on the plane, which come after its fragments.
     pub(super) pieces: SlotSide,
     pub(super) front: SlotSide,
     pub(super) back: SlotSide,
@@ -82,7 +82,7 @@ pub(super) enum Place {
 }
 
 impl InsertionTree {
-    /// That of an overlay of nothing on a tree with a number of fragments.
+    /// For an empty overlay of a tree with this number of fragments.
     pub(super) fn new(fragments: usize) -> Self {
         Self { root: SlotSide::empty(fragments), branches: vec![], groups: vec![] }
     }

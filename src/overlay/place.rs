@@ -49,7 +49,7 @@ struct Pending {
     place: Place,
 }
 
-/// What one placing reads and writes.
+/// The data that one placing reads and writes.
 struct Work<'a> {
     tree: &'a BspTree,
     faces: &'a Faces,
@@ -108,7 +108,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Puts a set on the stack of those to be divided, unless nothing is to be put in place there.
+    /// Pushes a set onto the stack of sets to divide, unless it has no pieces to place.
     fn push(&mut self, place: Place, region: Region, pieces: Range<usize>) {
         let Placer { arena, pending, .. } = &mut *self.placer;
         if !pieces.is_empty() || region.has_pieces() {
@@ -282,7 +282,7 @@ impl Work<'_> {
     }
 }
 
-/// Adds a piece to those that are in place.
+/// Adds a piece to the placed pieces.
 fn add(
     pieces: &mut Parts,
     face: u32,
@@ -306,7 +306,7 @@ struct Region {
 /// Whose part a region is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whose {
-    /// The tree's, that stays as it is.
+    /// The tree's, which is not changed.
     Tree,
     /// Of the small tree of the polygons that meet in one of its cells.
     Cell,
@@ -316,7 +316,7 @@ impl Region {
     /// A cell without fragments.
     const EMPTY: Self = Self { of: Whose::Tree, node: None, fragments: 0..0 };
 
-    /// The root of a tree of so many nodes and fragments.
+    /// The root of a tree of `nodes` nodes and `fragments` fragments.
     fn root(of: Whose, nodes: usize, fragments: usize) -> Self {
         Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
     }
@@ -411,7 +411,7 @@ pub(crate) struct GivenSegment {
     pub(crate) ends: [[f64; 3]; 2],
 }
 
-/// What a drawing needs of an overlay: its lines and points, whole.
+/// The whole lines and points of an overlay, for drawings.
 #[cfg(feature = "drawing")]
 impl super::Overlay {
     /// An error if the overlay is not one for the tree, or has polygons.

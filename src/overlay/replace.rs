@@ -1,4 +1,4 @@
-//! What an overlay is given, and how it replaces what the overlay had.
+//! The shapes that an overlay is given, and how they replace its contents.
 
 use std::ops::ControlFlow;
 
@@ -12,13 +12,13 @@ use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::{BspTree, Fragment};
 
 impl Overlay {
-    /// Replaces all that the overlay has by polygons, and cuts them down to the leaves of the tree.
+    /// Replaces the overlay's contents by polygons, and cuts them down to the leaves of the tree.
     ///
     /// # Errors
     ///
-    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither
-    /// the one that the overlay was made for nor a clone of it. The overlay is empty then. The error names
-    /// the polygon where one is to blame, counted from 0.
+    /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither the
+    /// one that the overlay was made for nor a clone of it. The overlay is empty then. If a polygon caused
+    /// the error, [`Error::polygon`] is its number, counted from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,
@@ -27,13 +27,13 @@ impl Overlay {
         self.replace_with(tree, Shapes::NONE.with_polygons(polygons))
     }
 
-    /// Replaces all that the overlay has by polygons, lines and points, and cuts them down to the
-    /// leaves of the tree.
+    /// Replaces the overlay's contents by polygons, lines and points, and cuts them down to the leaves of the
+    /// tree.
     ///
     /// # Errors
     ///
-    /// As for [`replace`](Self::replace). [`Error::line`] or [`Error::point`] is what is to blame, if
-    /// it is no polygon.
+    /// As for [`replace`](Self::replace). If a line or a point caused the error, [`Error::line`] or
+    /// [`Error::point`] is its number.
     pub fn replace_with<P, L, Q>(
         &mut self,
         tree: &BspTree,
@@ -271,7 +271,7 @@ impl Marker {
 }
 
 impl Overlay {
-    /// What a number stands for; `None` if it is that of a fragment of the tree, or of nothing.
+    /// The piece with a number; `None` if a fragment of the tree or nothing has the number.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
@@ -289,7 +289,7 @@ impl Overlay {
         })
     }
 
-    /// The piece of a polygon by its number; `None` if it is that of anything else.
+    /// The piece of a polygon by its number; `None` if the number is not a polygon's piece.
     pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
         self.shape(number)?.fragment()
     }

@@ -10,11 +10,11 @@ use crate::exact::faces::Thin;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
 use crate::progress::Watch;
 
-/// How many pieces of a set a plane is tried on, spread evenly over the set. More: time; fewer: worse
-/// planes for large sets.
+/// How many pieces of a set a plane is tried on, spread evenly over the set. Too small: worse planes for
+/// large sets. Too large: more time.
 const SAMPLE: usize = 64;
-/// How many planes of segments are tried. More: time; fewer: more cuts where lines cross each other in
-/// a tangle.
+/// How many planes of segments are tried. Too small: more cuts in a tangle of crossing lines. Too large: more
+/// time.
 const OWN: usize = 6;
 /// A cut costs as much as this many pieces more on one side. Too small: more pieces. Too large:
 /// trees degenerate to lists, which take quadratic time.
@@ -44,7 +44,7 @@ pub(super) fn between(
     best.map_or(first, |(_, plane)| plane)
 }
 
-/// The cheapest of some planes, with what it costs.
+/// The cheapest of some planes, with its cost.
 fn cheapest(
     faces: &Faces,
     sample: &Sample<'_>,
@@ -65,7 +65,7 @@ fn cheapest(
     best
 }
 
-/// So many pieces of a set, or all, spread evenly.
+/// At most `most` pieces of a set, spread evenly.
 fn spread(pieces: &[Piece], most: usize) -> impl Iterator<Item = &Piece> {
     let count = pieces.len().min(most);
     (0..count).map(move |i| &pieces[i * pieces.len() / count])
@@ -112,7 +112,7 @@ fn medians<'a>(
     })
 }
 
-/// What it costs to divide a set by a plane; `None` if as many are left on a side.
+/// The cost of dividing a set by a plane; `None` if one side keeps all pieces.
 fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) -> Option<usize> {
     let prepared = PreparedPlane::new(faces, plane);
     let (mut front, mut back, mut cuts) = (0, 0, 0);

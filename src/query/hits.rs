@@ -1,4 +1,4 @@
-//! The hits of a ray, the nearest first; whether there is any; and what is known of one.
+//! The hits of a ray, the nearest first; whether there is one; and the properties of a hit.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub(crate) struct Targets<'t> {
 /// Pieces of an overlay.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pieces<'t> {
-    /// The tree's faces, and those of the pieces after them.
+    /// The tree's faces, then the faces of the pieces.
     pub(crate) faces: &'t Faces,
     pub(crate) stored: Stored<'t>,
     pub(crate) bounds: &'t Bounds,
@@ -182,7 +182,7 @@ impl BspTree {
     /// assert_eq!(nearest.point().to_array(), [0.5, 0.5, 2.0]);
     /// // It is hit from its front.
     /// assert!(nearest.facing() == Facing::Front);
-    /// // All of them, and those of a segment.
+    /// // All of them, and the hits of a segment.
     /// assert!(tree.hits(down).map(|hit| hit.polygon()).eq([1, 2, 0]));
     /// let segment = Ray::between([0.5, 0.5, 1.0], [0.5, 0.5, 0.5]);
     /// assert!(tree.hits(segment).map(|hit| hit.polygon()).eq([2]));
@@ -277,8 +277,8 @@ impl<'t> Hit<'t> {
         }
     }
 
-    /// The exact point, by what defines it: three points of the tree's [grid](BspTree::grid). The hit is
-    /// where the ray meets the plane through them: mostly that of the fragment; for a ray that lies in the
+    /// The exact point, by its definition: three points of the tree's [grid](BspTree::grid). The hit is where
+    /// the ray meets the plane through them: mostly that of the fragment; for a ray that lies in the
     /// fragment's plane, one through an edge. `None` if it is an end of the ray, which is then within the
     /// polygon: its beginning if [`parameter`](Self::parameter) is 0.
     ///
@@ -288,7 +288,7 @@ impl<'t> Hit<'t> {
         self.spot.grid_points(self.fragment.faces)
     }
 
-    /// The point by what defines it: a plane, mostly that of the face, and the ray.
+    /// The point by its definition: a plane, usually the face's, and the ray.
     #[doc(hidden)]
     pub fn spot(&self) -> Spot {
         self.spot
@@ -358,7 +358,7 @@ impl HitQueue {
         Some(first)
     }
 
-    /// Moves an interval up before those that it comes before.
+    /// Moves an interval up in front of all intervals that it precedes.
     fn rise(&mut self, mut at: usize, query: &RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;
@@ -409,9 +409,9 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// That a polygon touches the segment with an edge or a corner is enough, and so is that it has some
-    /// of the segment in its plane, such as a floor along which one looks. This is exact. Where an eye
-    /// along a floor should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
+    /// That a polygon touches the segment with an edge or a corner is enough, and so is that it has some of
+    /// the segment in its plane, such as a floor seen edge-on. This is exact. Where an eye along a floor
+    /// should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
     /// [`Facing::EdgeOn`].
     ///
     /// It stops at the first polygon that it finds, which need not be the nearest. Until then its time is

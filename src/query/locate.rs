@@ -56,8 +56,8 @@ impl PartialEq for Location<'_> {
 
 impl BspTree {
     /// The leaf that a point is in, and the partition planes that it is on: exact for the point as it is
-    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a
-    /// coordinate is NaN or infinite, and possibly if the point is further from the scene than 2⁶⁸ extents. O(depth).
+    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a coordinate
+    /// is NaN or infinite, and possibly if the point is further from the scene than 2⁶⁸ extents. O(depth).
     ///
     /// A leaf is a convex region that no partition plane divides, with a fragment in it or none.
     ///
@@ -70,7 +70,7 @@ impl BspTree {
     /// let between = tree.locate([0.2, 0.3, 1.5]).expect("a number");
     /// assert_eq!(between, tree.locate([-7.0, 5.0, 1.1]).expect("a number"));
     /// assert_ne!(between, tree.locate([0.2, 0.3, 0.5]).expect("a number"));
-    /// // The polygons that contain a point are those that a ray of no length hits.
+    /// // A ray of no length hits the polygons that contain its point.
     /// let point = [0.2, 0.3, 1.0];
     /// assert!(tree.hits(Ray::between(point, point)).map(|hit| hit.polygon()).eq([2]));
     /// # Ok::<(), binspace::Error>(())

@@ -1,4 +1,4 @@
-//! Questions to a finished tree: where a point is, what a ray meets, and what is in a region.
+//! Queries of a finished tree: the place of a point, the hits of a ray, the fragments in a region.
 
 mod hits;
 mod locate;

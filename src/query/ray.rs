@@ -1,4 +1,4 @@
-//! A ray, prepared to be compared with a tree, and what it has in common with a fragment: by floats where these
+//! A ray, prepared to be compared with a tree, and its intersection with a fragment: by floats where these
 //! are certain, else by integers.
 
 use std::cmp::Ordering;
@@ -92,12 +92,11 @@ struct RoundedAtRay {
     size: f64,
 }
 
-/// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`RoundedAtRay::size`], M the query's reach and
-/// d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ; the
-/// origin less a corner by 2uM, the direction by ud. With three products and two sums, the start is off
-/// by 7uπM and the slope by 6uπd, less for planes along an axis; a thousandth of that for what
-/// [`RayQuery::is_precise`] allows.
-/// Smaller: wrong signs pass. Larger: more is decided by integers.
+/// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`RoundedAtRay::size`], M the query's reach
+/// and d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ; the origin
+/// less a corner by 2uM, the direction by ud. With three products and two sums, the start is off by 7uπM and
+/// the slope by 6uπd, less for planes along an axis; a thousandth of that for what [`RayQuery::is_precise`]
+/// allows. Too small: wrong signs pass. Too large: more signs are computed in integers.
 const START_ERROR: f64 = 3.6 * f64::EPSILON;
 const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
 
@@ -148,7 +147,7 @@ impl RoundedAtRay {
     }
 }
 
-/// A point of a ray by what defines it.
+/// A point of a ray by its definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
     /// Where the ray begins.
@@ -203,7 +202,7 @@ fn dominant_axis(faces: &Faces, face: u32) -> usize {
     faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
-/// How far along a ray a spot is: between two parameters, and exactly, by what defines the spot.
+/// The distance of a spot along a ray: an interval of parameters, and exactly, by the definition of the spot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     pub(super) spot: Spot,
@@ -213,9 +212,9 @@ pub(super) struct Depth {
 
 /// A parameter that is rounded from the exact one is off by less than this share of it.
 ///
-/// With ε = 2⁻⁵², a quotient of integers has one rounding and what is lost of its second part, ε / 2 and some
-/// ε²; the product with 1 ± this share has another ε / 2. So this is about four times as much as is needed.
-/// Too small: depths compare in the wrong order. Too large: more of them are compared by integers.
+/// With ε = 2⁻⁵², a quotient of integers has one rounding and the lost digits of its second part, ε / 2 and
+/// some ε²; the product with 1 ± this share has another ε / 2. So this is about four times as much as is
+/// needed. Too small: depths compare in the wrong order. Too large: more of them are compared by integers.
 const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Depth {

@@ -125,9 +125,9 @@ impl Iterator for FragmentsIn<'_> {
 impl FusedIterator for FragmentsIn<'_> {}
 
 impl BspTree {
-    /// The numbers of the fragments that have a point in a region, in ascending order: what is in a box, or
-    /// in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon meets
-    /// the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
+    /// The numbers of the fragments that have a point in a region, in ascending order: the fragments in a
+    /// box, or in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon
+    /// meets the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -143,10 +143,10 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// Fragments are as the tree has them, as for [`BspTree::hits`]. Numbers of the planes are taken as they
-    /// are given, up to digits below 2⁻¹¹⁵ of the normal's largest, and of the offset up to as many below
-    /// the scene's extent. All of the region's planes are used, but for
-    /// those with a number that is infinite or NaN, which keep everything.
+    /// Fragments are as the tree has them, as for [`BspTree::hits`]. The numbers of the planes are exact,
+    /// except for digits below 2⁻¹¹⁵ of the normal's largest coordinate, and in the offset below 2⁻¹¹⁵ of the
+    /// scene's extent. All of the region's planes are used, except those with an infinite number or NaN,
+    /// which keep everything.
     ///
     /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes
     /// mostly with the fragments that are found or lie at the region's sides. The first call makes the

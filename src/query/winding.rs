@@ -18,7 +18,7 @@ const MARGIN: f64 = 1e-6;
 impl BspTree {
     /// How many times the polygons wind around a point: 0 outside, 1 inside a body whose fronts face
     /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` on the
-    /// boundary; the polygons there are those that `hits(Ray::between(point, point))` returns.
+    /// boundary; `hits(Ray::between(point, point))` returns the polygons there.
     ///
     /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the point as
     /// you give it, except for points within the tolerance of polygons that were
@@ -181,8 +181,8 @@ fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
     open
 }
 
-/// The line through two points: its direction, without a common divisor and with its first coordinate that is not 0
-/// above 0, and the moment of its points about the origin.
+/// The line through two points: its direction, without a common divisor and with its first coordinate that is
+/// not 0 above 0, and the moment of its points about the origin.
 fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     let way: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
     let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;

@@ -219,7 +219,7 @@ fn lines_and_points_come_between_polygons_that_touch() {
 }
 
 /// All edges of three of the polygons lie on one line of the picture, along which they are cut: two pieces of
-/// one of them, one on each side, are before the line, and so they may not be joined with what is behind it.
+/// one of them, one on each side, are before the line, and so they may not be joined with pieces behind it.
 #[test]
 fn lines_come_between_pieces_that_were_cut_along_them() {
     let polygons = [

@@ -1,4 +1,4 @@
-//! Cameras from matrices: pictures and drawings are those that the matrix itself gives, in floats.
+//! Cameras from matrices: pictures and drawings agree with the matrix applied in floats.
 
 use binspace::glam::{DMat4, DVec4};
 use binspace::paint::paint_tree;

@@ -31,7 +31,7 @@ fn rays_hit_what_integers_say() {
         if polygons.faces().is_empty() {
             return Ok(());
         }
-        // Something else before, so that what is left of it would be hit; and lines and points, which are not.
+        // Something else before, so that remains of it would be hit; and lines and points, which are never hit.
         let mut overlay = Overlay::new(&tree);
         overlay.replace(&tree, &all).map_err(fail)?;
         let _ = overlay.is_occluded(&tree, Ray::between(DVec3::ZERO, DVec3::ONE));

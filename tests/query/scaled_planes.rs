@@ -16,7 +16,7 @@ fn squares() -> BspTree {
     BspTree::build((0..=40).map(|x| square(f64::from(x)))).unwrap()
 }
 
-/// The polygons in a region, and those that culling keeps.
+/// The polygons in a region, and the polygons that culling keeps.
 fn found(tree: &BspTree, (normal, offset): (DVec3, f64)) -> [Vec<usize>; 2] {
     let region = Frustum::new([(normal, offset)]);
     let polygon = |fragment: u32| tree.fragment(fragment).polygon();
