@@ -139,3 +139,37 @@ fn crossings_have_as_many_layers_as_rays_meet() {
     assert!(pairs > 200 && on_lines > 100, "{pairs} {on_lines}");
     assert!(unsure * 20 < judged.iter().sum::<usize>(), "{unsure} {judged:?}");
 }
+
+/// A floor in the middle plane of many walls that cross it, all behind a screen: halving the walls loses none.
+#[test]
+fn a_floor_in_the_middle_of_walls_crosses_all_of_them() {
+    let quad = |corners: [[f64; 3]; 4]| corners.map(DVec3::from).to_vec();
+    let mut polygons =
+        vec![quad([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])];
+    polygons.extend((0..40).map(|k| {
+        let [low, high] = [0.0, 0.01].map(|lean| -0.95 + 0.045 * f64::from(k) + lean);
+        quad([[low, -0.9, -1.0], [low, 0.9, -1.0], [high, 0.9, 1.0], [high, -0.9, 1.0]])
+    }));
+    polygons.push(quad([
+        [-1.0, -1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [1.0, -1.0, 1.0],
+        [-1.0, -1.0, 1.0],
+    ]));
+    let tree = BspTree::build(&polygons).unwrap();
+    let eye = DVec3::new(0.1, -5.0, 0.7);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.7, [300, 300]).unwrap();
+    let map = map_of(&tree, &camera);
+    let mut walls: Vec<usize> = map
+        .crossings(Hidden::Keep)
+        .unwrap()
+        .iter()
+        .map(|run| match run.kind {
+            EdgeKind::Crossing(other) => run.polygon.max(other),
+            _ => unreachable!("crossings alone"),
+        })
+        .collect();
+    walls.sort_unstable();
+    walls.dedup();
+    assert!(walls.into_iter().eq(1..=40));
+}

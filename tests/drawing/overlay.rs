@@ -338,3 +338,50 @@ fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
     });
     enough!(score.visible > 2000, score.hidden > 1000, score.deeper > 300; "{score:?}");
 }
+
+/// Half-transparent polygons hide neither points nor lines; those of opacity 0 have no edges.
+#[test]
+fn what_is_behind_glass_is_visible() {
+    let polygons =
+        [rectangle([-1.0, -1.0], [1.0, 1.0], 0.0), rectangle([-1.0, -1.0], [1.0, 1.0], 2.0)];
+    let tree = BspTree::build(&polygons).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    let line = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(0.5, 0.2, 1.0)];
+    let shapes = Shapes::NONE.with_lines([line]).with_points([DVec3::new(0.1, 0.1, 1.0)]);
+    overlay.replace_with(&tree, shapes).unwrap();
+    let eye = DVec3::new(0.1, 0.2, 9.0);
+    let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.6, [100, 100]).unwrap();
+    for (opacity, is_visible) in [(1.0, false), (0.5, true), (0.0, true)] {
+        let options = ViewOptions::DEFAULT.with_opacities(vec![1.0, opacity]);
+        let map = tree.visibility(&camera, &options).unwrap();
+        assert_eq!(map.markers(&overlay).unwrap()[0].is_visible, is_visible, "{opacity}");
+        let lines = map.lines(&overlay, Hidden::Keep).unwrap();
+        assert!(lines.iter().all(|run| run.is_visible == is_visible), "{opacity}");
+        let edges = map.edges(Hidden::Keep).unwrap();
+        assert_eq!(edges.iter().any(|run| run.polygon == 1), opacity > 0.0, "{opacity}");
+    }
+}
+
+/// Lines under the edges of a fan, seen from above: each is hidden all along.
+#[test]
+fn lines_under_the_edges_of_a_fan_are_hidden() {
+    let triangles: Vec<Vec<DVec3>> = (0..200)
+        .map(|k| {
+            let rim = |k: usize| {
+                let (sin, cos) = (k as f64 * std::f64::consts::TAU / 200.0).sin_cos();
+                DVec3::new(cos, sin, 1.0)
+            };
+            vec![DVec3::Z, rim(k), rim((k + 1) % 200)]
+        })
+        .collect();
+    let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-2.0), DVec3::splat(2.0));
+    let tree = options.build(&triangles).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    let lines: Vec<[DVec3; 2]> =
+        triangles.iter().map(|corners| [DVec3::ZERO, corners[1] - DVec3::Z]).collect();
+    overlay.replace_with(&tree, Shapes::NONE.with_lines(&lines)).unwrap();
+    let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 2.2, [300, 300]).unwrap();
+    let runs = map_of(&tree, &camera).lines(&overlay, Hidden::Count).unwrap();
+    assert!(runs.iter().all(|run| !run.is_visible), "{runs:?}");
+    assert!(runs.len() >= lines.len());
+}

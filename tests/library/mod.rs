@@ -6,6 +6,7 @@ mod cancel;
 mod cuts;
 mod dropped;
 mod duplicates;
+mod error_kinds;
 mod eye;
 mod eyes;
 mod faces;

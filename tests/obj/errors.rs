@@ -116,3 +116,13 @@ fn unreadable_files_are_errors() {
         assert!(std::error::Error::source(&error).is_some());
     }
 }
+
+#[test]
+fn the_first_face_with_the_highest_vertex_is_named_and_no_line_if_there_is_no_face() {
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let (line, face, _) = refused(format!("{corners}f 1 2 9\nf 1 2 9\n"));
+    assert_eq!((line, face), (Some(4), Some(0)));
+    let (line, face, message) = refused(corners);
+    assert_eq!((line, face), (None, None));
+    assert!(message.starts_with("test.obj: no faces"), "{message}");
+}

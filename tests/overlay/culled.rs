@@ -95,3 +95,21 @@ fn an_empty_overlay_culls_as_its_tree_does() {
     overlay.order(&tree, viewpoint).expect("its own").culled(&culling).write_into(&mut both);
     assert!(own == both && !own.is_empty() && own.len() < tree.len(), "{}", own.len());
 }
+
+/// Pieces that are seen edge-on are kept alone, or left out.
+#[test]
+fn pieces_seen_edge_on_are_of_neither_side() {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let tree = BspTree::build([square(0.0), square(2.0)]).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    overlay.replace(&tree, [[[0.5, 0.0, 0.2], [0.5, 1.0, 0.2], [0.5, 1.0, 0.8]]]).unwrap();
+    let order = |facing: Facing| {
+        let culling = Culling::NONE.with_facing(facing);
+        let order = overlay.order(&tree, Viewpoint::eye([0.5, 0.3, 9.0])).unwrap();
+        let shapes = order.culled(&culling).into_iter();
+        shapes.map(|shape| shape.index()).collect::<Vec<u32>>()
+    };
+    assert_eq!(order(Facing::EdgeOn), [2]);
+    assert_eq!(order(Facing::Front), [0, 1]);
+    assert_eq!(order(Facing::Back), []);
+}

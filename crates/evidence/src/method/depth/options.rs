@@ -18,7 +18,7 @@ use super::rules::DepthRules;
 /// 1. the place, to x, y and the depth w: one R each;
 /// 2. the position on the picture: x / (w · pixel) + half the width, y likewise;
 /// 3. the interpolated value. Perspective: (a · w + b) / w with a and b from near and far as graphics
-///   libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
+///    libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
 /// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points: of
 ///    a face of more corners, the first and two neighbours that span the most;
 /// 5. the value in a pixel, by the way of [`Interpolation`];
