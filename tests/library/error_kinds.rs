@@ -1,7 +1,7 @@
 //! The kind of each error that a program can act on.
 
 use binspace::overlay::{Overlay, Shapes};
-use binspace::{Error, ErrorKind, Tolerance};
+use binspace::{Error, ErrorKind};
 use testkit::prelude::*;
 use testkit::shapes::rectangle;
 
@@ -34,11 +34,7 @@ fn errors_are_of_the_kind_that_says_what_to_do() {
             BspTree::build([vec![DVec3::ONE; (1 << 22) + 1]]).map(drop),
             ErrorKind::InvalidInput,
         ),
-        (
-            "tolerance",
-            build(all.clone().with_tolerance(Tolerance::Length(-1.0)), &square),
-            ErrorKind::InvalidInput,
-        ),
+        ("tolerance", build(all.clone().with_tolerance(-1.0), &square), ErrorKind::InvalidInput),
         ("bounds", build(all.clone().with_bounds(NAN, NAN), &square), ErrorKind::InvalidInput),
         ("budget", build(all.clone().with_max_fragments(0), &square), ErrorKind::OverBudget),
         ("opacity", view(vec![2.0]), ErrorKind::InvalidInput),
