@@ -67,7 +67,7 @@ struct Renderer {
     matrix: wgpu::Buffer,
     opaque: Pass,
     glass: Pass,
-    /// What the order of the glass is computed from, and lists that are used again.
+    /// The input of the order of the glass, and lists that are reused.
     tree: BspTree,
     triangles: Triangles,
     order: Vec<u32>,
@@ -130,8 +130,8 @@ impl Renderer {
 
     /// Draws a frame, and returns its pixels: red, green, blue and 255, row by row from the top.
     fn draw(&mut self, camera: &Camera) -> Result<Vec<u8>, Box<dyn Error>> {
-        // All that changes from frame to frame. While `BspTree::same_order` says so, the indices need not
-        // be written; see the library's example `gpu_transparency`.
+        // Only the matrix and the indices change from frame to frame. While `BspTree::same_order` is true,
+        // the indices stay valid; see the library's example `gpu_transparency`.
         let matrix = camera.matrix(0.1, 100.0).as_mat4().to_cols_array();
         self.queue.write_buffer(&self.matrix, 0, bytemuck::cast_slice(&matrix));
         let Self { tree, triangles, order, indices, .. } = self;
@@ -238,7 +238,7 @@ impl Pass {
             primitive: Default::default(),
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH,
-                // Glass is hidden by what is opaque, and hides nothing.
+                // Opaque polygons hide glass; glass hides nothing.
                 depth_write_enabled: Some(is_opaque),
                 depth_compare: Some(wgpu::CompareFunction::Less),
                 stencil: Default::default(),

@@ -18,7 +18,7 @@ const SAMPLE_POINTS: [[f64; 2]; 4] =
 const AROUND: [[f64; 2]; 5] =
     [[0.0, 0.0], [-0.07, -0.07], [0.07, -0.07], [-0.07, 0.07], [0.07, 0.07]];
 
-/// What was compared.
+/// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Counts {
     pixels: usize,

@@ -1,4 +1,4 @@
-//! Cameras, what is visible, and vector pictures.
+//! Cameras, visible polygons, and vector pictures.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -35,16 +35,19 @@ impl Camera {
         Ok(Self { camera })
     }
 
+    /// The width and the height of the picture in pixels.
     #[getter]
     fn size(&self) -> [u32; 2] {
         self.camera.size()
     }
 
+    /// The eye; None of a parallel projection.
     #[getter]
     fn eye(&self) -> Option<[f64; 3]> {
         self.camera.eye().map(|eye| eye.to_array())
     }
 
+    /// The direction in which a parallel projection looks; None of a perspective one.
     #[getter]
     fn direction(&self) -> Option<[f64; 3]> {
         match self.camera.viewpoint() {
@@ -61,7 +64,7 @@ impl Camera {
     }
 }
 
-/// What a map borrows: the tree, and the callback that is told of progress.
+/// The owners of a map's references: the tree, and the callback for progress.
 struct Owner {
     tree: Arc<BspTree>,
     report: Box<dyn Fn(Progress) -> ControlFlow<()> + Send + Sync>,
@@ -75,7 +78,7 @@ self_cell!(
     }
 );
 
-/// What is visible to a camera.
+/// The visible parts of a tree for a camera.
 #[pyclass(frozen, module = "binspace._binspace")]
 pub(crate) struct Visibility {
     map: OwnedMap,
@@ -258,11 +261,19 @@ impl Visibility {
     }
 }
 
-/// Filled outlines in the order to paint them, with lines and points between them.
+/// Filled outlines in the order to paint them, with lines and points between them: `Visibility.drawing`,
+/// `Tree.translucent`.
+///
+/// Path `i` is the polygon `polygon[i]`, or if `is_clipped[i]` a part of it. It has the outlines from `path_offsets[i]` to
+/// `path_offsets[i + 1]`, filled together by the nonzero rule. Outline `o` has the rows of `corners` from `outline_offsets[o]` to
+/// `outline_offsets[o + 1]`, in pixels from the top left corner. `edges[c]` is the edge of the polygon from corner `c` to
+/// the next, by the number of its first corner; -1 if it is none. `items` has the order of everything, of shape (n, 2):
+/// 0 and the number of a path, 1 and that of a row of `lines`, or 2 and that of a row of `markers`; both are None without
+/// an overlay. `size` is the width and the height of the picture in pixels.
 #[pyclass(frozen, module = "binspace._binspace")]
 pub(crate) struct Drawing {
     drawing: drawing::Drawing,
-    /// That of the lines and points.
+    /// The overlay of the lines and points.
     overlay: Option<Py<Overlay>>,
 }
 
@@ -394,7 +405,10 @@ fn offsets(counts: impl Iterator<Item = usize>) -> Vec<u32> {
     std::iter::once(0).chain(ends).collect()
 }
 
-/// Polygons of which some is visible.
+/// The visible polygons: `Visibility.polygons`.
+///
+/// The number of each `polygon`, its visible `area` in square pixels, and a `point` at which it is visible, in pixels from
+/// the top left corner, of shape (n, 2).
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct VisiblePolygons {
     polygon: Array1<u32>,
@@ -402,7 +416,13 @@ pub(crate) struct VisiblePolygons {
     point: Array2<f64>,
 }
 
-/// Parts of edges, or of lines in which polygons cross.
+/// Parts of edges, or of lines in which polygons cross: `Visibility.edges`, `Visibility.crossings`.
+///
+/// Each belongs to the edge `edge` of a `polygon`, by the number of its first corner; -1 if it is none. `kind` is 0 for a
+/// border, 1 for a silhouette, 2 for a crease, 3 for a crossing. `angle` is a crease's angle in radians, otherwise NaN, and
+/// `other` the second polygon of a crossing, otherwise -1. `ends` are in pixels from the top left corner, of shape
+/// (n, 2, 2). `is_visible` is false for hidden parts, and `layers` the number of polygons in front; -1 if they were not
+/// counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct EdgeRuns {
     polygon: Array1<u32>,

@@ -164,7 +164,7 @@ impl<'a> ListsView<'a> {
     }
 }
 
-/// What takes polygons of any type.
+/// A function of polygons of any type.
 pub(crate) trait Build<R> {
     fn with<P: Polygon>(self, polygons: impl Iterator<Item = P>) -> R;
 }

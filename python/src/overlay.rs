@@ -98,6 +98,10 @@ impl Overlay {
         self.overlay.len()
     }
 
+    /// Returns the numbers of all fragments and pieces in the order to paint them, back to front. Pieces are numbered
+    /// after the fragments of the tree.
+    ///
+    /// Give either `eye`, a point, or `direction`, in which a parallel projection looks; three numbers each.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -117,6 +121,7 @@ impl Overlay {
         Ok(array1(py, numbers.map_err(exception)?))
     }
 
+    /// The pieces of lines, and the points, in the order of their numbers.
     #[getter]
     fn pieces(&self, py: Python<'_>) -> PyResult<Pieces> {
         let first = self.tree.len() as u32;
@@ -175,7 +180,10 @@ impl Overlay {
     }
 }
 
-/// Pieces of lines, and points.
+/// Pieces of lines, and points: `Overlay.pieces`.
+///
+/// `number` is the line or the point among those that were given, and `segment` the number of the line's segment; -1 for a
+/// point. `ends` are both ends in space, of shape (n, 2, 3), and `shares` their places on the segment, from 0 to 1.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Pieces {
     number: Array1<u32>,
@@ -184,7 +192,11 @@ pub(crate) struct Pieces {
     shares: Array2<f64>,
 }
 
-/// Parts of lines in a picture.
+/// Parts of lines in a picture: `Visibility.lines`, `Drawing.lines`.
+///
+/// Each is a part of a `segment` of a `line`, by their numbers, from end to end visible or hidden (`is_visible`). `ends` are
+/// in pixels from the top left corner, of shape (n, 2, 2). `layers` is the number of polygons in front; -1 if they were not
+/// counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct LineRuns {
     line: Array1<u32>,
@@ -194,7 +206,10 @@ pub(crate) struct LineRuns {
     layers: Array1<i64>,
 }
 
-/// Points in a picture.
+/// Points in a picture: `Visibility.markers`, `Drawing.markers`.
+///
+/// `point` is the number of the point, `at` its place in pixels from the top left corner, of shape (n, 2), and
+/// `is_visible` is false if a polygon hides it.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Markers {
     point: Array1<u32>,

@@ -16,7 +16,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 /// other threads. Too large: Ctrl-C is late.
 const PULSE: Duration = Duration::from_millis(20);
 
-/// How far an operation is, and whether it shall end: shared by the thread that calls and those that work.
+/// The progress of an operation, and whether it is cancelled: shared by the calling thread and the workers.
 #[derive(Default)]
 pub(crate) struct Watch {
     done: AtomicUsize,
@@ -67,8 +67,8 @@ impl Turns {
     }
 }
 
-/// Runs `work` without the interpreter, in another thread, once it has its turn. This thread handles signals and calls `progress` with what
-/// is done and how much there is; an exception of either cancels the work.
+/// Runs `work` without the interpreter, in another thread, once it has its turn. This thread handles signals and calls
+/// `progress` with the finished and the total work; an exception of either cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,

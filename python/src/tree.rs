@@ -88,27 +88,34 @@ impl Tree {
         format!("<binspace.Tree of {polygons} polygons in {} fragments>", self.tree.len())
     }
 
+    /// The number of polygons that were given.
     #[getter]
     fn polygons(&self) -> usize {
         self.tree.preparation().polygons
     }
 
+    /// The size of the tree in bytes.
     #[getter]
     fn memory_usage(&self) -> usize {
         self.tree.memory_usage()
     }
 
+    /// The numbers of the polygons without area, which have no fragments, ascending.
     #[getter]
     fn dropped(&self, py: Python<'_>) -> Array1<u32> {
         array1(py, self.tree.dropped().map(|polygon| polygon as u32).collect())
     }
 
+    /// The least and the largest coordinates of all fragments, of shape (2, 3); None of a tree without fragments.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> PyResult<Option<Array2<f64>>> {
         let bounds = py.detach(|| self.tree.bounds());
         bounds.map(|ends| array2(py, ends.map(|end| end.to_array()).to_vec())).transpose()
     }
 
+    /// Returns the numbers of all fragments in the order to paint them, back to front: in O(n) time.
+    ///
+    /// Give either `eye`, a point, or `direction`, in which a parallel projection looks; three numbers each.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -211,7 +218,11 @@ struct FoundHits {
     facing: Vec<i8>,
 }
 
-/// All fragments of a tree.
+/// All fragments of a tree: `Tree.fragments`.
+///
+/// Fragment `i` is a part of `polygon[i]` and has the rows of `points` from `offsets[i]` to `offsets[i + 1]`. `edges[v]` is
+/// the edge of the polygon from vertex `v` to the next, by the number of its first corner; -1 if a cut made it. Vertex `v`
+/// has the `weights` from `weight_offsets[v]` to `weight_offsets[v + 1]` over the corners `weight_corners` of its polygon.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Fragments {
     points: Array2<f64>,
@@ -223,7 +234,11 @@ pub(crate) struct Fragments {
     weights: Array1<f64>,
 }
 
-/// What rays hit.
+/// The hits of rays: `Tree.hits`.
+///
+/// Ray `i` has the hits from `offsets[i]` to `offsets[i + 1]`, the nearest first: the number of the `polygon`, the
+/// `parameter` along the ray in units of its direction (0 to 1 along a segment), the `points` of shape (n, 3), and
+/// `facing`: 1 for the front, -1 for the back, 0 for a ray in the polygon's plane.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Hits {
     offsets: Array1<u64>,

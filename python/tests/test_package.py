@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import binspace
 import pytest
 
 README = pathlib.Path(__file__).parents[1] / "README.md"
@@ -21,6 +22,18 @@ def test_code_of_the_readme(block, tmp_path):
 
 def test_there_is_code_to_run():
     assert len(BLOCKS) == 3
+
+
+ARRAYS = ["Drawing", "EdgeRuns", "Fragments", "Hits", "LineRuns", "Markers", "Pieces", "VisiblePolygons"]
+
+
+@pytest.mark.parametrize("name", binspace.__all__)
+def test_public_items_are_documented(name):
+    item = getattr(binspace, name)
+    assert item.__doc__, name
+    for attribute in (attribute for attribute in dir(item) if not attribute.startswith("_")):
+        documented = item.__doc__ if name in ARRAYS else getattr(item, attribute).__doc__
+        assert documented and (name not in ARRAYS or f"`{attribute}" in documented), f"{name}.{attribute}"
 
 
 def test_stubs():

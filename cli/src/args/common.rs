@@ -15,7 +15,7 @@ pub(crate) struct SceneArgs {
     ///
     /// A name that ends as such files do (.obj, .stl, .bsp …) or contains a path separator is a file. Any
     /// other is a built-in scene, with an optional size after a colon, or, if there is none of that name,
-    /// a file. The kind of a file is found out from what is in it.
+    /// a file. A file's kind is detected from its content.
     /// `binspace scenes` lists the built-in scenes.
     #[arg(value_name = "SCENE")]
     pub(crate) name: OsString,

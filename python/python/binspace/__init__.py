@@ -109,7 +109,7 @@ class Tree(_binspace.Tree):
     max_fragments : int, optional
         The most fragments. By default 2**25.
     progress : callable, optional
-        Called some times a second with what is done and how much there is. An exception cancels the build.
+        A function of the finished and the total work, called several times a second. An exception cancels the build.
 
     Raises
     ------
@@ -187,7 +187,7 @@ class Tree(_binspace.Tree):
         return self._fragments()
 
     def hits(self, start, direction=None, *, end=None, limit=None) -> Hits:
-        """What rays or segments hit, the nearest first.
+        """Finds the polygons that rays or segments hit, the nearest first.
 
         Parameters
         ----------
@@ -238,7 +238,7 @@ class Tree(_binspace.Tree):
     def visibility(
         self, camera, *, front_faces_only=False, least_area=0.0, progress=None
     ) -> Visibility:
-        """What is visible to a camera.
+        """Computes the visible parts of the polygons for a camera.
 
         Parameters
         ----------
@@ -328,7 +328,7 @@ def _stroke(stroke):
 
 
 class Visibility:
-    """What is visible to a camera: `Tree.visibility`."""
+    """The visible parts of polygons, edges, lines and points for a camera: `Tree.visibility`."""
 
     def __init__(self, map):
         self._map = map

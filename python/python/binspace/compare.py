@@ -47,8 +47,8 @@ class View:
         return points
 
     def __call__(self, points):
-        """Pixels, from the top left corner; and what is linear in the picture on a plane: for a parallel view the
-        depth, and else one over the depth, negated."""
+        """Pixels, from the top left corner; and a depth that is linear in the picture over each plane: the depth of a
+        parallel view, and -1 / depth of a perspective one."""
         points = self.scaled(points)
         homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ self.matrix.T
         w = homogeneous[..., 3]
@@ -95,7 +95,7 @@ def _flattened(points, codes):
 
 
 def _recolored(axes, keeps_colors):
-    """Gives each polygon, line, marker and text a colour of its own; lists polygons and what is to be probed."""
+    """Gives each polygon, line, marker and text its own colour; lists the polygons, and the other artists as probes."""
     faces, probes = Faces(), []
     count = 0
 
@@ -227,7 +227,7 @@ class Depths:
                     np.minimum.at(self.edge, (y[inside], x[inside]), depth[inside])
 
     def certain(self):
-        """Where it is certain what is nearest."""
+        """The pixels whose nearest polygon is certain."""
         other = np.where(self.low_number == self.number, self.low[1], self.low[0])
         # Polygons cross where two are at one depth, or where the nearest is another one pixel further.
         is_apart = _spread(other > self.best + self.margin, 1, np.minimum)
@@ -310,7 +310,7 @@ class Result:
 
     @property
     def percent(self):
-        """The share of what is judged that is wrong."""
+        """The share of wrong pixels and probes among those judged, in percent."""
         return 100 * (self.wrong + self.wrong_probes) / max(self.judged + self.probes, 1)
 
 

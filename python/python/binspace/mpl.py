@@ -9,7 +9,7 @@ Importing this module registers the projection ``"exact3d"``:
 `exact` makes existing axes exact, and `install` makes ``"3d"`` itself exact.
 
 Polygons are cut where they cross, and lines where they pass through polygons. Polygons of one plane, and lines and points
-on it, are painted in the order of their z-orders, and else in the order in which they were added.
+on it, are painted in the order of their z-orders, and otherwise in the order in which they were added.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _MOST_VECTORS = 200_000
 _JOINED = 1e-5
 
 
-# What artists consist of.
+# The polygons, lines and points of artists.
 
 
 def _placed(axes, artist, points):
@@ -136,7 +136,7 @@ def _without_holes(rings):
     """Rings in one plane as polygons, each hole joined to its outline by a bridge, and whether edges are the rings' own.
 
     Bridges go from the rightmost corner of a hole to a corner that it sees (D. Eberly, "Triangulation by ear clipping",
-    2002). What an odd number of rings is around is filled.
+    2002). Areas inside an odd number of rings are filled.
     """
     rings = [ring[:-1] if len(ring) > 1 and np.array_equal(ring[0], ring[-1]) else ring for ring in rings]
     rings = [ring for ring in rings if len(ring) > 2 and not np.isnan(ring).any()]
@@ -372,7 +372,7 @@ def _of_line(axes, artist):
     if artist.get_marker() not in ("None", "none", " ", "", None):
         source.point_rows = _marked(artist, points)
         source.points = points[source.point_rows]
-    # What picking and `get_data` use.
+    # Picking and `get_data` use these positions.
     projected = _projected(axes.M, points)
     artist.set_data(projected[:, 0], projected[:, 1])
     return source
@@ -463,9 +463,8 @@ def _camera(matrix, to_display, size):
         clip[axis] = 2 / size[axis] * in_pixels - matrix[3]
     # Inverted axes mirror a picture.
     volume = np.linalg.det(clip[[0, 1, 3]][:, :3])
-    is_parallel = "direction" in _viewpoint(matrix)
-    if is_parallel:
-        direction = _viewpoint(matrix)["direction"]
+    direction = _viewpoint(matrix).get("direction")
+    if direction is not None:
         volume = np.linalg.det(np.stack([clip[0, :3], clip[1, :3], direction * matrix[3, 3]]))
     is_mirrored = volume > 0
     if is_mirrored:
@@ -473,7 +472,7 @@ def _camera(matrix, to_display, size):
     return binspace.Camera(clip, size), is_mirrored
 
 
-# What is painted.
+# Painting.
 
 
 class _Built:
@@ -685,7 +684,7 @@ class _Drawn(_Shown):
         self.own[self.own] = own[(first + edges)[self.own]]
         self.is_whole = _are_all(self.own, starts[:-1])
         if traps.any():
-            # Seams between faces would let through what is painted below them.
+            # Polygons below would show through seams between faces.
             filled = drawing._trapped(traps.tolist())
             corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
             self.fills = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
@@ -703,8 +702,8 @@ class _Drawn(_Shown):
                 self._leave_out_hidden(seen, built.overlay, place, are_texts)
 
     def _leave_out_hidden(self, seen, overlay, place, are_texts):
-        """Polygons and parts of lines of which nothing is visible would show through seams of what hides them. A marker is
-        left out if its middle is hidden: it would lie over polygons in front of it that do not hide its middle."""
+        """Leaves out hidden polygons and hidden parts of lines, which would show through seams of the polygons in front.
+        Also leaves out markers whose middle is hidden: they would cover polygons in front that are beside the middle."""
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
@@ -982,7 +981,7 @@ def _chains(shown, numbers, may_sort):
 
 
 def _group(artist):
-    """What artists have in common that are painted at once."""
+    """The key of artists that are painted together."""
     clip, box = artist.get_clip_path(), artist.get_clip_box()
     key = (artist.get_clip_on(), box and tuple(box.bounds), artist.get_sketch_params(), artist.get_snap(),
            artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
@@ -1054,7 +1053,7 @@ def _is_quick(axes, built, renderer):
 
 
 class _Exact:
-    """What exact axes do otherwise than those of mplot3d."""
+    """The differences of exact axes from those of mplot3d."""
 
     _exact_composite = None
 
