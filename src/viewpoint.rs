@@ -62,6 +62,17 @@ impl From<Ordering> for Facing {
     }
 }
 
+/// The sign of a distance from the plane: the front is positive.
+impl From<Facing> for Ordering {
+    fn from(facing: Facing) -> Self {
+        match facing {
+            Facing::Front => Self::Greater,
+            Facing::Back => Self::Less,
+            Facing::EdgeOn => Self::Equal,
+        }
+    }
+}
+
 /// A ray, or the segment between two points, as for [`BspTree::hits`](crate::BspTree::hits).
 ///
 /// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction is the

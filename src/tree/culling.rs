@@ -104,11 +104,7 @@ impl<'t> Cull<'t> {
             view,
             marks: Marks::new(bounds, &planes),
             planes,
-            side: culling.facing.map(|facing| match facing {
-                Facing::Front => Ordering::Greater,
-                Facing::Back => Ordering::Less,
-                Facing::EdgeOn => Ordering::Equal,
-            }),
+            side: culling.facing.map(Ordering::from),
         }
     }
 

@@ -73,6 +73,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     say(format!("Wrote pictures of each scene into {}:", args.output.display()))?;
     let names = Kind::ALL.map(|kind| format!("…-{}.png", kind.name())).join(", ");
     say(format!("  {names}, ….svg"))?;
+    say("  (a difference is dark where the painter is right; wrong pixels are bright)")?;
     say(format!(
         "Compared {} from {} of each scene with a depth buffer:",
         count(total.covered, "pixel"),
