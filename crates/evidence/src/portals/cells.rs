@@ -108,7 +108,7 @@ impl Cells {
         self.portals.len()
     }
 
-    /// The cells that contain a point: one, or all that meet there.
+    /// The cells that contain a point; several if it is on their common boundary.
     pub fn at(&self, point: DVec3) -> Vec<usize> {
         let (mut pending, mut found) = (vec![self.whole], Vec::new());
         while let Some(next) = pending.pop() {

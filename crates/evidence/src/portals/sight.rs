@@ -144,7 +144,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Continues through the portals out of a cell, as far as they are within some planes.
+    /// Continues through the parts of a cell's portals that are within some planes.
     fn pass(&mut self, cell: usize, planes: &[Plane]) {
         let noise = NOISE * self.cells.extent;
         for &(number, side) in &self.cells.cells[cell].portals {
