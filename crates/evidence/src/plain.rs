@@ -26,7 +26,7 @@ pub enum Met {
     /// Nothing.
     Nothing,
     /// Its boundary, or all of its plane.
-    Rim,
+    Boundary,
     /// Its inside.
     At(Depth),
 }
@@ -102,7 +102,7 @@ impl PlainView {
         let normal = cross(minus(corner(1), corner(0)), minus(corner(2), corner(0)));
         let (over, under) = (dot(normal, corner(0)), dot(normal, ray));
         if on || under == 0 {
-            return Met::Rim;
+            return Met::Boundary;
         }
         let sign = under.signum();
         let (over, under) = (over * sign * -ray[2], under * sign);
@@ -116,7 +116,7 @@ impl PlainView {
         for (polygon, number) in polygons.iter().zip(0..) {
             match self.meet(polygon, pixel) {
                 Met::Nothing => {}
-                Met::Rim => return None,
+                Met::Boundary => return None,
                 Met::At(depth) => met.push((number, depth)),
             }
         }
