@@ -6,7 +6,7 @@
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, ErrorKind, Heuristic};
