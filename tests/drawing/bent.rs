@@ -33,7 +33,7 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
 
 /// A wall goes through an L along an edge that its triangulation made.
 #[test]
-fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
+fn a_line_along_an_inner_edge_is_visible_or_hidden_once() {
     let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     let l = l.map(|[x, y]| [x, y, 0.0]).to_vec();
     let wall = vec![[-1.0, -1.0, -1.0], [3.0, 3.0, -1.0], [3.0, 3.0, 1.0], [-1.0, -1.0, 1.0]];
@@ -276,7 +276,7 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
 
 /// The tolerance leaves the ends of polygons and their bends open.
 #[test]
-fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
+fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     let (mut dice, mut compared) = (Dice(15), 0);
     for tolerance in [0.0, 0.01, 0.05, 0.2] {
         for _ in 0..12 {
@@ -301,7 +301,7 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
 /// Neighbours have their common edges in the picture at the given corners, so nothing is visible between
 /// them, although the tree moved corners onto the planes of their quads.
 #[test]
-fn through_a_closed_globe_of_bent_quads_nothing_shows() {
+fn a_closed_globe_of_bent_quads_has_no_gaps() {
     let scene = Builtin::Sphere.build(Some(2_000), 1);
     let tree = BspTree::build(scene.polygons()).unwrap();
     assert!(tree.preparation().flattened > 500, "{:?}", tree.preparation());

@@ -56,7 +56,7 @@ fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), b
 }
 
 #[test]
-fn edges_over_a_grid_are_hidden_only_by_what_lies_over_them() {
+fn edges_over_a_grid_are_hidden_only_by_polygons_over_them() {
     let mut dice = Dice(11);
     let (mut visible, mut hidden) = (0, 0);
     for round in 0..2000 {

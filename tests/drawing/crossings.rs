@@ -160,7 +160,7 @@ fn a_wall_crosses_every_tile_of_a_floor() {
 
 /// A wall that stands on a floor touches it, and two walls meet at a corner: nothing crosses.
 #[test]
-fn what_only_touches_does_not_cross() {
+fn touching_polygons_do_not_cross() {
     let floor = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
     let wall = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [-1.0, 2.0, 0.0]];
     let other = [[1.0, 0.0, 0.0], [1.0, 0.0, 2.0], [1.0, 2.0, 2.0], [1.0, 2.0, 0.0]];

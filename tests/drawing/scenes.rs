@@ -31,7 +31,7 @@ fn check_scene(scene: &Scene, score: &mut Score) {
 }
 
 #[test]
-fn drawings_of_whole_scenes_are_what_rays_meet() {
+fn drawings_of_whole_scenes_agree_with_rays() {
     let mut score = Score::default();
     for builtin in Builtin::ALL {
         let size = builtin.default_size().map(|size| size.min(400));

@@ -173,7 +173,7 @@ impl Divided<'_> {
         found
     }
 
-    /// Whether the plane is that of a piece that crosses all pieces that it cuts.
+    /// Whether the plane belongs to a piece that crosses all pieces that it cuts.
     pub(super) fn cuts_what_crosses(&self) -> bool {
         let PlaneKind::Face(face) = self.plane.kind() else { return false };
         let plane = model::plane(self.faces, self.plane);

@@ -109,12 +109,12 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
 }
 
 #[test]
-fn fewest_splits_takes_a_plane_than_which_none_cuts_fewer() {
+fn fewest_splits_takes_a_plane_with_the_fewest_cuts() {
     assert_least(Heuristic::FewestSplits, |c, _| c.splits as f64 * 1e3 + c.imbalance());
 }
 
 #[test]
-fn balanced_takes_a_plane_than_which_none_divides_more_evenly() {
+fn balanced_takes_a_most_evenly_dividing_plane() {
     assert_least(Heuristic::Balanced, |c, _| c.imbalance() * 1e3 + c.splits as f64);
 }
 
@@ -148,7 +148,7 @@ fn sampled_from_all_planes_takes_one_of_least_weighted_sum() {
 
 /// With one candidate there is no choice; with more, some choice is better.
 #[test]
-fn sampled_looks_at_more_planes_the_more_it_is_told_to() {
+fn sampled_tries_as_many_planes_as_its_parameter() {
     let sum = |candidates: u32| {
         let mut sum = 0.0;
         each(Heuristic::Sampled { candidates }, 16, 14, |node| {

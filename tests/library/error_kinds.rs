@@ -15,7 +15,7 @@ fn square() -> (Corners, BspTree) {
 }
 
 #[test]
-fn errors_are_of_the_kind_that_says_what_to_do() {
+fn each_error_has_its_kind() {
     let (square, tree) = square();
     let build = |options: BuildOptions, polygon: &[DVec3]| options.build([polygon]).map(drop);
     let view = |opacities: Vec<f64>| {

@@ -16,7 +16,7 @@ use testkit::rational::Point;
 #[derive(Debug, Default)]
 pub(crate) struct Judged {
     pub(crate) pictures: usize,
-    /// Pixels that show something, and those of them that show moving polygons.
+    /// Pixels that show a polygon, and pixels that show a moving one.
     pub(crate) covered: usize,
     pub(crate) moving: usize,
     pub(crate) contested: usize,

@@ -151,7 +151,7 @@ fn empty_overlays_and_other_trees() {
     assert_eq!(error.unwrap_err().kind(), ErrorKind::OtherTree);
 }
 
-/// Meshes are told apart even if they have as many fragments; some of the triangles keep the pieces' numbers.
+/// Meshes are distinguished even if they have equally many fragments; some of the triangles keep the pieces' numbers.
 #[test]
 fn a_mesh_of_pieces_is_neither_a_trees_nor_loses_its_numbers() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];

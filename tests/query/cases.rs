@@ -114,7 +114,7 @@ fn a_polygon_that_is_not_convex_is_hit_wherever_it_is_entered() {
 }
 
 #[test]
-fn rays_that_are_none_hit_nothing() {
+fn invalid_rays_hit_nothing() {
     let tree = BspTree::build([square(0.0)]).unwrap();
     let good = DVec3::new(1.0, 1.0, 1.0);
     assert_eq!(tree.hits(Ray::new(good, DVec3::NEG_Z)).count(), 1);
@@ -195,9 +195,9 @@ fn scenes_of_every_size_are_hit() {
     }
 }
 
-/// Its two ends are numbers, the way from one to the other is none.
+/// Its two ends are finite, but the vector from one to the other is not.
 #[test]
-fn a_segment_longer_than_any_number_hits_what_it_meets() {
+fn a_segment_longer_than_any_number_hits_the_polygons_on_it() {
     let most = 1.5 * 2.0_f64.powi(1023);
     let square = |z: f64| {
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [most * x, most * y, z])

@@ -93,7 +93,7 @@ fn a_plane_that_is_used_again_is_refused() {
 
 /// With nodes that each cut everything, a small file would have more pieces than memory holds.
 #[test]
-fn there_are_no_more_pieces_than_fragments_in_the_file() {
+fn pieces_do_not_exceed_the_fragments_of_the_file() {
     // Long strips side by side, and walls across all of them.
     const STRIPS: usize = 2000;
     let strip = |k: usize| {

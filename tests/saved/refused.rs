@@ -39,7 +39,7 @@ fn put_far(file: &mut File, at: usize, sign: i64) {
 type Damage = fn(&mut File);
 
 #[test]
-fn what_is_wrong_in_one_thing_is_refused_for_that() {
+fn each_fault_is_refused_with_its_own_message() {
     let faults: [(&str, Damage); 21] = [
         ("its tolerance is negative", |file| {
             file.put_bytes(TOLERANCE, &(-1f64).to_le_bytes());

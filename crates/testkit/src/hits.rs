@@ -265,7 +265,7 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// The oracle of an overlay's hits. The faces are the tree's, and those of the overlay's polygons.
+    /// The oracle of an overlay's hits. It contains the faces of the tree and of the overlay's polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }

@@ -17,7 +17,7 @@ pub enum Place {
 #[derive(Clone, Debug)]
 pub struct View {
     pub place: Place,
-    /// The polygons that most rays aim at; all, if there are none.
+    /// The polygons that most rays aim at; all polygons if this is empty.
     about: Vec<usize>,
     /// A point that the first ray aims at: numerators over a number.
     target: Option<(Vector, i128)>,
