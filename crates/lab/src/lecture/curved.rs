@@ -44,12 +44,13 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Curved surfaces");
     chapter.text(
         "A depth buffer accepts any surface that has a depth in each pixel. Here polygons, a sphere and \
-         two Bézier patches share one buffer. A separate routine draws each kind. The sphere is the \
-         smaller root of a quadratic equation. The patches are halved until the parts are smaller than a \
-         pixel (Catmull 1974). A tree accepts only planar polygons, so patches are first divided into \
-         triangles, as many as the picture needs (Filip, Magedson & Markot 1986). The division of a \
-         shared edge depends only on the curve of the edge, and on the stricter of its two patches. Both \
-         patches therefore get the same points along the edge, and no crack opens.",
+         two Bézier patches share one buffer. A separate routine draws each kind. The depth of the \
+         sphere is the smaller root of a quadratic equation. The patches are halved until the parts are \
+         smaller than a pixel (Catmull 1974). A tree accepts only planar polygons, so patches are first \
+         divided into triangles, as many as the picture needs (Filip, Magedson & Markot 1986). The \
+         division of a shared edge depends only on the curve of the edge, and on the patch that needs \
+         the finer division. Both patches therefore get the same points along the edge, and no crack \
+         opens.",
     );
     chapter.pictures(pictures);
     chapter.table(["patches by", "triangles", "fragments of the tree", "wrong pixels"], rows);

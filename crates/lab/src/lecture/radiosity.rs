@@ -21,7 +21,7 @@ const WHITE: f64 = 0.035;
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Light between surfaces");
     chapter.text(
-        "A diffuse surface lights every surface that it sees. A scene divided into patches is a system \
+        "A diffuse surface lights every surface that it sees. A scene divided into patches gives a system \
          of linear equations. The form factor from one patch to another is the share of its light that \
          arrives there (Goral, Torrance, Greenberg & Battaile, Modeling the Interaction of Light Between \
          Diffuse Surfaces, 1984). The form factor from a point to a whole patch has a closed form \
