@@ -93,7 +93,7 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
             1 => vec![at(0.25) + c - d, at(0.75) + c - d, at(0.5) - c + d],
             // As far as the line.
             2 => vec![at(0.0), at(0.75), c],
-            // Bent along it, too.
+            // Also bent along it.
             _ => vec![at(0.125), c, at(1.0), d],
         };
         polygons.push(other);
@@ -101,8 +101,8 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     polygons
 }
 
-/// The directions in which a polygon goes away from a line at a point of it: two, or fewer if it ends there or is not
-/// there at all.
+/// The directions in which a polygon leaves a line at a point of it: two, or fewer if the polygon ends there
+/// or does not contain the point.
 pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
     let mut sides = vec![];
     for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {
@@ -316,7 +316,7 @@ fn a_closed_globe_of_bent_quads_has_no_gaps() {
             let corners = &polygons[shown.polygon];
             let [a, b, c] = [corners.points()[0], corners.points()[1], corners.points()[2]];
             let outwards = (c - a).cross(*corners.points().last().unwrap() - b).normalize();
-            // Of quads seen edge-on, rounding tells whether they show.
+            // The visibility of quads seen edge-on depends on rounding.
             assert!(outwards.dot((eye - a).normalize()) > -1e-9, "{eye}: {shown:?}");
         }
     }

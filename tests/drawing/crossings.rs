@@ -101,7 +101,8 @@ fn planes_through_one_line_cross_in_it() {
         let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
         for (by, tree) in trees(&cards) {
             let runs = crossings(&tree, &camera);
-            // Two of the cards show at the line, one on each side: of all of it that is in the picture.
+            // Two of the cards are visible at the line, one on each side, along its whole part in the
+            // picture.
             let pairs: Vec<_> = runs.iter().map(|run| (run.polygon, run.kind)).collect();
             assert_eq!(pairs.len(), 1, "{turn}, {by}: {runs:?}");
             seen += 1;

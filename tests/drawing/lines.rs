@@ -50,7 +50,7 @@ fn a_bar_hides_the_middle_of_an_edge() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let runs = edges(&tree, &camera);
     assert!(runs.iter().all(|run| run.kind == EdgeKind::Border));
-    // Of the lower and of the upper edge: ten pixels a unit.
+    // The lower and the upper edge, ten pixels per unit.
     for edge in [0, 2] {
         let mut parts: Vec<(bool, f64)> = runs
             .iter()

@@ -157,7 +157,7 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     assert_eq!(one(&[[-2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, -1.0]]), behind);
     assert_eq!(one(&[[0.0, 2.0, -1.0], [2.0, 0.0, -1.0]]), [(2.0, true)]);
-    // Through its edge: a point of it.
+    // The line goes through the edge, in one point.
     assert_eq!(
         one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, 1.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]

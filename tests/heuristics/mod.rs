@@ -238,9 +238,9 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
-/// Where every plane cuts, `auto` uses the own plane of least work less the reward for its size; in a frame
-/// also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces are
-/// compared with every plane.
+/// If every plane cuts, `auto` uses the own plane with the least work less the reward for its size. In a
+/// frame it may also use a plane that cuts one or two pieces which cross its own piece. Sets of at most 16
+/// pieces are compared with every plane.
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
     let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);

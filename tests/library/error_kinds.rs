@@ -7,7 +7,7 @@ use testkit::shapes::rectangle;
 
 const NAN: DVec3 = DVec3::NAN;
 
-/// A square, and a tree of it alone.
+/// A square, and a tree that contains only the square.
 fn square() -> (Corners, BspTree) {
     let square = rectangle([0.0, 0.0], [1.0, 1.0], 0.0);
     let tree = BspTree::build([&square]).expect("within budget");

@@ -173,7 +173,7 @@ fn a_polygon_reports_its_precision() {
     assert_eq!(double[..].precision(), double.precision());
 }
 
-/// Of two squares of side 1, one a little above the other.
+/// Two squares of side 1, one a little above the other.
 fn tolerance_of(precision: f64, options: BuildOptions) -> f64 {
     let square = |z: f64| Claim { corners: rectangle([0.0; 2], [1.0; 2], z), precision };
     let squares = [0.0, 1e-3].map(square);

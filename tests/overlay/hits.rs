@@ -1,4 +1,4 @@
-//! What rays hit of a tree and an overlay, against integers: every ray against every polygon.
+//! Hits of rays on a tree and an overlay, against integers: every ray against every polygon.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{ErrorKind, Ray};
@@ -31,7 +31,8 @@ fn rays_agree_with_integers() {
         if polygons.faces().is_empty() {
             return Ok(());
         }
-        // Something else before, so that remains of it would be hit; and lines and points, which are never hit.
+        // Other contents first, so that a remainder of them would be hit; and lines and points, which are
+        // never hit.
         let mut overlay = Overlay::new(&tree);
         overlay.replace(&tree, &all).map_err(fail)?;
         let _ = overlay.is_occluded(&tree, Ray::between(DVec3::ZERO, DVec3::ONE));

@@ -28,8 +28,7 @@ impl Judged {
         self.look_at_polygons(tree, overlay, overlay.faces(), camera)
     }
 
-    /// The same, where `faces` are those of the tree and of the overlay's polygons, without lines and
-    /// points.
+    /// The same check, with the faces of the tree and of the overlay's polygons, without lines and points.
     pub(crate) fn look_at_polygons(
         &mut self,
         tree: &BspTree,

@@ -84,7 +84,7 @@ fn one_list_of_indices_draws_the_order_of_both() {
     assert!(counts[0] > 300 && counts[1] > 500 && counts[2] > 100, "{counts:?}");
 }
 
-/// How many edges of the triangles, from point to point, do not run once in each direction.
+/// The number of edges of the triangles, from point to point, that do not run once in each direction.
 fn open(mesh: &Mesh) -> usize {
     let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
     for triangle in mesh.triangles().indices().chunks(3) {

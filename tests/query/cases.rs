@@ -106,10 +106,10 @@ fn a_polygon_that_is_not_convex_is_hit_wherever_it_is_entered() {
     let tree = BspTree::build([comb, bent]).unwrap();
     let parameters = |ray: Ray| hits(&tree, ray).iter().map(|hit| hit.1).collect::<Vec<_>>();
     assert_eq!(parameters(Ray::new([-1.0, 1.5, 0.0], [1.0, 0.0, 0.0])), [1.0, 3.0, 5.0]);
-    // Where the teeth begin it runs along edges, and never leaves.
+    // The ray runs along edges from the beginning of the teeth, and never leaves.
     assert_eq!(parameters(Ray::new([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0])), [1.0]);
     assert_eq!(parameters(Ray::new([2.5, 1.5, 1.0], [0.0, 0.0, -1.0])), [1.0]);
-    // Whichever diagonal divides it, through both triangles.
+    // The ray goes through both triangles, for either diagonal.
     assert_eq!(hits(&tree, Ray::new([11.0, 6.0, 9.0], [0.0, 0.0, -1.0])).len(), 1);
 }
 

@@ -83,7 +83,7 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
         for _ in 0..30 {
             let count = 3 + dice.below(4);
             all.push(match dice.below(4) {
-                // Bent ones.
+                // Bent polygons.
                 0 => {
                     let around = [[3, 0], [2, 2], [0, 3], [-2, 2], [-3, 0], [0, -3]];
                     let lift = |[x, y]: [i32; 2]| {

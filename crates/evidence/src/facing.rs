@@ -1,4 +1,4 @@
-//! Which sides of faces a viewpoint sees: back-face detection.
+//! Back-face detection: the sides of faces that a viewpoint sees.
 
 #[cfg(test)]
 mod tests;

@@ -39,7 +39,7 @@ pub struct Depth {
 }
 
 impl Depth {
-    /// Which is further.
+    /// Compares two depths.
     pub fn compare(&self, other: &Self) -> Ordering {
         (self.over * other.under).cmp(&(other.over * self.under))
     }

@@ -93,7 +93,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// Where a piece lies.
+    /// The side of a plane on which a piece lies.
     pub fn classify(&self, piece: &RoundedPiece) -> Side {
         if self.plane == PlaneId::face(piece.face) {
             return Side::Coplanar;
@@ -139,7 +139,7 @@ impl<T: Precision> RoundedPlane<T> {
         parts
     }
 
-    /// Where the plane cuts an edge.
+    /// The point in which the plane cuts an edge.
     fn crossing(&self, from: &Vertex, to: &Vertex) -> Vertex {
         let (a, b) = (self.distance(from.position), self.distance(to.position));
         let t = T::round(a / T::round(a - b));

@@ -23,7 +23,7 @@ pub struct Filled {
     pixels: Vec<Pixel>,
 }
 
-/// How a filled picture differs from another.
+/// The differences between a filled picture and another picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FillError {
     /// Pixels that show a polygon in either picture and could be compared.

@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// The same by an eye: depth is along the direction of view, not along rays.
+    /// The same for an eye: depth is measured along the direction of view, not along rays.
     #[test]
     fn depth_is_along_the_direction_of_view() {
         let (faces, _) = scene(&[(6.0, 0.0), (6.0, -2.0)], Some(0.0));

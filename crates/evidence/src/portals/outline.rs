@@ -23,7 +23,7 @@ impl Plane {
         self.normal.dot(point) - self.offset
     }
 
-    /// The same plane with its front behind.
+    /// The same plane with the opposite front.
     pub(super) fn flipped(&self) -> Self {
         Self { normal: -self.normal, offset: -self.offset }
     }

@@ -52,7 +52,7 @@ fn no_polygon_that_owns_a_pixel_is_left_out() {
     assert!(kept_by_cell < all / 2, "{kept_by_cell} of {all}");
 }
 
-/// Eyes all but in the planes of doors, where roundings are carried furthest.
+/// Eyes almost in the planes of doors, where roundings have the largest effect.
 #[test]
 fn nothing_is_left_out_from_the_threshold_of_a_door() {
     let level = interior::rooms(4);

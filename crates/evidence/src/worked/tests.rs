@@ -11,7 +11,7 @@ use super::{
 use crate::Hiding;
 use crate::method::{Centroid, DepthBuffer, DepthFormat, InputOrder, Method, Newell};
 
-/// Where a point of the floor is against the line of a wall.
+/// The side of the line of a wall on which a point of the floor lies.
 fn side(wall: char, [x, y]: [f64; 2]) -> f64 {
     let (_, [[a, b], [c, d]]) = EIGHT.into_iter().find(|&(letter, _)| letter == wall).unwrap();
     ((c - a) * (y - b) - (d - b) * (x - a)).signum()

@@ -32,7 +32,7 @@ fn blocks(Wall { corners, plane }: &Wall, a: Point, b: Point) -> bool {
     if at_a.signum() * at_b.signum() >= 0 {
         return false;
     }
-    // Where they meet is met / by.
+    // They meet at the point met / by.
     let (by, sign) = (at_a - at_b, (at_a - at_b).signum());
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
     (0..corners.len()).all(|k| {

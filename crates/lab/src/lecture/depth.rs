@@ -17,7 +17,7 @@ use binspace_cli::pictures::Bright;
 
 const SIZE: [u32; 2] = [240, 180];
 const WHITE: [u8; 3] = [255; 3];
-/// How opaque translucent polygons are.
+/// The opacity of translucent polygons.
 const OPACITY: f64 = 0.5;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {

@@ -1,4 +1,4 @@
-//! Why surfaces have to be ordered: a picture without an order, and the effect of back-face detection alone.
+//! The need for an order: a picture without one, and the effect of back-face detection alone.
 
 use binspace::glam::DVec3;
 use binspace::scene::{Builtin, Scene};

@@ -1,4 +1,4 @@
-//! How trees grow with the number of polygons.
+//! The growth of trees with the number of polygons.
 
 use std::time::Instant;
 

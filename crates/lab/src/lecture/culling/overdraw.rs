@@ -55,7 +55,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     stack(chapter)
 }
 
-/// How overdraw grows with the layers of a pixel.
+/// The growth of overdraw with the layers per pixel.
 fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     let [mut painted, mut buffered, mut masked] = [vec![], vec![], vec![]];
     for layers in [1, 2, 5, 10, 20, 50, 100] {
