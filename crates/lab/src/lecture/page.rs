@@ -14,10 +14,11 @@ const STYLE: &str = include_str!("lecture.css");
 pub(crate) fn write(out: &mut dyn Write, chapters: &[Chapter]) -> io::Result<()> {
     write!(
         out,
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-         content=\"width=device-width, initial-scale=1\">\n<title>Visible \
-         surfaces</title>\n<style>\n{STYLE}</style>\n<header>\n<h1>Visible surfaces</h1>\n<p>The \
-         subjects of a course on visibility. One run of <code>binspace-lab lecture</code> made all \
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>Visible surfaces</title>\n<style>\n{STYLE}</style>\n\
+         <header>\n<h1>Visible surfaces</h1>\n\
+         <p>The subjects of a course on visibility. One run of <code>binspace-lab lecture</code> made all \
          pictures and figures on this page, and judged them by exact arithmetic.</p>\n<nav><ol>\n",
     )?;
     for (number, chapter) in (1..).zip(chapters) {
