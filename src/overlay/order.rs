@@ -220,6 +220,31 @@ impl Overlay {
         self.expect(tree)?;
         Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
+
+    /// Whether no plane of the tree, and none on the way to the overlay's pieces, lies between two viewpoints.
+    /// Then the orders are the same, as with [`BspTree::same_order`]. This does not hold for
+    /// [culled](OverlayOrder::culled) orders. It holds until the next [`replace`](Self::replace).
+    ///
+    /// O(planes); stops at the first plane between the two.
+    ///
+    /// # Errors
+    ///
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    pub fn same_order(
+        &self,
+        tree: &BspTree,
+        one: Viewpoint,
+        other: Viewpoint,
+    ) -> Result<bool, Error> {
+        self.expect(tree)?;
+        let views = [one, other].map(|viewpoint| View::new(tree, viewpoint));
+        let is_same = |&Branch { plane, rounded, .. }: &Branch| {
+            let [one, other] =
+                views.each_ref().map(|view| view.is_in_front_of(&self.faces, plane, rounded));
+            one == other
+        };
+        Ok(tree.same_order(one, other) && self.insertions.branches.iter().all(is_same))
+    }
 }
 
 impl<'a> OverlayOrder<'a> {
