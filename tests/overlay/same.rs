@@ -38,7 +38,7 @@ fn eyes_with_the_same_order_write_the_same_list() {
             by_overlay += usize::from(tree.same_order(one, two) && !lists_agree);
         }
     }
-    enough!(same > 200, other > 200, by_overlay > 5; "{same} {other} {by_overlay}");
+    enough!(same > 200, other > 100, by_overlay > 5; "{same} {other} {by_overlay}");
 }
 
 #[test]
@@ -48,9 +48,9 @@ fn only_a_plane_between_two_eyes_tells_them_apart() {
     let mut overlay = Overlay::new(&tree);
     let eye = |z: f64| Viewpoint::eye([0.5, 0.5, z]);
     assert_eq!(overlay.same_order(&tree, eye(1.0), eye(3.0)), Ok(true));
-    overlay.replace(&tree, [square(2.0)]).expect("on the grid");
+    overlay.replace(&tree, [square(2.0), square(2.5)]).expect("on the grid");
     for (one, other, is_same) in
-        [(1.0, 3.0, false), (1.0, 1.5, true), (-1.0, 1.0, false), (5.0, 9.0, true)]
+        [(1.0, 3.0, false), (1.0, 1.5, true), (-1.0, 1.0, false), (3.0, 3.5, true)]
     {
         assert_eq!(overlay.same_order(&tree, eye(one), eye(other)), Ok(is_same), "{one} {other}");
     }

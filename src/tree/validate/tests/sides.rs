@@ -112,5 +112,5 @@ fn a_face_beside_its_own_plane_is_found_and_counts_as_misplaced() {
         }
         (root.own, root.front, root.back) = (0, RawChild::Leaf(1), RawChild::Leaf(1));
     };
-    assert_fault(&tree, edit, "is Coplanar, not");
+    assert_fault(&tree, edit, "is Coplanar, but");
 }
