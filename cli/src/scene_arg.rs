@@ -16,7 +16,7 @@ use crate::memory;
 use crate::progress::Progress;
 use crate::saved_file;
 use crate::standard_input;
-use crate::terminal::note;
+use crate::terminal::remark;
 
 /// A scene under the user's name for it, and its tree if the file holds one.
 #[derive(Debug)]
@@ -129,7 +129,7 @@ fn obj(path: &Path, beginning: &[u8]) -> Result<Scene, Failure> {
     // They are among the faces without area, which are named once the tree is built.
     report.degenerate_faces = 0;
     if !report.is_clean() {
-        note(&format!("{name}: {report}"));
+        remark(&name, &report, &report);
     }
     Ok(scene)
 }

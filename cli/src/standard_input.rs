@@ -11,7 +11,7 @@ use crate::memory;
 use crate::progress::Progress;
 use crate::saved_file;
 use crate::scene_arg::Loaded;
-use crate::terminal::note;
+use crate::terminal::{note, remark};
 
 /// The name in messages.
 const NAME: &str = "standard input";
@@ -45,16 +45,17 @@ pub(crate) fn scene() -> Result<Loaded, Failure> {
     if !libraries.is_empty() {
         // Without libraries no material is defined: one note is enough.
         report.missing_materials.clear();
-        note(&format!(
-            "{NAME}: it has no folder to find material libraries in, so all is grey; name the file \
-             to have the colours of {}",
+        let full = format!(
+            "it has no folder to find material libraries in, so all is grey; name the file to have \
+             the colours of {}",
             libraries.join(", ")
-        ));
+        );
+        remark(NAME, "grey without its material libraries", full);
     }
     // They are among the faces without area, which are named once the tree is built.
     report.degenerate_faces = 0;
     if !report.is_clean() {
-        note(&format!("{NAME}: {report}"));
+        remark(NAME, &report, &report);
     }
     Ok(scene.into())
 }

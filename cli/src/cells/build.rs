@@ -24,7 +24,7 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     let mut folder = NewFolder::create(&args.output)?;
     let polygons = Polygons::open(&args.scene)?;
     let (name, total) = (polygons.scene().name().to_owned(), polygons.len());
-    let options = args.build.limits.options(args.build.heuristic.unwrap_or_default());
+    let options = args.build.limits.options(args.build.heuristic);
     let about = |error| job::about(&polygons.scene(), &error);
     let (extent, samples) = polygons.extent_and_samples();
     let partition = options.partition(&extent, samples, cells).map_err(about)?;
@@ -43,8 +43,8 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     }
     drop(progress);
     let Found { sum, .. } = found;
-    job::note_found(&empty, found.dropped(), &sum);
     job::note_length(&empty, &args.build.limits, partition.tolerance(), &sum, quads);
+    job::note_found(&empty, found.dropped(), &sum);
     if sum.dropped == total {
         return Err(Failure::about(name, job::NOTHING_LEFT));
     }

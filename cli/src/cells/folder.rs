@@ -164,7 +164,7 @@ pub(crate) fn asked<'a>(
 ) -> Result<Option<&'a Path>, Failure> {
     let path = named(&scene.name);
     if let Some(path) = path {
-        job::refuse_options(path.display(), build.heuristic.is_some(), &build.limits)?;
+        job::refuse_options(path.display(), build.is_given)?;
     }
     Ok(path)
 }

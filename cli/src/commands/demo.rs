@@ -4,6 +4,7 @@
 use std::ops::AddAssign;
 use std::path::Path;
 
+use binspace::drawing::{VectorPicture, ViewOptions};
 use binspace::paint::paint_tree;
 use binspace::raster::{DepthImage, Rays, compare, zbuffer};
 use binspace::scene::{Builtin, Scene};
@@ -14,17 +15,19 @@ use binspace::{BspTree, BuildOptions, Heuristic};
 use crate::Outcome;
 use crate::args::DemoArgs;
 use crate::camera::{self, FIELD_OF_VIEW};
-use crate::colours::{Colouring, Colours};
+use crate::colours::{BACKGROUND, Colouring, Colours};
 use crate::cull::Cull;
+use crate::drawn::{Style, add_drawing};
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::measure;
 use crate::pictures::{Drawing, Kind};
 use crate::progress::Progress;
+use crate::seams::Seams;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, say, styled};
 use crate::units::{count, time};
-use crate::{job, png_file, svg};
+use crate::{job, png_file};
 
 /// The scenes to show: the smallest that no order of whole polygons solves, a room, a mesh,
 /// and triangles that cross. Small enough for the heuristics that weigh every plane.
@@ -139,7 +142,7 @@ fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure
 /// suffices for all.
 fn make_views(args: &DemoArgs, scene: &Scene, tree: &BspTree) -> Result<Vec<View>, Failure> {
     let count = args.views as usize;
-    let mut cameras = vec![camera::whole(scene, None, FIELD_OF_VIEW, args.size)?];
+    let mut cameras = vec![camera::whole(scene, None, FIELD_OF_VIEW, args.size, camera::MARGIN)?];
     cameras.extend(camera::around_and_inside(scene, None, count - 1, args.size, args.seed)?);
     let view = |camera: Camera| {
         let rays = Rays::new(&camera, tree.faces()).map_err(|e| camera::about(scene, &e))?;
@@ -198,8 +201,14 @@ fn write_pictures(
         let file = NewFile::create(&folder.join(format!("{builtin}-{}.png", kind.name())))?;
         file.write(|out| png_file::write(out, camera.size(), &pixels))?;
     }
+    let seams = Seams::default();
+    let style = Style { scene, camera, colours: &colours, ids: false, is_opaque: false, seams };
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT);
+    let drawn = map.and_then(|map| map.drawing()).map_err(|error| job::about(scene, &error))?;
+    let mut picture = VectorPicture::new(camera.size()).with_background(BACKGROUND);
+    add_drawing(&mut picture, &drawn, &style);
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
-    file.write(|out| svg::write(out, &drawing, scene))
+    file.write(|out| out.write_all(picture.to_svg().as_bytes()))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::measure::{order_nanoseconds, timed_build};
 use crate::scene_arg::Loaded;
 use crate::table::Table;
-use crate::terminal::{HEAD, note, say, styled};
+use crate::terminal::{HEAD, note, remark, say, styled};
 use crate::units::{bytes, count, three_digits, time};
 use crate::values::Heuristics;
 use crate::{cells, job, scene_arg};
@@ -47,8 +47,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
         return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
     }
     let (mut over_budget, mut is_first) = (0, true);
-    let default = Heuristics(vec![Heuristic::default()]);
-    let Heuristics(heuristics) = args.heuristic.as_ref().unwrap_or(&default);
+    let Heuristics(heuristics) = &args.heuristic;
     for &heuristic in heuristics {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
             Ok(built) => built,
@@ -61,10 +60,10 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             Err(error) => return Err(job::about(&scene, &error)),
         };
         if is_first {
-            job::note_preparation(&scene, tree.faces(), tree.preparation());
             job::note_tolerance(&scene, &args.limits, &tree);
+            job::note_preparation(&scene, tree.faces(), tree.preparation());
             if tree.is_empty() {
-                note(&format!("{}: {}", scene.name(), job::NOTHING_LEFT));
+                remark(scene.name(), job::NOTHING_LEFT, job::NOTHING_LEFT);
             }
         }
         let figures = Figures {
@@ -92,7 +91,7 @@ fn of_file(
     tree: &BspTree,
     seconds: f64,
 ) -> Result<Outcome, Failure> {
-    job::refuse_options(scene.name(), args.heuristic.is_some(), &args.limits)?;
+    job::refuse_options(scene.name(), args.is_given)?;
     job::note_preparation(scene, tree.faces(), tree.preparation());
     let figures = Figures {
         heuristic: None,
@@ -110,7 +109,7 @@ fn of_file(
 /// The figures of the trees in a folder.
 fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
     let folder = Folder::open(path)?;
-    job::refuse_options(path.display(), args.heuristic.is_some(), &args.limits)?;
+    job::refuse_options(path.display(), args.is_given)?;
     for number in 0..folder.partition.cells() {
         let begin = Instant::now();
         let cell = folder.cell(number)?;
