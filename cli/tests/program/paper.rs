@@ -52,7 +52,7 @@ fn views_by_name_show_the_sides_of_their_names() {
     let lengths = svg.lines.iter().map(|line| {
         // A point, and the way from it.
         let data = line.data.replace('-', " -");
-        let numbers = data.split(|c: char| c == ' ' || c == 'm').filter(|part| !part.is_empty());
+        let numbers = data.split([' ', 'm']).filter(|part| !part.is_empty());
         let numbers: Vec<f64> = numbers.map(|number| number.parse().unwrap()).collect();
         assert_eq!(numbers.len(), 4, "{data}");
         numbers[2].hypot(numbers[3])
