@@ -9,7 +9,7 @@ use binspace::view::Camera;
 /// The options that take a vector.
 const VECTORS: [&str; 5] = ["--eye", "--direction", "--target", "--up", "--order"];
 
-/// Joins the three numbers of a vector to one argument: `--eye 9 -4 3` to `--eye=9,-4,3`.
+/// Joins the numbers of a vector to one argument: `--eye 9 -4 3` to `--eye=9,-4,3`.
 pub(crate) fn with_joined_vectors(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
     let arguments: Vec<OsString> = arguments.collect();
     let mut joined = Vec::with_capacity(arguments.len());
@@ -20,10 +20,10 @@ pub(crate) fn with_joined_vectors(arguments: impl Iterator<Item = OsString>) -> 
         let is_vector = VECTORS.iter().any(|option| first == *option);
         let numbers = others.iter().take(3).map_while(|number| number.to_str());
         let numbers: Vec<&str> = numbers.map(|number| number.trim_end_matches(',')).collect();
-        let are_three = numbers.len() == 3 && numbers.iter().all(|n| n.parse::<f64>().is_ok());
-        if let (true, true, Some(last)) = (is_vector, are_three, joined.last_mut()) {
-            *last = format!("{}={}", first.to_string_lossy(), numbers.join(",")).into();
-            rest = &others[3..];
+        let count = numbers.iter().take_while(|number| number.parse::<f64>().is_ok()).count();
+        if let (true, 2.., Some(last)) = (is_vector, count, joined.last_mut()) {
+            *last = format!("{}={}", first.to_string_lossy(), numbers[..count].join(",")).into();
+            rest = &others[count..];
         }
     }
     joined
@@ -198,9 +198,10 @@ mod tests {
             ("draw --eye 9 -4 3 s.obj", "draw --eye=9,-4,3 s.obj"),
             ("--eye 1, 2, 3 --eye 4 5 6e1", "--eye=1,2,3 --eye=4,5,6e1"),
             ("--eye 9,-4,3 s.obj --up z", "--eye 9,-4,3 s.obj --up z"),
-            ("--eye 9 -4 s.obj", "--eye 9 -4 s.obj"),
+            // Too few: that is said of the option.
+            ("--eye 9 -4 s.obj", "--eye=9,-4 s.obj"),
             ("--size 9 4 3 --eye=1,2,3 1", "--size 9 4 3 --eye=1,2,3 1"),
-            ("--target 1 2", "--target 1 2"),
+            ("--target 1", "--target 1"),
         ] {
             assert_eq!(joined(line), expected);
         }

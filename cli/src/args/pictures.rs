@@ -109,7 +109,7 @@ pub(crate) struct FillArgs {
     #[arg(long, value_name = "COLOUR", default_value = "white", value_parser = values::background)]
     pub(crate) background: Background,
     /// Draw translucent polygons as opaque ones
-    #[arg(long, conflicts_with = "translucent", hide_short_help = true)]
+    #[arg(long, hide_short_help = true)]
     pub(crate) opaque: bool,
     /// Draw hidden polygons too, below those that hide them
     #[arg(long)]

@@ -98,7 +98,7 @@ fn divide(
     let unwritable = |error: io::Error| {
         Failure::about(beside.display(), format!("cannot be written to: {error}"))
     };
-    let file = |_| Ok(BufWriter::with_capacity(WAITING, crate::unfinished::create_in(beside)?));
+    let file = |_| Ok(BufWriter::with_capacity(WAITING, tempfile::tempfile_in(beside)?));
     let files: io::Result<Vec<BufWriter<File>>> = (0..partition.cells()).map(file).collect();
     let mut files = files.map_err(unwritable)?;
     let _progress = Progress::spinner("dividing");

@@ -85,6 +85,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         || seams == Seams::PlusLighter
         || edges != EdgeChoice::None;
     let map = needs_map.then(|| view.map(&tree)).transpose().map_err(about)?;
+    let mut file = Vec::new();
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         figures.visible = map.polygons().count();
         let background = args.fill.background.0.unwrap_or(BACKGROUND);
@@ -100,8 +101,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         figures.count(&strokes);
         ink::draw(&mut pixels, size, &strokes, width);
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        view.show(None);
-        figures.bytes = output.write_counted(|out| png_file::write(out, size, &pixels))?;
+        view.show(Some("writing"));
+        png_file::write(&mut file, size, &pixels).map_err(|e| Failure::about(scene.name(), e))?;
     } else {
         let strokes = view.strokes(map.as_ref(), edges, format).map_err(about)?;
         figures.count(&strokes);
@@ -112,12 +113,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         view.fill(&mut picture, &tree, map.as_ref(), start, &mut figures).map_err(about)?;
         add_strokes(&mut picture, &strokes, width, ids);
         view.show(Some("writing"));
-        figures.bytes = output.write_counted(|out| match format {
-            DrawFormat::Pdf => out.write_all(&picture.to_pdf()),
-            _ => out.write_all(picture.to_svg().as_bytes()),
-        })?;
-        view.show(None);
+        file = match format {
+            DrawFormat::Pdf => picture.to_pdf(),
+            _ => picture.to_svg().into_bytes(),
+        };
     }
+    figures.bytes = file.len();
+    output.write(|out| out.write_all(&file))?;
+    view.show(None);
     if figures.visible == 0 {
         let nothing = "the picture shows nothing of it";
         remark(scene.name(), nothing, nothing);
@@ -253,7 +256,7 @@ struct Figures {
     /// Parts of edges that are drawn, and the lines that they are joined to.
     runs: usize,
     lines: usize,
-    bytes: u64,
+    bytes: usize,
     /// To build the tree, or to read it.
     tree_seconds: f64,
     /// For the map and the paths, without writing them.

@@ -98,7 +98,6 @@ fn options_that_do_not_fit_are_refused() {
     for (options, expected) in [
         ("-o a.pdf --seams plus-lighter", "a PDF cannot add colours up"),
         ("-o a.svg --seams some", "--seams"),
-        ("-o a.svg --translucent --opaque", "cannot be used with"),
     ] {
         let message = folder.run(&format!("draw s.obj {options}")).refused();
         assert!(message.contains(expected), "{options}: {message}");
