@@ -48,6 +48,7 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     if sum.dropped == total {
         return Err(Failure::about(name, job::NOTHING_LEFT));
     }
+    let _progress = Progress::spinner("writing");
     folder.finish()
 }
 

@@ -89,19 +89,23 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         figures.visible = map.polygons().count();
         let background = args.fill.background.0.unwrap_or(BACKGROUND);
+        view.show(Some(Progress::spinner("drawing")));
         let mut pixels = match is_opaque {
             _ if args.lines.alone => coverage::blank(size, background),
             true => coverage::picture(map, background, |polygon| style.fill(polygon)),
             false => {
-                view.show(Some("dividing the picture"));
-                coverage::blended(size, background, &map.regions().map_err(about)?, &style)
+                view.show(Some(Progress::share("dividing the picture")));
+                let regions = map.regions().map_err(about)?;
+                view.show(Some(Progress::spinner("drawing")));
+                coverage::blended(size, background, &regions, &style)
             }
         };
         let strokes = view.strokes(Some(map), edges, format).map_err(about)?;
         figures.count(&strokes);
+        view.show(Some(Progress::spinner("drawing")));
         ink::draw(&mut pixels, size, &strokes, width);
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        view.show(Some("writing"));
+        view.show(Some(Progress::spinner("writing")));
         png_file::write(&mut file, size, &pixels).map_err(|e| Failure::about(scene.name(), e))?;
     } else {
         let strokes = view.strokes(map.as_ref(), edges, format).map_err(about)?;
@@ -112,7 +116,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         }
         view.fill(&mut picture, &tree, map.as_ref(), start, &mut figures).map_err(about)?;
         add_strokes(&mut picture, &strokes, width, ids);
-        view.show(Some("writing"));
+        view.show(Some(Progress::spinner("writing")));
         file = match format {
             DrawFormat::Pdf => picture.to_pdf(),
             _ => picture.to_svg().into_bytes(),
@@ -177,15 +181,15 @@ fn min_size(args: &DrawArgs, format: DrawFormat) -> f64 {
 
 impl<'a> View<'a> {
     /// Shows the next step, if it takes long.
-    fn show(&self, phase: Option<&'static str>) {
-        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
+    fn show(&self, step: Option<Progress>) {
+        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = step;
     }
 
     fn map<'t>(&self, tree: &'t BspTree) -> Result<VisibilityMap<'t>, Error>
     where
         'a: 't,
     {
-        self.show(Some("finding what shows"));
+        self.show(Some(Progress::share("finding what is visible")));
         tree.visibility(self.style.camera, &self.options)
     }
 
@@ -204,7 +208,7 @@ impl<'a> View<'a> {
         if args.lines.alone {
             return Ok(());
         }
-        self.show(Some("drawing"));
+        self.show(Some(Progress::share("drawing")));
         let drawing = match map {
             Some(map) if style.seams == Seams::PlusLighter => {
                 let regions = map.regions()?;
@@ -224,6 +228,7 @@ impl<'a> View<'a> {
             let drawn = paths.iter().map(|path| path.polygon());
             figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
+        self.show(Some(Progress::spinner("joining paths")));
         add_drawing(picture, &drawing, style);
         Ok(())
     }
@@ -235,7 +240,7 @@ impl<'a> View<'a> {
         format: DrawFormat,
     ) -> Result<Vec<Strokes>, Error> {
         let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
-        self.show(Some("finding lines"));
+        self.show(Some(Progress::share("finding lines")));
         let hidden = self.args.lines.hidden.into();
         let mut runs = map.edges(hidden)?;
         if edges != EdgeChoice::Silhouettes {
