@@ -5,9 +5,9 @@ use std::fs;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use binspace::{BspTree, Error};
 use binspace::internals::open_regular;
 use binspace::scene::{Builtin, BuiltinSpec, ObjReport, Scene};
+use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
 use crate::files::STANDARD;

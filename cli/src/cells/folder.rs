@@ -122,8 +122,7 @@ impl NewFolder {
 
     /// Puts the folder in its place, with all its files.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let placed =
-            files::place_all(self.files, files::folder_of(&self.target), &self.target);
+        let placed = files::place_all(self.files, files::folder_of(&self.target), &self.target);
         placed.map_err(|error| {
             Failure::about(self.target.display(), format!("cannot be written: {error}"))
         })

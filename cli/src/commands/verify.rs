@@ -55,7 +55,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         }
         if seen.comparison.wrong() > 0 {
             let view = reproduce(args, camera);
-            let advice = "with the other options given, and these, `binspace render --difference` draws";
+            let advice =
+                "with the other options given, and these, `binspace render --difference` draws";
             progress.suspend(|| note(&format!("{advice} where view {number} is wrong:\n  {view}")));
         }
         add(&mut total, &seen.comparison);
@@ -127,7 +128,8 @@ fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison, is_right: bo
     format!("{figures}{}", styled(style, verdict))
 }
 
-fn add(total: &mut Comparison, found: &Comparison) {
+/// Adds the figures of a view to those of others.
+pub(super) fn add(total: &mut Comparison, found: &Comparison) {
     total.covered += found.covered;
     total.contested += found.contested;
     total.wrong_order += found.wrong_order;
@@ -195,7 +197,8 @@ mod tests {
         let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
         for view in views {
             let options = reproduce(&args, &view);
-            let Command::Render(again) = parse(&format!("binspace render random:30 -o a {options}"))
+            let Command::Render(again) =
+                parse(&format!("binspace render random:30 -o a {options}"))
             else {
                 panic!("another command")
             };
