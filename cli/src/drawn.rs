@@ -3,9 +3,9 @@
 use binspace::drawing::{Drawing, EdgeKind, EdgeRun, Paint, Path, Region, Stroke, VectorPicture};
 use binspace::scene::Scene;
 use binspace::view::Camera;
+use clap::ValueEnum;
 
 use crate::colours::Colours;
-use crate::seams::Seams;
 use crate::shading::shaded;
 use crate::strokes::Strokes;
 
@@ -22,6 +22,20 @@ pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
         _ => [1.0, 6.0],
     };
     lengths.map(|length: f64| length * width)
+}
+
+/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that both cover half of a
+/// pixel, a quarter of the background shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Seams {
+    /// Opaque polygons reach a little under later opaque neighbours; translucent ones have seams
+    #[default]
+    Trap,
+    /// SVG only: a path for each region where the same polygons show, with their blended colour; viewers
+    /// add the paths up (`mix-blend-mode: plus-lighter`), which leaves no seam, translucent or not
+    PlusLighter,
+    /// Nothing: paths are the polygons alone
+    None,
 }
 
 /// The source of the colours of paths.

@@ -19,25 +19,6 @@ const NAMED: usize = 3;
 /// The message for a scene of which no face is left.
 pub const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
 
-/// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name
-/// everything that was left out.
-pub(crate) fn scene_and_tree(
-    scene: &SceneArgs,
-    build: &BuildArgs,
-) -> Result<(Scene, BspTree), Failure> {
-    let (scene, tree, _) = timed_scene_and_tree(scene, build)?;
-    Ok((scene, tree))
-}
-
-/// The same, with the seconds that it took to build the tree, or to read its file.
-pub(crate) fn timed_scene_and_tree(
-    scene: &SceneArgs,
-    build: &BuildArgs,
-) -> Result<(Scene, BspTree, f64), Failure> {
-    let Made { scene, tree, seconds, .. } = make(scene, build)?;
-    Ok((scene, tree, seconds))
-}
-
 /// A scene and its tree.
 pub(crate) struct Made {
     pub(crate) scene: Scene,
@@ -50,7 +31,8 @@ pub(crate) struct Made {
     pub(crate) stored_name: String,
 }
 
-/// The same, with how it was made.
+/// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name everything that
+/// was left out.
 pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure> {
     let mut begin = Instant::now();
     let Loaded { scene, tree, stored_name } = scene_arg::load(&scene.name, scene.seed)?;

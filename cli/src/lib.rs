@@ -27,7 +27,6 @@ pub mod progress;
 mod samples;
 mod saved_file;
 pub mod scene_arg;
-mod seams;
 mod shading;
 mod signals;
 mod strokes;

@@ -44,7 +44,8 @@ pub(crate) enum Notes {
     None,
 }
 
-static NOTES: AtomicU8 = AtomicU8::new(Notes::Brief as u8);
+/// Without options that set it, as in `binspace-lab`, each note is printed at once.
+static NOTES: AtomicU8 = AtomicU8::new(Notes::Each as u8);
 /// The notes on scenes that are still to be printed.
 static WAITING: Mutex<Vec<Remark>> = Mutex::new(Vec::new());
 

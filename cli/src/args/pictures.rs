@@ -8,9 +8,9 @@ use super::{BuildArgs, SceneArgs, examples};
 use crate::camera::ViewArgs;
 use crate::colours::Colouring;
 use crate::cull::CullArgs;
+use crate::drawn::Seams;
 use crate::pictures::Bright;
 use crate::samples;
-use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden};
 use crate::values::{self, Background};
 

@@ -16,16 +16,16 @@ use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
 use crate::colours::{BACKGROUND, Colours};
 use crate::cull::Cull;
-use crate::drawn::{Style, add_drawing, add_regions, add_strokes};
+use crate::drawn::{Seams, Style, add_drawing, add_regions, add_strokes};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::format::{about_output, format};
+use crate::job::{self, Made};
 use crate::progress::Progress;
-use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Strokes, strokes};
 use crate::terminal::{remark, say};
 use crate::upright::note_up;
-use crate::{camera, coverage, ink, job, png_file};
+use crate::{camera, coverage, ink, png_file};
 
 /// The default side of the square, in pixels, that a polygon has to show in a vector picture.
 const MIN_SIZE: f64 = 0.01;
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if format != DrawFormat::Svg && output.is_terminal() {
         return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
     }
-    let (scene, tree, tree_seconds) = job::timed_scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);
     let camera = match args.scale {
         Some(scale) => camera::to_scale(&args.view, &scene, scale * pixels_in_inch(format) / INCH)?,

@@ -17,7 +17,7 @@ use crate::colours::{Colouring, Colours};
 use crate::failure::Failure;
 use crate::files::{NewFile, Output, STANDARD};
 use crate::format::format;
-use crate::job;
+use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::samples::linear;
 
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
         _ => None,
     };
     let materials = library.as_deref().map(NewFile::create).transpose()?;
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     let _progress = Progress::spinner("writing");
     let about = |error| job::about(&scene, &error);
     let mesh = if args.unwelded { tree.mesh() } else { tree.welded_mesh() }.map_err(about)?;

@@ -12,11 +12,12 @@ use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::Output;
 use crate::format::about_output;
+use crate::job::{self, Made};
 use crate::pictures::{Drawing, Kind};
 use crate::terminal::note;
 use crate::units::count;
 use crate::upright::note_up;
-use crate::{camera, cells, job, png_file};
+use crate::{camera, cells, png_file};
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
@@ -31,7 +32,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
         cells::draw::render(args, path, output)?;
         return Ok(Outcome::Done);
     }
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);
     let camera = camera::asked(&args.view, &scene)?;
     let colours = Colours::new(&scene, args.look.colours);

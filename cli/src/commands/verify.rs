@@ -7,18 +7,19 @@ use serde_json::json;
 
 use crate::Outcome;
 use crate::args::VerifyArgs;
+use crate::camera;
 use crate::cull::Cull;
 use crate::failure::Failure;
+use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::count;
 use crate::upright::note_up;
-use crate::{camera, job};
 
 /// Runs the command.
 pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.up);
     let (views, up) = (args.views as usize, args.up.given());
     let cameras = camera::around_and_inside(&scene, up, views, args.size, args.scene.seed)?;
