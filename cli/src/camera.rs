@@ -28,11 +28,11 @@ pub(crate) struct ViewArgs {
     pub(crate) eye: Option<DVec3>,
     /// Direction of view of a parallel projection
     #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
-    #[arg(allow_hyphen_values = true, conflicts_with_all = ["eye", "fov"])]
+    #[arg(allow_hyphen_values = true, group = "parallel", conflicts_with_all = ["eye", "fov"])]
     pub(crate) direction: Option<DVec3>,
     /// Parallel view by name: front, top, right or iso
     #[arg(long, value_name = "NAME", value_enum, hide_possible_values = true)]
-    #[arg(conflicts_with_all = ["direction", "eye", "fov"])]
+    #[arg(group = "parallel", conflicts_with_all = ["eye", "fov"])]
     pub(crate) view: Option<View>,
     /// Point in the middle of the picture [default: the scene's middle]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
@@ -137,11 +137,8 @@ fn directed(args: &ViewArgs, scene: &Scene) -> (Option<DVec3>, Option<DVec3>) {
 /// A parallel camera that shows a scene with a number of pixels for each of its units. The picture is as large as
 /// that takes.
 pub(crate) fn to_scale(args: &ViewArgs, scene: &Scene, scale: f64) -> Result<Camera, Failure> {
-    let (direction, up) = directed(args, scene);
-    let Some(direction) = direction else {
-        let problem = "--scale needs a parallel view: add --view or --direction";
-        return Err(Failure::about(scene.name(), problem));
-    };
+    // The command line takes a scale only with a direction.
+    let (Some(direction), up) = directed(args, scene) else { return asked(args, scene) };
     let camera =
         upright(scene, up, |up| framing::to_scale(direction, up, scene, scale, args.margin));
     let camera = camera.map_err(|error| about(scene, &error))?;

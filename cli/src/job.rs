@@ -108,8 +108,8 @@ pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, fo
     }
 }
 
-/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if the file's
-/// decimals decided that.
+/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if it is more than the
+/// usual 1e-9 of the extent because of the file's decimals.
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
     let quads = scene.polygons().filter(|polygon| polygon.points().len() > 3).count();
     let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
@@ -136,12 +136,9 @@ pub(crate) fn note_length(
         );
         let brief = format!("tolerance {taken}, `{advice}` would keep {} whole", found.bent);
         remark(scene.name(), brief, full);
-    } else if scene.precision() > 0.0 && limits.tolerance.is_none() {
-        let bound = match tolerance / scene.precision() {
-            ..0.999 => ", 1e-5 of the extent and the largest by default",
-            1.001.. => ", 1e-9 of the extent and the least by default",
-            _ => "",
-        };
+    } else if tolerance < 1.001 * scene.precision() && limits.tolerance.is_none() {
+        let is_bound = tolerance < 0.999 * scene.precision();
+        let bound = if is_bound { ", 1e-5 of the extent and the largest by default" } else { "" };
         let full = format!(
             "its coordinates are precise to {}, so the tolerance is {taken}{bound}, unless you give \
              `--tolerance`",

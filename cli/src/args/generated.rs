@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use clap::{CommandFactory, ValueEnum};
+use clap::{Command, CommandFactory, ValueEnum};
 use clap_complete::Shell;
 
 use super::Cli;
@@ -19,7 +19,10 @@ pub(crate) fn generate(folder: &Path) -> Result<(), Failure> {
         clap_complete::generate_to(shell, &mut Cli::command(), "binspace", &completions)
             .map_err(unwritable)?;
     }
-    clap_mangen::generate_to(Cli::command(), &man).map_err(unwritable)
+    // Manual pages omit the text of options that the short help hides.
+    let show = |command: Command| command.mut_args(|option| option.hide_short_help(false));
+    let command = show(Cli::command().mut_subcommands(show));
+    clap_mangen::generate_to(command, &man).map_err(unwritable)
 }
 
 #[cfg(test)]

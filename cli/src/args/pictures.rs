@@ -70,7 +70,7 @@ pub(crate) struct DrawArgs {
     pub(crate) view: ViewArgs,
     /// Millimetres of paper for each unit of the scene, with --view or --direction
     #[arg(long, value_name = "MM", value_parser = values::positive, help_heading = "View")]
-    #[arg(conflicts_with_all = ["eye", "fov", "size"], hide_short_help = true)]
+    #[arg(requires = "parallel", conflicts_with = "size", hide_short_help = true)]
     pub(crate) scale: Option<f64>,
     #[command(flatten)]
     pub(crate) lines: LineArgs,

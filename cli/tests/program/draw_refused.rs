@@ -60,7 +60,7 @@ fn what_cannot_be_drawn_is_said_at_once() {
         ("-o p.svg --background red", "such as #ffeecc"),
         ("-o p.svg --margin 50", "0 to 45 percent"),
         ("-o p.svg --line-width 0", "more than 0"),
-        ("-o p.pdf --scale 2", "--scale needs a parallel view: add --view"),
+        ("-o p.pdf --scale 2", "not provided:\n  <--direction <X,Y,Z>|--view <NAME>>"),
         ("-o p.pdf --scale 2 --view top --size 9x9", "cannot be used with"),
         ("-o p.pdf --scale 1e9 --view top", "4294967295"),
         ("-o p.svg --view top --fov 9", "cannot be used with"),
