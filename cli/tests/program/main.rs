@@ -22,6 +22,7 @@ mod notes;
 mod order;
 mod output;
 mod page;
+mod paper;
 mod pipes;
 mod png_picture;
 mod real_scenes;
