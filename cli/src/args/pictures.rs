@@ -51,7 +51,7 @@ pub(crate) struct RenderArgs {
     pub(crate) build: BuildArgs,
 }
 
-/// Draw a view as SVG, PDF or PNG with one path for each polygon that shows, or as lines
+/// Draw a view as SVG, PDF, TikZ, DXF or PNG with one path for each polygon that shows, or as lines
 ///
 /// Each polygon is drawn whole, before those that show in front of it; the few that cannot be put in
 /// order, as each hides some of another, are cut to what shows of them. What is hidden is not in the
@@ -60,7 +60,8 @@ pub(crate) struct RenderArgs {
 /// `binspace render -o FILE.svg` writes all fragments of the tree instead, the hidden ones too, and
 /// translucent ones as such.
 ///
-/// A PDF has one page, with a point for each pixel. A PNG has in each pixel the colours that show there,
+/// A PDF has one page, with a point for each pixel. A TEX file has TikZ: it compiles by itself, and by `\input`
+/// in a document. A DXF has lines alone, as with --lines. A PNG has in each pixel the colours that show there,
 /// each by the exact area that it has of the pixel, and blended by their numbers as SVG viewers do; lines are
 /// drawn over them by the area that they cover.
 ///
@@ -70,7 +71,8 @@ pub(crate) struct RenderArgs {
 pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write, complete or not at all: .svg, .pdf or .png; - for standard output
+    /// File to write, complete or not at all: .svg, .pdf, .tex, .dxf or .png; - for standard
+    /// output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Format to write [default: by the file's name; svg for standard output]
@@ -155,6 +157,10 @@ pub(crate) enum DrawFormat {
     Svg,
     /// Paths and lines, on a page
     Pdf,
+    /// Paths and lines, as TikZ for LaTeX
+    Tex,
+    /// Lines for CAD programs, with a layer for each kind
+    Dxf,
     /// Pixels
     Png,
 }

@@ -26,7 +26,7 @@ use crate::seams::Seams;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::{note, say};
 use crate::upright::note_z_up;
-use crate::{camera, coverage, ink, job, png_file};
+use crate::{camera, coverage, dxf, ink, job, png_file};
 
 /// The default side of the square, in pixels, that a polygon has to show.
 const MIN_SIZE: f64 = 0.01;
@@ -36,10 +36,11 @@ const LONGEST: u32 = 14_400;
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
-    let edges = edges(args);
-    check(args, format, edges).map_err(|problem| about_output(&args.output, &problem))?;
+    let lines = args.lines || format == DrawFormat::Dxf;
+    let edges = edges(args, lines);
+    check(args, format, lines, edges).map_err(|problem| about_output(&args.output, &problem))?;
     let output = Output::open(Some(&args.output))?;
-    if format != DrawFormat::Svg && output.is_terminal() {
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
         let problem = "a PDF or PNG is not for a terminal: pipe it, or name a file";
         return Err(about_output(&args.output, problem));
     }
@@ -65,7 +66,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     };
     let bar = Mutex::default();
     let go_on = |progress| go_on(&bar, progress);
-    let view = View { args, style, bar: &bar, options: options(args, format, &style, &go_on) };
+    let view =
+        View { args, lines, style, bar: &bar, options: options(args, format, &style, &go_on) };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -83,7 +85,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         figures.visible = map.polygons().count();
         let mut pixels = match is_opaque {
-            _ if args.lines => coverage::blank(camera.size()),
+            _ if lines => coverage::blank(camera.size()),
             true => coverage::picture(map, |polygon| style.fill(polygon)),
             false => {
                 view.show(Some("dividing the picture"));
@@ -105,7 +107,9 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         add_strokes(&mut picture, &strokes, args.ids);
         view.show(None);
         figures.bytes = output.write_counted(|out| match format {
+            DrawFormat::Dxf => dxf::write(out, camera.size(), &strokes),
             DrawFormat::Pdf => out.write_all(&picture.to_pdf()),
+            DrawFormat::Tex => out.write_all(picture.to_tikz().as_bytes()),
             _ => out.write_all(picture.to_svg().as_bytes()),
         })?;
     }
@@ -121,6 +125,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
 /// The content of the drawing, and its style.
 struct View<'a> {
     args: &'a DrawArgs,
+    /// Whether lines alone are drawn.
+    lines: bool,
     style: Style<'a>,
     /// The progress bar of the step that is being done, if one is shown.
     bar: &'a Mutex<Option<Progress>>,
@@ -182,7 +188,7 @@ impl<'a> View<'a> {
         let Self { args, style, .. } = self;
         figures.visible = map.map_or(0, |map| map.polygons().count());
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        if args.lines {
+        if self.lines {
             return Ok(());
         }
         self.show(Some("drawing"));
@@ -252,29 +258,34 @@ impl Figures {
 }
 
 /// The edges that are drawn. By default they are the edges of a line drawing that are seen best.
-fn edges(args: &DrawArgs) -> EdgeChoice {
-    let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
+fn edges(args: &DrawArgs, lines: bool) -> EdgeChoice {
+    let default = if lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
     args.edges.unwrap_or(default)
 }
 
 /// An error if options do not fit together.
-fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), String> {
+fn check(
+    args: &DrawArgs,
+    format: DrawFormat,
+    lines: bool,
+    edges: EdgeChoice,
+) -> Result<(), String> {
     let has_lines = edges != EdgeChoice::None;
     let longest = args.view.size[0].max(args.view.size[1]);
     let problem = if args.json && args.output == Path::new(STANDARD) {
         "the drawing and the figures of --json cannot both go there: name a file"
-    } else if args.lines && !has_lines {
-        "with --lines and `--edges none` there is nothing to draw: choose other edges"
+    } else if lines && !has_lines {
+        "a DXF, and --lines, have no polygons: with `--edges none` there is nothing to draw"
     } else if matches!(args.hidden, Some(Hidden::Dashed | Hidden::Layers)) && !has_lines {
         "--hidden is for lines: add --lines, or --edges for lines over the polygons"
-    } else if args.seams.is_some() && args.lines {
-        "--lines draws no polygons, so that there are no seams: leave out one of the two"
+    } else if args.seams.is_some() && lines {
+        "a DXF, and --lines, have no polygons and no seams: leave out --seams"
     } else if args.seams.is_some() && format == DrawFormat::Png {
-        "--seams is for SVG and PDF: pixels of a PNG have no seams"
-    } else if args.seams == Some(Seams::PlusLighter) && format == DrawFormat::Pdf {
-        "a PDF cannot add colours up: give `--seams trap` or none, or write .svg"
-    } else if args.translucent && args.lines {
-        "--lines draws no polygons, so that none is translucent: leave out one of the two"
+        "--seams is for SVG, PDF and TikZ: pixels of a PNG have no seams"
+    } else if args.seams == Some(Seams::PlusLighter) && format != DrawFormat::Svg {
+        "only an SVG can add colours up: give `--seams trap` or none, or write .svg"
+    } else if args.translucent && lines {
+        "a DXF, and --lines, have no polygons: leave out --translucent"
     } else if args.translucent
         && args.min_size.is_some()
         && !has_lines
@@ -284,11 +295,11 @@ fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), S
     } else if format != DrawFormat::Svg && args.ids {
         "--ids is for SVG: other formats have no place for names"
     } else if format == DrawFormat::Png && args.min_size.is_some() && !has_lines {
-        "--min-size is for SVG, PDF and lines: a PNG has of each polygon just what it shows"
-    } else if format == DrawFormat::Pdf && longest > LONGEST {
+        "--min-size is for vectors and lines: a PNG has of each polygon just what it shows"
+    } else if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && longest > LONGEST {
         return Err(format!(
-            "a page of a PDF has at most {} points each way, one for each pixel: give a smaller --size",
-            LONGEST
+            "a page of a PDF or of TeX has at most {LONGEST} points each way, one for each pixel: give a \
+             smaller --size"
         ));
     } else {
         return Ok(());
