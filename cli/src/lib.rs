@@ -11,6 +11,7 @@ mod commands;
 mod coverage;
 mod cull;
 mod drawn;
+mod dxf;
 pub mod failure;
 pub mod files;
 mod format;

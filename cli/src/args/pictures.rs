@@ -48,13 +48,13 @@ pub(crate) struct LookArgs {
     pub(crate) cull: CullArgs,
 }
 
-/// Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines
+/// Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines
 #[derive(Args, Debug)]
 #[command(after_help = examples::DRAW)]
 pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write: .svg, .pdf or .png; - for standard output
+    /// File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Format to write [default: by the file's name; svg for standard output]
@@ -128,6 +128,8 @@ pub(crate) struct FillArgs {
 pub(crate) enum DrawFormat {
     Svg,
     Pdf,
+    Tex,
+    Dxf,
     Png,
 }
 

@@ -25,7 +25,7 @@ use crate::progress::Progress;
 use crate::strokes::{EdgeChoice, Strokes, strokes};
 use crate::terminal::{remark, say};
 use crate::upright::note_up;
-use crate::{camera, coverage, ink, png_file};
+use crate::{camera, coverage, dxf, ink, png_file};
 
 /// The default side of the square, in pixels, that a polygon has to show in a vector picture.
 const MIN_SIZE: f64 = 0.01;
@@ -37,11 +37,15 @@ const INCH: f64 = 25.4;
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
+    let lines = args.lines.alone || format == DrawFormat::Dxf;
     let about_output = |problem: &str| about_output(&args.output, problem);
-    check(args, format).map_err(about_output)?;
-    let edges = args.lines.edges;
+    check(args, format, lines).map_err(about_output)?;
+    let edges = match args.lines.edges {
+        EdgeChoice::None if format == DrawFormat::Dxf => EdgeChoice::DEFAULT,
+        edges => edges,
+    };
     let output = Output::open(Some(&args.output))?;
-    if format != DrawFormat::Svg && output.is_terminal() {
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
         return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
     }
     let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
@@ -51,10 +55,10 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         None => camera::asked(&args.view, &scene)?,
     };
     let size = camera.size();
-    if format == DrawFormat::Pdf && size[0].max(size[1]) > LONGEST {
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && size[0].max(size[1]) > LONGEST {
         return Err(about_output(&format!(
-            "a page of a PDF has at most {LONGEST} points each way, and this one would have {} x {}: \
-             give a smaller --size or --scale",
+            "a page of a PDF or of TeX has at most {LONGEST} points each way, and this one would have \
+             {} x {}: give a smaller --size or --scale",
             size[0], size[1]
         )));
     }
@@ -70,7 +74,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let style = Style { scene: &scene, camera: &camera, colours: &colours, ids, is_opaque, seams };
     let bar = Mutex::default();
     let go_on = |progress| go_on(&bar, progress);
-    let view = View { args, style, bar: &bar, options: options(args, format, &style, &go_on) };
+    let view =
+        View { args, lines, style, bar: &bar, options: options(args, format, &style, &go_on) };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -91,7 +96,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         let background = args.fill.background.0.unwrap_or(BACKGROUND);
         view.show(Some(Progress::spinner("drawing")));
         let mut pixels = match is_opaque {
-            _ if args.lines.alone => coverage::blank(size, background),
+            _ if lines => coverage::blank(size, background),
             true => coverage::picture(map, background, |polygon| style.fill(polygon)),
             false => {
                 view.show(Some(Progress::share("dividing the picture")));
@@ -118,8 +123,10 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         add_strokes(&mut picture, &strokes, width, ids);
         view.show(Some(Progress::spinner("writing")));
         file = match format {
+            DrawFormat::Dxf => dxf::written(size, &strokes),
             DrawFormat::Pdf => picture.to_pdf(),
-            _ => picture.to_svg().into_bytes(),
+            DrawFormat::Tex => picture.to_tikz().into_bytes(),
+            DrawFormat::Svg | DrawFormat::Png => picture.to_svg().into_bytes(),
         };
     }
     figures.bytes = file.len();
@@ -137,12 +144,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
 
 /// The pixels of a picture in an inch of paper: points in PDF, and the pixels of CSS elsewhere.
 fn pixels_in_inch(format: DrawFormat) -> f64 {
-    if format == DrawFormat::Pdf { 72.0 } else { 96.0 }
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) { 72.0 } else { 96.0 }
 }
 
 /// The content of the drawing, and its style.
 struct View<'a> {
     args: &'a DrawArgs,
+    /// Whether lines alone are drawn.
+    lines: bool,
     style: Style<'a>,
     /// The progress bar of the step that is being done, if one is shown.
     bar: &'a Mutex<Option<Progress>>,
@@ -205,7 +214,7 @@ impl<'a> View<'a> {
         let Self { args, style, .. } = self;
         figures.visible = map.map_or(0, |map| map.polygons().count());
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        if args.lines.alone {
+        if self.lines {
             return Ok(());
         }
         self.show(Some(Progress::share("drawing")));
@@ -277,14 +286,17 @@ impl Figures {
 }
 
 /// An error if options do not fit together.
-fn check(args: &DrawArgs, format: DrawFormat) -> Result<(), &'static str> {
+fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'static str> {
     let is_png = format == DrawFormat::Png;
     if args.json && args.output == Path::new(STANDARD) {
         Err("the drawing and the figures of --json cannot both go there: name a file")
     } else if args.lines.alone && args.lines.edges == EdgeChoice::None {
         Err("with --lines and `--edges none` there is nothing to draw: choose other edges")
-    } else if args.fill.seams == Seams::PlusLighter && format == DrawFormat::Pdf {
-        Err("a PDF cannot add colours up: give `--seams trap` or none, or write .svg")
+    } else if args.fill.seams == Seams::PlusLighter
+        && !lines
+        && matches!(format, DrawFormat::Pdf | DrawFormat::Tex)
+    {
+        Err("only an SVG can add colours up: give `--seams trap` or none, or write .svg")
     } else if format != DrawFormat::Svg && args.ids {
         Err("only SVG has a place for names: write .svg, or leave out --ids")
     } else if is_png && args.fill.background.0.is_none() {

@@ -16,8 +16,8 @@ use crate::{camera, format};
 
 /// The shape of the picture for which the first view is chosen.
 const SIZE: [u32; 2] = [1280, 720];
-/// With more fragments than this, a page draws a few pictures a second. Too small: notes on pages that turn
-/// well. Too large: people wait and do not know why.
+/// With more fragments than this, a page draws a few pictures a second without a graphics card. Too small:
+/// notes on pages that turn well. Too large: people wait and do not know why.
 const MANY: usize = 200_000;
 
 /// Runs the command.
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
     }
     if tree.len() > MANY {
         let fragments = count(tree.len(), "fragment");
-        let slow = format!("{fragments}, so the page will turn slowly");
+        let slow = format!("{fragments}, so the page turns slowly without a graphics card");
         remark(scene.name(), &slow, &slow);
     }
     let up = args.up.given().unwrap_or_else(|| up_of(scene));

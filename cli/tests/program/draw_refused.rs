@@ -45,8 +45,11 @@ fn what_cannot_be_drawn_is_said_at_once() {
     let folder = Folder::new("draw_bad");
     for (options, problem) in [
         ("", "--output"),
-        ("-o p.gif", "p.gif: name a file that ends in one of .svg, .pdf, .png"),
-        ("-o p", "p: name a file that ends in one of .svg, .pdf, .png, or give --format"),
+        ("-o p.gif", "p.gif: name a file that ends in one of .svg, .pdf, .tex, .dxf, .png"),
+        (
+            "-o p",
+            "p: name a file that ends in one of .svg, .pdf, .tex, .dxf, .png, or give --format",
+        ),
         ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
         ("-o p.svg --format gif", "--format"),
         ("-o p.svg --lines --edges none", "there is nothing to draw"),
@@ -66,7 +69,7 @@ fn what_cannot_be_drawn_is_said_at_once() {
         ("-o p.svg --view top --fov 9", "cannot be used with"),
         ("-o p.svg --view back", "front, top, right, iso"),
         ("-o p.svg --eye 1,2", "as in 9,-4,3 or 9 -4 3, not 2"),
-        ("-o p.pdf --size 14401x2", "a PDF has at most 14400 points each way"),
+        ("-o p.pdf --size 14401x2", "a PDF or of TeX has at most 14400 points each way"),
         ("-o missing/p.pdf", "cannot be written"),
         ("-o missing/p.png", "cannot be written"),
         ("-o missing/p.svg", "cannot be written"),
