@@ -33,7 +33,7 @@ Register-ArgumentCompleter -Native -CommandName 'binspace' -ScriptBlock {
             [CompletionResult]::new('verify', 'verify', [CompletionResultType]::ParameterValue, 'Paint a scene in order and compare every pixel with a depth buffer')
             [CompletionResult]::new('stats', 'stats', [CompletionResultType]::ParameterValue, 'Build trees of a scene and print their figures')
             [CompletionResult]::new('render', 'render', [CompletionResultType]::ParameterValue, 'Draw a scene as pixels: a PNG')
-            [CompletionResult]::new('draw', 'draw', [CompletionResultType]::ParameterValue, 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines')
+            [CompletionResult]::new('draw', 'draw', [CompletionResultType]::ParameterValue, 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines')
             [CompletionResult]::new('page', 'page', [CompletionResultType]::ParameterValue, 'Write a self-contained page in which people turn the scene, for a browser')
             [CompletionResult]::new('export', 'export', [CompletionResultType]::ParameterValue, 'Write a tree''s fragments as triangles, for other programs')
             [CompletionResult]::new('build', 'build', [CompletionResultType]::ParameterValue, 'Build a scene''s tree and write it to a file that every command takes as a scene')
@@ -135,8 +135,8 @@ Register-ArgumentCompleter -Native -CommandName 'binspace' -ScriptBlock {
         }
         'binspace;draw' {
             [CompletionResult]::new('--seed', '--seed', [CompletionResultType]::ParameterName, 'Seed of random built-in scenes and of random views')
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'File to write: .svg, .pdf or .png; - for standard output')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'File to write: .svg, .pdf or .png; - for standard output')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output')
             [CompletionResult]::new('--format', '--format', [CompletionResultType]::ParameterName, 'Format to write [default: by the file''s name; svg for standard output]')
             [CompletionResult]::new('--eye', '--eye', [CompletionResultType]::ParameterName, 'Position of the eye')
             [CompletionResult]::new('--direction', '--direction', [CompletionResultType]::ParameterName, 'Direction of view of a parallel projection')
@@ -240,7 +240,7 @@ Register-ArgumentCompleter -Native -CommandName 'binspace' -ScriptBlock {
             [CompletionResult]::new('verify', 'verify', [CompletionResultType]::ParameterValue, 'Paint a scene in order and compare every pixel with a depth buffer')
             [CompletionResult]::new('stats', 'stats', [CompletionResultType]::ParameterValue, 'Build trees of a scene and print their figures')
             [CompletionResult]::new('render', 'render', [CompletionResultType]::ParameterValue, 'Draw a scene as pixels: a PNG')
-            [CompletionResult]::new('draw', 'draw', [CompletionResultType]::ParameterValue, 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines')
+            [CompletionResult]::new('draw', 'draw', [CompletionResultType]::ParameterValue, 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines')
             [CompletionResult]::new('page', 'page', [CompletionResultType]::ParameterValue, 'Write a self-contained page in which people turn the scene, for a browser')
             [CompletionResult]::new('export', 'export', [CompletionResultType]::ParameterValue, 'Write a tree''s fragments as triangles, for other programs')
             [CompletionResult]::new('build', 'build', [CompletionResultType]::ParameterValue, 'Build a scene''s tree and write it to a file that every command takes as a scene')

@@ -216,7 +216,7 @@ _binspace() {
                     return 0
                     ;;
                 --format)
-                    COMPREPLY=($(compgen -W "svg pdf png" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "svg pdf tex dxf png" -- "${cur}"))
                     return 0
                     ;;
                 --eye)

@@ -30,7 +30,7 @@ set edit:completion:arg-completer[binspace] = {|@words|
             cand verify 'Paint a scene in order and compare every pixel with a depth buffer'
             cand stats 'Build trees of a scene and print their figures'
             cand render 'Draw a scene as pixels: a PNG'
-            cand draw 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines'
+            cand draw 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines'
             cand page 'Write a self-contained page in which people turn the scene, for a browser'
             cand export 'Write a tree''s fragments as triangles, for other programs'
             cand build 'Build a scene''s tree and write it to a file that every command takes as a scene'
@@ -126,8 +126,8 @@ set edit:completion:arg-completer[binspace] = {|@words|
         }
         &'binspace;draw'= {
             cand --seed 'Seed of random built-in scenes and of random views'
-            cand -o 'File to write: .svg, .pdf or .png; - for standard output'
-            cand --output 'File to write: .svg, .pdf or .png; - for standard output'
+            cand -o 'File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output'
+            cand --output 'File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output'
             cand --format 'Format to write [default: by the file''s name; svg for standard output]'
             cand --eye 'Position of the eye'
             cand --direction 'Direction of view of a parallel projection'
@@ -225,7 +225,7 @@ set edit:completion:arg-completer[binspace] = {|@words|
             cand verify 'Paint a scene in order and compare every pixel with a depth buffer'
             cand stats 'Build trees of a scene and print their figures'
             cand render 'Draw a scene as pixels: a PNG'
-            cand draw 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines'
+            cand draw 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines'
             cand page 'Write a self-contained page in which people turn the scene, for a browser'
             cand export 'Write a tree''s fragments as triangles, for other programs'
             cand build 'Build a scene''s tree and write it to a file that every command takes as a scene'

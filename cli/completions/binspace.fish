@@ -34,7 +34,7 @@ complete -c binspace -n "__fish_binspace_needs_command" -f -a "order" -d 'Write 
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "verify" -d 'Paint a scene in order and compare every pixel with a depth buffer'
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "stats" -d 'Build trees of a scene and print their figures'
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "render" -d 'Draw a scene as pixels: a PNG'
-complete -c binspace -n "__fish_binspace_needs_command" -f -a "draw" -d 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines'
+complete -c binspace -n "__fish_binspace_needs_command" -f -a "draw" -d 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines'
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "page" -d 'Write a self-contained page in which people turn the scene, for a browser'
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "export" -d 'Write a tree\'s fragments as triangles, for other programs'
 complete -c binspace -n "__fish_binspace_needs_command" -f -a "build" -d 'Build a scene\'s tree and write it to a file that every command takes as a scene'
@@ -118,9 +118,11 @@ complete -c binspace -n "__fish_binspace_using_subcommand render" -l quiet -d 'P
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l notes -d 'Print each note in full, in a line of its own'
 complete -c binspace -n "__fish_binspace_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l seed -d 'Seed of random built-in scenes and of random views' -r
-complete -c binspace -n "__fish_binspace_using_subcommand draw" -s o -l output -d 'File to write: .svg, .pdf or .png; - for standard output' -r -F
+complete -c binspace -n "__fish_binspace_using_subcommand draw" -s o -l output -d 'File to write: .svg, .pdf, .tex, .dxf or .png; - for standard output' -r -F
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l format -d 'Format to write [default: by the file\'s name; svg for standard output]' -r -f -a "svg\t''
 pdf\t''
+tex\t''
+dxf\t''
 png\t''"
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l eye -d 'Position of the eye' -r
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l direction -d 'Direction of view of a parallel projection' -r
@@ -209,7 +211,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_s
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "verify" -d 'Paint a scene in order and compare every pixel with a depth buffer'
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "stats" -d 'Build trees of a scene and print their figures'
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "render" -d 'Draw a scene as pixels: a PNG'
-complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "draw" -d 'Draw a view as vectors: SVG or PDF, one path a visible polygon, or lines'
+complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "draw" -d 'Draw a view as vectors: SVG, PDF, TikZ or DXF, one path a visible polygon, or lines'
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "page" -d 'Write a self-contained page in which people turn the scene, for a browser'
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "export" -d 'Write a tree\'s fragments as triangles, for other programs'
 complete -c binspace -n "__fish_binspace_using_subcommand help; and not __fish_seen_subcommand_from demo order verify stats render draw page export build scenes generate help" -f -a "build" -d 'Build a scene\'s tree and write it to a file that every command takes as a scene'
