@@ -169,7 +169,7 @@ pub struct Overlay {
     preparation: Preparation,
     /// For each face that is a segment, its number in its line.
     segments: Vec<u32>,
-    /// The boxes of the pieces, which the first ray makes.
+    /// The boxes of the pieces, which the first ray or culled order makes.
     bounds: OnceLock<Bounds>,
 }
 
@@ -334,11 +334,15 @@ impl Overlay {
         self.expect(tree)?;
         let pieces = (!self.is_empty()).then(|| {
             let (faces, stored) = (&self.faces, self.pieces.stored());
-            let flat = |piece| Fragment::new(faces, stored, piece, 0).flat_bounds();
-            let bounds = self.bounds.get_or_init(|| Bounds::of_pieces(self.len(), flat));
-            Pieces { faces, stored, bounds }
+            Pieces { faces, stored, bounds: self.boxes() }
         });
         Ok(Targets { tree, pieces })
+    }
+
+    /// The boxes of the pieces, computed at the first use.
+    fn boxes(&self) -> &Bounds {
+        let flat = |piece| Fragment::new(&self.faces, self.pieces.stored(), piece, 0).flat_bounds();
+        self.bounds.get_or_init(|| Bounds::of_pieces(self.len(), flat))
     }
 
     /// How many of the overlay's polygons were dropped or triangulated.

@@ -13,8 +13,7 @@ use super::Overlay;
 use super::replace::Shape;
 use crate::error::Error;
 use crate::exact::{Faces, PlaneId};
-use crate::tree::bounds::around;
-use crate::tree::culling::Cull;
+use crate::tree::culling::{Cull, Subtree};
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
 use crate::tree::{BspTree, Culling, Order};
@@ -221,6 +220,31 @@ impl Overlay {
         self.expect(tree)?;
         Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
+
+    /// Whether no plane of the tree, and none on the way to the overlay's pieces, lies between two viewpoints.
+    /// Then the orders are the same, as with [`BspTree::same_order`]. This does not hold for
+    /// [culled](OverlayOrder::culled) orders. It holds until the next [`replace`](Self::replace).
+    ///
+    /// O(planes); stops at the first plane between the two.
+    ///
+    /// # Errors
+    ///
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    pub fn same_order(
+        &self,
+        tree: &BspTree,
+        one: Viewpoint,
+        other: Viewpoint,
+    ) -> Result<bool, Error> {
+        self.expect(tree)?;
+        let views = [one, other].map(|viewpoint| View::new(tree, viewpoint));
+        let is_same = |&Branch { plane, rounded, .. }: &Branch| {
+            let [one, other] =
+                views.each_ref().map(|view| view.is_in_front_of(&self.faces, plane, rounded));
+            one == other
+        };
+        Ok(tree.same_order(one, other) && self.insertions.branches.iter().all(is_same))
+    }
 }
 
 impl<'a> OverlayOrder<'a> {
@@ -242,31 +266,24 @@ impl<'a> OverlayOrder<'a> {
     ///
     /// It takes the time of [`BspTree::back_to_front_into`], of a copy of the list, and of comparing the
     /// eye with each plane on the way to the pieces. An empty overlay adds nothing. The buffer is working
-    /// space as well; once it has grown to its size, nothing is allocated. A culled order is the whole
-    /// order first, and is filtered afterwards.
+    /// space as well; once it has grown to its size, nothing is allocated. A culled order skips subtrees as
+    /// the [tree's](crate::Order::write_into) does, and visits all planes on the way to the pieces. The first
+    /// one after a [`replace`](Overlay::replace) also computes the boxes of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {
             return order.write_into(numbers);
         }
         let Order { tree, viewpoint, is_front_to_back, culling } = order;
-        tree.back_to_front_into(viewpoint, numbers);
-        overlay.insert(&View::new(tree, viewpoint), numbers);
-        if let Some(culling) = culling {
-            let (cull, lattice) = (Cull::new(tree, viewpoint, culling), tree.faces.lattice());
-            numbers.retain(|&number| match overlay.shape(number) {
-                None => cull.shows(number),
-                Some(Shape::Fragment(piece)) => {
-                    let plane = overlay.faces.plane(PlaneId::face(piece.face()));
-                    cull.shows_piece(&piece.flat_bounds(), Some(&plane))
-                }
-                Some(Shape::Segment(segment)) => {
-                    cull.shows_piece(&around(lattice, segment.ends()), None)
-                }
-                Some(Shape::Marker(marker)) => {
-                    cull.shows_piece(&around(lattice, [marker.position()]), None)
-                }
-            });
+        match culling {
+            Some(culling) => {
+                numbers.clear();
+                overlay.write_culled(&Cull::new(tree, viewpoint, culling), numbers);
+            }
+            None => {
+                tree.back_to_front_into(viewpoint, numbers);
+                overlay.insert(&View::new(tree, viewpoint), numbers);
+            }
         }
         if is_front_to_back {
             numbers.reverse();
@@ -316,6 +333,47 @@ impl FusedIterator for Overlaid<'_> {}
 const WORD: usize = u32::BITS as usize;
 
 impl Overlay {
+    /// Appends the drawn fragments and pieces to an order.
+    fn write_culled(&self, cull: &Cull<'_>, order: &mut Vec<u32>) {
+        let InsertionTree { root, branches, groups } = &self.insertions;
+        // Of each side, the part of the tree as well; cells and leaves have no nodes.
+        let (mut pending, mut subtrees) = (vec![(*root, cull.whole())], vec![]);
+        while let Some((side, subtree)) = pending.pop() {
+            let Some(slot) = (side.slot as usize).checked_sub(1) else {
+                cull.write_subtree(subtree, &mut subtrees, order);
+                continue;
+            };
+            let Some(branch) = branches.get(slot) else {
+                let group = groups[slot - branches.len()].clone();
+                let numbers = group.map(|piece| self.base.fragments as u32 + piece);
+                order.extend(numbers.filter(|&number| self.shows(cull, number)));
+                continue;
+            };
+            let end = subtree.fragments.end;
+            let nothing = Subtree { nodes: 0..0, fragments: end..end };
+            let [front, own, back] = match subtree.nodes.is_empty() {
+                true => [nothing.clone(), subtree, nothing.clone()],
+                false => cull.divide(&subtree),
+            };
+            let own_side = SlotSide::empty(own.fragments.len());
+            let [front, back] = [(branch.front, front), (branch.back, back)];
+            let is_in_front = cull.is_in_front_of(&self.faces, branch.plane, branch.rounded);
+            let (far, near) = if is_in_front { (back, front) } else { (front, back) };
+            // A stack: the last one is taken first.
+            let parts = [near, (branch.pieces, nothing), (own_side, own), far];
+            pending.extend(parts.into_iter().filter(|(side, _)| side.len > 0));
+        }
+    }
+
+    /// Whether a piece is drawn. Lines and points have no sides.
+    fn shows(&self, cull: &Cull<'_>, number: u32) -> bool {
+        let piece = number - self.base.fragments as u32;
+        let face = self.pieces.records[piece as usize].face;
+        let plane = || self.faces.plane(PlaneId::face(face));
+        cull.shows_box(&self.boxes().get(0, piece))
+            && (face as usize >= self.faces.first_thin() || cull.shows_plane(plane))
+    }
+
     /// Inserts the pieces into the tree's order.
     ///
     /// Every side of a branch knows how many fragments and pieces it has. So where a side begins is known

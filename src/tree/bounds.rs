@@ -269,15 +269,6 @@ impl Block {
     }
 }
 
-/// A box around points of the world.
-pub(crate) fn around<const N: usize>(lattice: &Lattice, points: [DVec3; N]) -> Flat {
-    let points = points.map(|point| lattice.to_lattice(point));
-    let most = |axis: usize, pick: fn(f64, f64) -> f64| {
-        points.iter().map(|point| point[axis]).reduce(pick).unwrap_or_default()
-    };
-    outwards([0, 1, 2].map(|axis| most(axis, f64::min)), [0, 1, 2].map(|axis| most(axis, f64::max)))
-}
-
 /// A box that contains a box in lattice units.
 fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     std::array::from_fn(|i| {

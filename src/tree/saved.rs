@@ -227,10 +227,10 @@ fn read_nodes(
         let others = to_come.checked_sub(1).ok_or_else(|| fault("has no parent"))?;
         to_come = others + count(RawChild::Node);
         let here = own as usize + count(RawChild::Leaf(1));
-        left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than there are"))?;
+        left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than the tree"))?;
     }
     if to_come > 0 || left > 0 {
-        return Err(damaged("nodes", "are not those of its fragments"));
+        return Err(damaged("nodes", "do not match its fragments"));
     }
     let (mut sizes, mut nodes) = (Vec::new(), Vec::new());
     make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| Error::out_of_memory())?;
@@ -268,7 +268,7 @@ fn check_preparation(found: &mut Preparation, dropped: &[u32], faces: &Faces) ->
         } else if of_face.is_none() && dropped.peek().is_none() {
             break;
         } else {
-            return Err(invalid("polygon", polygons, "has neither faces nor been dropped"));
+            return Err(invalid("polygon", polygons, "has no faces, but is not listed as dropped"));
         }
     }
     found.polygons = polygons;

@@ -204,7 +204,7 @@ impl BspTree {
             let found = prepared.classify(&self.faces, face, cut);
             if found != expected {
                 return Err(format!(
-                    "fragment {id} is {found:?}, not {expected:?} as its place says"
+                    "fragment {id} is {found:?}, but its place requires {expected:?}"
                 ));
             }
         }
@@ -223,7 +223,7 @@ impl BspTree {
         let out_of_memory = |error| fault(0, error);
         planes.fill(&self.faces, &self.nodes).map_err(out_of_memory)?;
         if self.planes != planes {
-            return Err(fault(0, "the rounded planes are not those of the nodes"));
+            return Err(fault(0, "the rounded planes do not match the nodes"));
         }
         if let Some(layout) = &self.layout {
             let expected = OrderLayout::new(&self.nodes, self.records.len() as u32);
@@ -236,7 +236,7 @@ impl BspTree {
 
     /// Checks that stored positions equal those computed for the vertices.
     fn check_positions(&self) -> Result<(), String> {
-        let fault = Err(fault(0, "the positions are not those of the vertices"));
+        let fault = Err(fault(0, "the positions do not match the vertices"));
         if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {
             return fault;
         }

@@ -51,7 +51,7 @@ fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
         ("sub/../../a.mtl", vec![]),
         ("/etc/passwd", vec![]),
         ("..", vec![]),
-        // Where a backslash is not a separator, a name may contain it.
+        // On systems where a backslash is not a separator, a name may contain it.
         ("..\\a.mtl", if cfg!(windows) { vec![] } else { vec!["..\\a.mtl"] }),
         ("a.mtl ../b.mtl", vec!["a.mtl ../b.mtl", "a.mtl"]),
     ] {

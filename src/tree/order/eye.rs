@@ -150,9 +150,9 @@ impl BspTree {
     /// Whether no partition plane lies between two viewpoints. Then the orders of all fragments are the same,
     /// and need not be sorted or uploaded again. (Orders may be the same even if a plane lies between.)
     ///
-    /// This holds neither for [culled](crate::Order::culled) orders, which change with the facing of polygons
-    /// and with the frustum, nor for the orders of an [`Overlay`](crate::overlay::Overlay). Compare their
-    /// lists instead.
+    /// This does not hold for [culled](crate::Order::culled) orders, which change with the facing of polygons
+    /// and with the frustum: compare their lists instead. An overlay has
+    /// [its own](crate::overlay::Overlay::same_order).
     ///
     /// Stops at the first plane between the two; O(nodes) if there is none. Allocates nothing.
     ///

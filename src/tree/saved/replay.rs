@@ -259,7 +259,11 @@ impl Replay<'_> {
                 || !fits(front_node.is_none(), counts[0], &in_front)
                 || !fits(back_node.is_none(), counts[1], &behind)
             {
-                return Err(invalid("node", index, "has other fragments than its plane makes"));
+                return Err(invalid(
+                    "node",
+                    index,
+                    "does not have the fragments that its plane makes",
+                ));
             }
             // Coplanar polygons are painted in input order.
             own.sort_unstable_by_key(|piece| piece.face);

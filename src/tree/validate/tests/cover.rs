@@ -157,7 +157,7 @@ fn a_half_in_place_of_the_other_half_s_quarter_is_found() {
                 let vertices = parts.pieces[b as usize].1.clone();
                 parts.pieces[a as usize].1 = vertices;
             };
-            assert_fault(&tree, edit, "as its place says");
+            assert_fault(&tree, edit, "but its place requires");
         }
         assert!(!verdict(&remove(&tree, a).tree(&tree)).is_empty());
     }
@@ -235,7 +235,8 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
             edit(&mut parts);
             let said = verdict(&parts.tree(&tree));
             // A crossing that is not between the ends of its edge may be reported as a wrong side first.
-            let faults = [if pieces.len() == 1 { CUT } else { INCOMPLETE }, "as its place says"];
+            let faults =
+                [if pieces.len() == 1 { CUT } else { INCOMPLETE }, "but its place requires"];
             assert!(faults.iter().any(|fault| said.contains(fault)), "{said:?}");
         }
     }
@@ -264,7 +265,10 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
         let mut parts = Dismantled::of(&tree);
         edit(&mut parts);
         let said = verdict(&parts.tree(&tree));
-        assert!([CUT, "as its place says"].iter().any(|fault| said.contains(fault)), "{said:?}");
+        assert!(
+            [CUT, "but its place requires"].iter().any(|fault| said.contains(fault)),
+            "{said:?}"
+        );
     }
 }
 
