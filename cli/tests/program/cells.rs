@@ -223,7 +223,7 @@ fn a_place_that_cannot_be_written_is_noticed_before_the_work() {
 #[test]
 fn memory_is_that_of_one_cell() {
     /// In kB.
-    const MEMORY: u32 = 21 << 10;
+    const MEMORY: u32 = 18 << 10;
     let folder = Folder::new("cells_memory");
     let mut text = String::new();
     let side = 320;
@@ -249,7 +249,7 @@ fn memory_is_that_of_one_cell() {
         assert!(output.status.success() || message.contains("memory"), "{message}");
         output.status.success()
     };
-    // One cell of eight takes 12 to 16 MB, one of four 26 to 28, and all in one 80 to 90.
+    // One cell of eight takes 12 to 16 MB, one of four 21 to 28, and all in one 80 to 90.
     assert!(builds(8) && !builds(4));
 }
 
