@@ -20,6 +20,7 @@ from mpl_toolkits.mplot3d import art3d
 
 import binspace.mpl  # noqa: F401 - registers the projection
 
+from . import _speed
 from ._scenes import SCENES
 
 # Depths that differ by less than this share of the scene's are the same.
@@ -425,7 +426,11 @@ def main():
     parser.add_argument("--dpi", type=int, default=300)
     parser.add_argument("--picture", metavar="FILE", help="write the scenes as both draw them, and judge nothing")
     parser.add_argument("scenes", nargs="*", help="names of scenes; by default all")
+    parser.add_argument("--speed", action="store_true", help="time pictures, and judge nothing")
+    parser.add_argument("--rounds", type=int, default=7, help="how often each picture is timed (default: 7)")
     options = parser.parse_args()
+    if options.speed:
+        return _speed.main(options.rounds)
     scenes = [scene for scene in SCENES if not options.scenes or scene.__name__ in options.scenes]
     if options.picture:
         write_picture(options.picture, scenes)

@@ -51,19 +51,19 @@ _JOINED = 1e-5
 
 def _placed(axes, artist, points):
     """Points in scaled data coordinates; NaN where they are invalid or clipped."""
-    points = np.ma.asarray(points, float)
-    mask = np.ma.getmaskarray(points).any(-1)
-    points = np.array(np.ma.getdata(points))
+    mask = np.ma.getmaskarray(points).any(-1) if isinstance(points, np.ma.MaskedArray) else False
+    points = np.array(np.ma.getdata(points), float)
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
-    if hasattr(art3d, "_scale_invalid_mask"):
-        mask = mask | art3d._scale_invalid_mask(x, y, z, axes)
     if getattr(artist, "_axlim_clip", False):
         mask = mask | art3d._viewlim_mask(x, y, z, axes)
-    if hasattr(proj3d, "_apply_scale_transforms"):
+    if hasattr(proj3d, "_apply_scale_transforms") and any(axis.get_scale() != "linear" for axis in axes._axis_map.values()):
+        mask = mask | art3d._scale_invalid_mask(x, y, z, axes)
         with np.errstate(all="ignore"):
             points = np.stack(proj3d._apply_scale_transforms(x, y, z, axes), -1)
-    mask = mask | ~np.isfinite(points).all(-1)
-    if mask.any():
+    is_finite = np.isfinite(points)
+    if not is_finite.all():
+        mask = mask | ~is_finite.all(-1)
+    if np.any(mask):
         points[mask] = np.nan
     return points
 
@@ -316,9 +316,11 @@ def _of_polygons(axes, artist):
     if hasattr(artist, "_faces"):
         faces, invalid = artist._faces, artist._invalid_vertices
         count, most = faces.shape[:2] if faces.ndim == 3 else (0, 0)
-        valid = ~np.broadcast_to(invalid, (count, most))
-        lengths = valid.sum(1)
-        points = faces[valid] if count else np.empty((0, 3))
+        if np.any(invalid):
+            valid = ~np.broadcast_to(invalid, (count, most))
+            lengths, points = valid.sum(1), faces[valid]
+        else:
+            lengths, points = np.full(count, most), faces.reshape(-1, 3) if count else np.empty((0, 3))
     else:
         points = artist._vec[:3].T
         lengths = np.array([part.stop - part.start for part in artist._segslices], int)
@@ -565,7 +567,7 @@ class _Built:
         self.is_own = _are_all(own, offsets[:-1], lengths)
         # Fragments of polygons with several, and the normals that say which of their sides a view shows.
         self.several = np.flatnonzero(self.counts[self.polygon] > 1)
-        self.middles, self.normals = _planes(self.points, self.starts, self.ends, self.several)
+        self.planes = _planes(self.points, self.starts, self.ends, self.several)
 
     def matrix(self, matrix):
         """A matrix for points in the coordinates of the tree."""
@@ -587,7 +589,7 @@ def _are_all(values, starts, lengths):
 
 
 def _planes(points, starts, ends, numbers):
-    """A corner of each of the outlines with these numbers, and a normal."""
+    """The planes of the outlines with these numbers: normals, and their products with a corner of each."""
     starts, lengths = starts[numbers], (ends - starts)[numbers]
     first = points[starts]
     corners, owner = _ranges(starts, lengths)
@@ -595,7 +597,8 @@ def _planes(points, starts, ends, numbers):
     next_steps = np.roll(steps, -1, 0)
     next_steps[np.cumsum(lengths) - 1] = 0
     products = np.cross(steps, next_steps)
-    return first, np.stack([np.bincount(owner, products[:, i], len(numbers)) for i in range(3)], -1)
+    normals = [np.bincount(owner, products[:, i], len(numbers)) for i in range(3)]
+    return np.stack([*normals, sum(normal * first[:, i] for i, normal in enumerate(normals))])
 
 
 def _ranges(starts, lengths):
@@ -720,8 +723,9 @@ class _Ordered(_Shown):
         self.least = _NEAR * np.nanmax(np.abs(depth), initial=0)
         is_near = ~_are_all(~(depth <= self.least), built.offsets[:-1], built.given[1])
         # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
-        sides = view["eye"] - built.middles if "eye" in view else -view["direction"]
-        is_front = (built.normals * sides).sum(-1) > 0
+        *normals, shift = built.planes
+        eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
+        is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
         fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
         is_joined = ((fronts == 0) | (fronts == built.counts)) & ~is_near
         is_fragment = order < count
@@ -1044,7 +1048,7 @@ class _Composite(martist.Artist):
         batch._paths = paths
         _take_style(batch, template)
         batch.set_facecolor(face)
-        batch.set_edgecolor(edge)
+        batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
         if template.get_hatch():
