@@ -1,6 +1,9 @@
 """Exact axes: pictures judged pixel by pixel, and that all else is as with mplot3d's axes."""
 
+import copy
 import io
+import pickle
+import shutil
 import subprocess
 import sys
 
@@ -142,15 +145,16 @@ def test_svg_has_one_path_a_polygon():
     assert 100 <= file.getvalue().count("fill: #ff0000") + file.getvalue().count("fill: #00ff00") <= 200
 
 
+class Own(Axes3D):
+    pass
+
+
 def test_existing_axes_become_exact():
     figure, ax = plt.subplots(subplot_kw={"projection": "3d"})
     assert binspace.mpl.exact(ax) is ax and isinstance(ax, binspace.mpl.ExactAxes3D)
     assert type(binspace.mpl.exact(ax)) is binspace.mpl.ExactAxes3D
     compare.SCENES[0](ax)
     figure.canvas.draw()
-
-    class Own(Axes3D):
-        pass
 
     own = figure.add_axes(Own(figure))
     binspace.mpl.exact(own)
@@ -316,3 +320,33 @@ plt.savefig("first.png")
 def test_a_first_try(tmp_path):
     subprocess.run([sys.executable, "-c", FIRST_TRY], check=True, cwd=tmp_path)
     assert (tmp_path / "first.png").stat().st_size > 10_000
+
+
+def test_axes_are_copied_and_pickled():
+    figure = plt.figure(figsize=(2, 2))
+    compare.SCENES[0](figure.add_subplot(projection="exact3d"))
+    own = binspace.mpl.exact(figure.add_axes(Own(figure)))
+    compare.SCENES[0](own)
+    figure.canvas.draw()
+    for again in (copy.deepcopy(figure), pickle.loads(pickle.dumps(figure))):
+        assert [type(axes) for axes in again.axes] == [type(axes) for axes in figure.axes]
+        again.canvas.draw()
+        assert np.array_equal(again.canvas.buffer_rgba(), figure.canvas.buffer_rgba())
+
+
+def test_pgf_has_one_path_a_polygon(tmp_path):
+    if not shutil.which("pdflatex"):
+        pytest.skip("matplotlib measures texts with LaTeX for this format")
+    figure = plt.figure()
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.linspace(-2, 2, 11), np.linspace(-2, 2, 11))
+    ax.plot_surface(x, y, 0 * x)
+    ax.plot_surface(x, y, x)
+    ax.set_axis_off()
+    with matplotlib.rc_context({"pgf.texsystem": "pdflatex"}):
+        figure.savefig(tmp_path / "a.pgf")
+    paths = (tmp_path / "a.pgf").read_text().count(r"\pgfusepath{fill}")
+    assert 100 <= paths <= 200
+    (tmp_path / "a.tex").write_text(r"\documentclass{article}\usepackage{pgf}\begin{document}\input{a.pgf}\end{document}")
+    subprocess.run(["pdflatex", "-interaction=batchmode", "a.tex"], cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
+    assert (tmp_path / "a.pdf").stat().st_size > 10_000

@@ -14,6 +14,7 @@ on it, are painted in the order of their z-orders, and otherwise in the order in
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 
 import numpy as np
@@ -1238,6 +1239,10 @@ class _Exact:
 
     _exact_composite = None
 
+    def __getstate__(self):
+        # A tree is built again from what is drawn.
+        return {name: value for name, value in super().__getstate__().items() if name != "_exact_built"}
+
     def get_children(self):
         children = super().get_children()
         if self._exact_composite is None:
@@ -1301,9 +1306,27 @@ def exact(axes):
     if not isinstance(axes, Axes3D):
         raise TypeError(f"3D axes are needed, not {type(axes).__name__}")
     if not isinstance(axes, _Exact):
-        own = type(axes)
-        axes.__class__ = ExactAxes3D if own is Axes3D else type("Exact" + own.__name__, (_Exact, own), {})
+        axes.__class__ = _exact_class(type(axes))
     return axes
+
+
+@functools.cache
+def _exact_class(own):
+    """The exact axes of a class of axes."""
+    if own is Axes3D:
+        return ExactAxes3D
+
+    def reduce(self, protocol):
+        # Pickles name the given class: this one has no name in a module.
+        make, arguments, *state = super(exact_class, self).__reduce_ex__(protocol)
+        return _unpickled, (own, make, arguments[1:]), *state
+
+    exact_class = type("Exact" + own.__name__, (_Exact, own), {"__reduce_ex__": reduce})
+    return exact_class
+
+
+def _unpickled(own, make, arguments):
+    return make(_exact_class(own), *arguments)
 
 
 def install():
