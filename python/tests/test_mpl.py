@@ -350,3 +350,24 @@ def test_pgf_has_one_path_a_polygon(tmp_path):
     (tmp_path / "a.tex").write_text(r"\documentclass{article}\usepackage{pgf}\begin{document}\input{a.pgf}\end{document}")
     subprocess.run(["pdflatex", "-interaction=batchmode", "a.tex"], cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
     assert (tmp_path / "a.pdf").stat().st_size > 10_000
+
+
+def test_the_build_of_a_tree_reports_and_is_cancelled():
+    figure = plt.figure(figsize=(3, 3), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    compare.SCENES[0](ax)
+    calls = []
+
+    def stop(done, total):
+        raise InterruptedError("enough")
+
+    ax.exact_progress = stop
+    with pytest.raises(InterruptedError, match="enough"):
+        figure.canvas.draw()
+    ax.exact_progress = lambda done, total: calls.append((done, total))
+    figure.canvas.draw()
+    assert calls and calls[-1][0] == calls[-1][1]
+    count = len(calls)
+    ax.view_init(10, 20)
+    figure.canvas.draw()
+    assert len(calls) == count

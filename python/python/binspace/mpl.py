@@ -538,7 +538,7 @@ def _camera(matrix, to_display, size):
 class _Built:
     """A tree of polygons, with lines and points; kept while these are the same."""
 
-    def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers):
+    def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
         valid = everything[~np.isnan(everything).any(1)]
@@ -549,9 +549,9 @@ class _Built:
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
         # A little larger, as quotients are rounded.
         bounds = [np.full(3, -1.001), np.full(3, 1.001)]
-        self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds)
+        self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds, progress=progress)
         line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
-        self.overlay = self.tree.overlay((lines, line_offsets), markers)
+        self.overlay = self.tree.overlay((lines, line_offsets), markers, progress=progress)
         self.pieces = self.overlay.pieces
         fragments = self.tree.fragments
         self.points, self.polygon = fragments.points, fragments.polygon.astype(np.int64)
@@ -592,14 +592,20 @@ def _are_all(values, starts, lengths):
 def _planes(points, starts, ends, numbers):
     """The planes of the outlines with these numbers: normals, and their products with a corner of each."""
     starts, lengths = starts[numbers], (ends - starts)[numbers]
-    first = points[starts]
     corners, owner = _ranges(starts, lengths)
-    steps = points[corners] - first[owner]
-    next_steps = np.roll(steps, -1, 0)
-    next_steps[np.cumsum(lengths) - 1] = 0
-    products = np.cross(steps, next_steps)
-    normals = [np.bincount(owner, products[:, i], len(numbers)) for i in range(3)]
-    return np.stack([*normals, sum(normal * first[:, i] for i, normal in enumerate(normals))])
+    last = np.cumsum(lengths) - 1
+    # One coordinate after the other: products of the steps from the first corner need less memory so.
+    steps = [points[corners, axis] - points[starts, axis][owner] for axis in range(3)]
+    following = [np.roll(step, -1) for step in steps]
+    for step in following:
+        step[last] = 0
+    planes = np.zeros((4, len(numbers)))
+    for axis in range(3):
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        products = steps[i] * following[j] - steps[j] * following[i]
+        planes[axis] = np.bincount(owner, products, len(numbers))
+        planes[3] += planes[axis] * points[starts, axis]
+    return planes
 
 
 def _ranges(starts, lengths):
@@ -966,7 +972,8 @@ class _Composite(martist.Artist):
         )
         built = getattr(axes, "_exact_built", None)
         if built is None or not built.is_of(*given):
-            built = axes._exact_built = _Built(*(None if array is None else array.copy() for array in given))
+            copies = (None if array is None else array.copy() for array in given)
+            built = axes._exact_built = _Built(*copies, axes.exact_progress)
         to_display = axes.transData.get_matrix()
         size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
         matrix = np.asarray(axes.M, float)
@@ -1238,6 +1245,8 @@ class _Exact:
     """The differences of exact axes from those of mplot3d."""
 
     _exact_composite = None
+    # A function that is called with the finished and the total work while a tree is built; an exception in it cancels.
+    exact_progress = None
 
     def __getstate__(self):
         # A tree is built again from what is drawn.
@@ -1281,7 +1290,11 @@ class _Exact:
 
 
 class ExactAxes3D(_Exact, Axes3D):
-    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``."""
+    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``.
+
+    Set the attribute `exact_progress` to a function that is called with the finished and the total work while a tree of many
+    polygons is built. An exception in it, or Ctrl-C, cancels the drawing.
+    """
 
     name = "exact3d"
 
