@@ -101,6 +101,12 @@ def contours(ax):
     ax.contour(x, y, np.sin(x) * y, linewidths=[1, 2, 3])
 
 
+def hatches(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 40), np.linspace(-2, 2, 40))
+    ax.contourf(x, y, np.sin(x) * y, offset=0, levels=6, hatches=["/", "x", None, ".."])
+    ax.contourf(x, y, np.sin(x) * y, offset=2, levels=6, hatches=["+", "\\\\"], colors="none")
+
+
 def a_patch(ax):
     patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, hatch="/")
     ax.add_patch(patch)
@@ -113,7 +119,7 @@ def a_text(ax):
 
 
 @pytest.mark.parametrize(
-    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, a_patch, a_text]
+    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, hatches, a_patch, a_text]
 )
 def test_what_mplot3d_draws_right_is_the_same(draw, way):
     before, ours = picture(draw, "3d"), picture(draw, "exact3d")

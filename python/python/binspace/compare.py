@@ -20,7 +20,7 @@ from mpl_toolkits.mplot3d import art3d
 
 import binspace.mpl  # noqa: F401 - registers the projection
 
-from . import _speed
+from . import _matplotlib_tests, _speed
 from ._scenes import SCENES
 
 # Depths that differ by less than this share of the scene's are the same.
@@ -428,7 +428,11 @@ def main():
     parser.add_argument("scenes", nargs="*", help="names of scenes; by default all")
     parser.add_argument("--speed", action="store_true", help="time pictures, and judge nothing")
     parser.add_argument("--rounds", type=int, default=7, help="how often each picture is timed (default: 7)")
+    parser.add_argument("--matplotlib-tests", metavar="FOLDER",
+                        help="run matplotlib's tests in the folder lib/mpl_toolkits/mplot3d/tests of its sources on both")
     options = parser.parse_args()
+    if options.matplotlib_tests:
+        return _matplotlib_tests.main(options.matplotlib_tests)
     if options.speed:
         return _speed.main(options.rounds)
     scenes = [scene for scene in SCENES if not options.scenes or scene.__name__ in options.scenes]

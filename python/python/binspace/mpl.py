@@ -227,6 +227,8 @@ class _Source:
         self.point_rows = np.empty(0, int)
         self.face = self.edge = np.empty((0, 4))
         self.widths, self.dashes, self.smooth = [0.0], [(0, None)], [True]
+        # Of filled contours, one for each level.
+        self.hatches = list(getattr(artist, "hatches", None) or [artist.get_hatch() if hasattr(artist, "get_hatch") else None])
 
     def set_style(self, face, edge):
         artist = self.artist
@@ -242,7 +244,8 @@ class _Source:
             self.widths = np.zeros(1)
 
     def is_filled(self, rows):
-        return self.face[rows % len(self.face), 3] > 0 if len(self.face) else np.zeros(len(rows), bool)
+        filled = np.array([bool(hatch) for hatch in self.hatches])[rows % len(self.hatches)]
+        return filled | (self.face[rows % len(self.face), 3] > 0) if len(self.face) else filled
 
     def is_stroked(self, rows):
         if not len(self.edge):
@@ -926,6 +929,7 @@ class _Looks:
         self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
         self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
         self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
+        self.hatches = np.array([s.hatches[row % len(s.hatches)] for s, r in parts for row in r], object)
         self.widths = np.where(self.is_stroked, self.widths, 0.0)
         self.dashes = None
         if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
@@ -960,7 +964,8 @@ class _Composite(martist.Artist):
         self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
-        opacity = None if is_opaque else np.clip(alpha, 0, 1)
+        # Areas with a hatch alone are painted too.
+        opacity = None if is_opaque else np.clip(alpha, 0.01, 1)
         given = (
             points,
             lengths,
@@ -1009,13 +1014,19 @@ class _Composite(martist.Artist):
         # Areas and the lines of collections of one group are painted at once; others by artist.
         is_line2d = np.array([isinstance(source.artist, mlines.Line2D) for source in sources] + [False])
         alone = (kinds == 2) | is_line2d[owners]
-        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
+        hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
+        hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
+        known = {}
+        hatch = np.array([known.setdefault(name, len(known)) for name in hatches], int)
+        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners]) + (len(groups) + 3 * len(sources)) * hatch
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
             chosen = numbers[start:end]
             if not alone[start]:
-                self._paint_paths(renderer, sources, shown, kinds[start:end], chosen, owners[start:end], place)
+                batch = self._paths(sources, shown, kinds[start:end], chosen, owners[start:end], place)
+                batch.set_hatch(hatches[start])
+                batch.draw(renderer)
             elif kinds[start] == 1:
                 self._paint_line(renderer, source, shown, chosen, place)
             elif isinstance(source.artist, mlines.Line2D):
@@ -1030,8 +1041,8 @@ class _Composite(martist.Artist):
             else:
                 source.artist.draw(renderer)
 
-    def _paint_paths(self, renderer, sources, shown, kinds, numbers, owners, place):
-        """Areas and lines of collections and patches."""
+    def _paths(self, sources, shown, kinds, numbers, owners, place):
+        """A collection of areas and of the lines of collections and patches."""
         is_area = kinds == 0
         batches = [self._areas(shown, numbers[is_area], np.flatnonzero(is_area))]
         if not is_area.all():
@@ -1042,8 +1053,6 @@ class _Composite(martist.Artist):
                 batches.append(self._lines(sources[owner], shown, numbers[chosen], chosen, run[chosen], place))
         position, paths, face, edge, widths, smooth, dashes = (list(part) for part in zip(*batches))
         order = np.argsort(np.concatenate(position), kind="stable")
-        if not len(order):
-            return
         paths = np.concatenate(paths)[order].tolist()
         is_dashed = any(part is not None for part in dashes)
         if is_dashed:
@@ -1059,14 +1068,12 @@ class _Composite(martist.Artist):
         batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
-        if template.get_hatch():
-            batch.set_hatch(template.get_hatch())
         cap, join = template.get_capstyle(), template.get_joinstyle()
         if cap:
             batch.set_capstyle(cap)
         if join:
             batch.set_joinstyle(join)
-        batch.draw(renderer)
+        return batch
 
     def _areas(self, shown, areas, position):
         """Areas: their positions in the order, paths, colours of faces and edges, widths, antialiasing, and dashes."""
