@@ -80,6 +80,7 @@ def one_surface(ax):
 def one_line(ax):
     t = np.linspace(0, 9, 40)
     ax.plot(np.cos(t), np.sin(t), t, "r--", marker="o", ms=4, markevery=3)
+    ax.plot(np.cos(t) + 1, np.sin(t), t, "bs", ms=4, markevery=(0.05, 0.2))
 
 
 def one_scatter(ax):
@@ -267,6 +268,21 @@ def test_nan_empty_and_hidden_artists_draw():
     ax.plot([-90, 90], [-90, 90], [0, 0])
     ax.set_xlim(-1, 1)
     ax.set_ylim(-1, 1)
+    figure.canvas.draw()
+
+
+@pytest.mark.parametrize("view", [{}, {"elev": 0, "azim": 0}, {"elev": 90, "azim": -90}], ids=str)
+@pytest.mark.parametrize("z", [1e300, 1e-300, np.inf, np.nan, 0.0], ids=str)
+def test_any_numbers_draw(z, view, way):
+    figure = plt.figure(figsize=(2, 2), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.arange(-2, 3), np.arange(-2, 3))
+    with np.errstate(all="ignore"):
+        ax.plot_surface(x, y, np.where(x > 0, z, 1.0) * y)
+        ax.plot_surface(x + 10**12, y, np.ma.masked_greater(y, 1))
+    ax.set_proj_type("ortho")
+    ax.view_init(**view)
+    ax.invert_xaxis()
     figure.canvas.draw()
 
 

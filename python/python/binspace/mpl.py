@@ -387,7 +387,7 @@ def _of_line(axes, artist):
     if artist.get_linestyle() not in ("None", "none", " ", "", None) and source.widths[0] > 0 and len(points) > 1:
         source.lines, source.line_rows = [points], [0]
     if artist.get_marker() not in ("None", "none", " ", "", None):
-        source.point_rows = _marked(artist, points)
+        source.point_rows = _marked(axes, artist, points)
         source.points = points[source.point_rows]
     # Picking and `get_data` use these positions.
     projected = _projected(axes.M, points)
@@ -395,7 +395,7 @@ def _of_line(axes, artist):
     return source
 
 
-def _marked(artist, points):
+def _marked(axes, artist, points):
     """The vertices of a line that have markers."""
     every = artist.get_markevery()
     numbers = np.arange(len(points))
@@ -406,7 +406,10 @@ def _marked(artist, points):
     if isinstance(every, tuple) and all(isinstance(number, (int, np.integer)) for number in every):
         return numbers[every[0] :: every[1]]
     if isinstance(every, (float, tuple)):
-        raise NotImplementedError("exact axes have no markers at distances: markevery must not be a float")
+        # At distances in the picture.
+        places = _projected(axes.M, points)
+        chosen = mlines._mark_every_path(every, Path(places), axes.transData, axes).vertices
+        return np.array([np.flatnonzero((places == place).all(1))[0] for place in chosen], int)
     return numbers[every]
 
 
