@@ -717,6 +717,21 @@ class _Shown:
         raise NotImplementedError
 
 
+def _runs(built, order, view, may_join):
+    """Where the fragments of each polygon begin that follow one another in an order, if the polygon may be joined. Each of
+    the others, and each part of a line and each point, begins a run."""
+    *normals, shift = built.planes
+    eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
+    is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
+    fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
+    # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
+    may_join = may_join & ((fronts == 0) | (fronts == built.counts))
+    polygon = np.append(built.polygon, np.full(len(built.pieces.number), -1))[order]
+    joined = np.append(may_join, False)[polygon]
+    continues = joined[1:] & (polygon[1:] == polygon[:-1])
+    return np.flatnonzero(np.append(True, ~continues)[: len(order)])
+
+
 class _Ordered(_Shown):
     """The fragments of a tree in its own order: fast, for any view. Fragments of one polygon that follow one another are
     one area, and those of a whole polygon are its own outline."""
@@ -725,7 +740,6 @@ class _Ordered(_Shown):
         view = _viewpoint(matrix)
         order = built.overlay.order(**view).astype(np.int64)
         count = len(built.polygon)
-
         to_pixels = _to_pixels(matrix, to_display)
 
         def place(points):
@@ -735,26 +749,16 @@ class _Ordered(_Shown):
         depth = _times(matrix[3], built.outlines)
         self.least = _NEAR * np.nanmax(np.abs(depth), initial=0)
         is_near = ~_are_all(~(depth <= self.least), built.offsets[:-1], built.given[1])
-        # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
-        *normals, shift = built.planes
-        eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
-        is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
-        fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
-        is_joined = ((fronts == 0) | (fronts == built.counts)) & ~is_near
-        is_fragment = order < count
-        polygon = built.polygon[np.where(is_fragment, order, 0)] if count else np.zeros(len(order), int)
-        joined = is_fragment & is_joined[polygon] if count else is_fragment
-        continues = joined[1:] & joined[:-1] & (polygon[1:] == polygon[:-1])
-        self.first = np.flatnonzero(np.append(True, ~continues)[: len(order)])
-        self.order, self.length = order, np.diff(np.append(self.first, len(order)))
-        is_area = is_fragment[self.first]
-        self.first_of_area, self.length_of_area = self.first[is_area], self.length[is_area]
-        pieces = order[self.first] - count
+        first = _runs(built, order, view, ~is_near)
+        is_area = order[first] < count
+        lengths = np.diff(np.append(first, len(order)))
+        self.order, self.first_of_area, self.length_of_area = order, first[is_area], lengths[is_area]
+        pieces = order[first] - count
         is_point = built.pieces.segment < 0
-        kinds = np.zeros(len(self.first), int)
+        kinds = np.zeros(len(first), int)
         kinds[~is_area] = np.where(is_point, 2, 1)[pieces[~is_area]]
         super().__init__(kinds, np.where(is_area, np.cumsum(is_area) - 1, pieces))
-        self.polygon = polygon[self.first_of_area]
+        self.polygon = built.polygon[order[self.first_of_area]]
         self.line = self.marker = built.pieces.number.astype(np.int64)
         self.segment = built.pieces.segment
 
