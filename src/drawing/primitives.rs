@@ -24,7 +24,7 @@ pub(super) struct Item {
     pub(super) fragment: u32,
     /// The bounding box of the item's part in the picture.
     pub(super) around: Rect,
-    /// Where the half-planes that bound it begin and end.
+    /// The range of the half-planes that bound it.
     halves: [u32; 2],
 }
 
@@ -42,7 +42,7 @@ pub(super) struct View {
     pub(super) is_as_given: bool,
     /// The last item of the face, if any.
     pub(super) last: u32,
-    /// Where the half-planes that bound it begin and end.
+    /// The range of the half-planes that bound it.
     halves: [u32; 2],
 }
 
@@ -261,7 +261,7 @@ impl<'t> Primitives<'t> {
         self.views[self.face(item) as usize].is_opaque
     }
 
-    /// Whether any face is translucent.
+    /// Whether any face that may be visible is translucent.
     pub(super) fn has_translucent(&self) -> bool {
         let mut faces = 0..self.views.len() as u32;
         !self.opacities.is_empty()

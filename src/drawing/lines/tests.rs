@@ -51,7 +51,7 @@ pub(in crate::drawing) fn quads(random: &mut SplitMix64, size: f64, off: DVec3) 
     (0..12).map(quad).collect()
 }
 
-/// Rings of more corners than `FEW_CORNERS_AS_GIVEN`, also bent a little.
+/// Rings of so many corners that edges go through the moved corners, also bent a little.
 fn rings(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<Vec<DVec3>> {
     let ring = |_| {
         let [middle, u, v] = [(); 3].map(|()| random.point(-size, size));
