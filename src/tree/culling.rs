@@ -1,4 +1,4 @@
-//! Orders without invisible fragments: those outside a region or seen from the wrong side.
+//! Orders without fragments that are outside a region or seen from the wrong side.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -33,7 +33,7 @@ use crate::viewpoint::{Facing, Frustum, Viewpoint};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Culling {
     pub(crate) frustum: Frustum,
-    /// The side that is drawn; `None` for both.
+    /// The side that is drawn; `None` for both sides.
     pub(crate) facing: Option<Facing>,
 }
 
@@ -41,9 +41,9 @@ impl Culling {
     /// Leaves out nothing.
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
-    /// Leaves out the fragments outside a frustum: those whose boxes
-    /// ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind one of its planes. At most 32 planes are
-    /// used. Testing only boxes is fast; [`BspTree::fragments_in`] is exact.
+    /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
+    /// plane of a frustum. At most 32 planes are used. Testing only boxes is fast; [`BspTree::fragments_in`]
+    /// is exact.
     ///
     /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
     /// than the rounding errors of the test and of an eye in the apex of the frustum.
@@ -52,17 +52,17 @@ impl Culling {
         Self { frustum, ..self }
     }
 
-    /// Leaves out the fragments whose [`facing`](crate::Fragment::facing) is another; [`Facing::Front`] is
-    /// back-face culling. This is exact.
+    /// Leaves out the fragments with another [`facing`](crate::Fragment::facing); [`Facing::Front`] is
+    /// back-face culling. The test is exact.
     #[must_use]
     pub fn with_facing(self, facing: Facing) -> Self {
         Self { facing: Some(facing), ..self }
     }
 }
 
-/// Subtrees of at most this many fragments are ordered as a whole before fragments are left out. Too small:
-/// the walk visits more nodes, each with branches that no processor can predict. Too large: more fragments
-/// are ordered and then discarded. At most a block.
+/// Subtrees of at most this many fragments, at most a block, are ordered as a whole before fragments are left
+/// out. Too small: the walk visits more nodes, each with branches that no processor can predict. Too large:
+/// more fragments are ordered and then discarded.
 const FEW: usize = BLOCK;
 
 /// Fully marked subtrees of at most this many fragments are ordered at once. Too small: the walk visits
@@ -259,7 +259,7 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Of up to 16 fragments from a given number on, keeps those that have a bit and show the drawn side.
+    /// Keeps the bits of fragments that show the drawn side, of up to 16 fragments from a given number on.
     fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
@@ -290,7 +290,7 @@ const ALL: u32 = (1 << BLOCK) - 1;
 /// A bit for each fragment whose box reaches into a region, for each block with a marked fragment, and for
 /// each block with a marked block, in the layout of [`Bounds`].
 struct Marks {
-    /// For each level, a word for each block, and one more to read past the end.
+    /// For each level, a word for each block, and one more word to read past the end.
     words: Vec<u16>,
     /// The start of each level's words.
     levels: [usize; LEVELS],
@@ -364,8 +364,8 @@ impl Marks {
         }
     }
 
-    /// Whether some of these are marked. For 256 fragments and more it tests blocks, so it may return true
-    /// although none is marked.
+    /// Whether some of these fragments are marked. For 256 fragments and more it tests blocks, so it may
+    /// return true although no fragment is marked.
     #[inline]
     fn any(&self, fragments: &Range<u32>) -> bool {
         if fragments.is_empty() {
@@ -379,7 +379,7 @@ impl Marks {
         self.window(level as usize, first) & ((1 << len) - 1) != 0
     }
 
-    /// Whether all are marked.
+    /// Whether all these fragments are marked.
     fn all(&self, fragments: &Range<u32>) -> bool {
         fragments.clone().step_by(BLOCK).all(|first| {
             let len = (fragments.end - first).min(BLOCK as u32);
@@ -388,13 +388,13 @@ impl Marks {
         })
     }
 
-    /// A bit for each marked one of at most 16 fragments.
+    /// A bit for each marked fragment of at most 16.
     #[inline]
     fn of_few(&self, fragments: &Range<u32>) -> u32 {
         self.window(0, fragments.start) & ((1 << fragments.len()) - 1)
     }
 
-    /// The marked fragments by blocks: the number of the first, and a bit for each.
+    /// The marked fragments by blocks: the number of the first fragment, and a bit for each.
     fn words(&self, fragments: &Range<u32>) -> impl Iterator<Item = (u32, u32)> + use<'_> {
         let Range { start, end } = *fragments;
         let step = BLOCK as u32;
