@@ -122,9 +122,9 @@ impl Ray {
 
 /// A convex region: the points in front of several planes, such as the four sides of a camera's view.
 ///
-/// A plane is a normal, of any length, and an offset: the region contains only points p with `normal.dot(p)
-/// >= offset`, the front as of a [`Node`](crate::Node). Without planes, the region is the whole space. A
-/// plane with an infinite or NaN number excludes no point.
+/// A plane is a normal, of any length, and an offset: the region contains only points p with
+/// `normal.dot(p) >= offset`, the front as of a [`Node`](crate::Node). Without planes, the region is the whole
+/// space. A plane with an infinite or NaN number excludes no point.
 ///
 /// ```
 /// use binspace::Frustum;
