@@ -20,7 +20,7 @@
 
 use binspace::choose::{PieceSet, SplitPlane};
 use binspace::glam::DVec3;
-use binspace::scene::{BuiltinSpec, Scene};
+use binspace::scene::{Builtin, Scene};
 use binspace::{BspTree, BuildOptions, Heuristic};
 
 /// Half the surface area of a box.
@@ -85,7 +85,8 @@ fn build(scene: &Scene) -> Result<BspTree, binspace::Error> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let name = std::env::args().nth(1).unwrap_or_else(|| "random:500".to_owned());
-    let scene = name.parse::<BuiltinSpec>()?.build(1);
+    let (scene, size) = Builtin::parse(&name)?;
+    let scene = scene.build(size, 1);
     println!("{name}: {} polygons", scene.len());
     println!("{:<20} {:>9} {:>6} {:>8}", "heuristic", "fragments", "depth", "visited");
     row("surface area", &build(&scene)?);

@@ -3,7 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::glam::{DQuat, DVec3, EulerRot};
-use binspace::scene::{BuiltinSpec, Scene, random_triangles};
+use binspace::scene::{Builtin, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
 use std::path::Path;
 use std::process::Command;
@@ -17,8 +17,8 @@ pub const SEED: u64 = 1;
 /// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A missing file is named and left out.
 pub fn scene(name: &str) -> Option<Scene> {
     if !name.ends_with(".obj") {
-        let spec: BuiltinSpec = name.parse().expect("the name of a scene");
-        return Some(spec.build(SEED));
+        let (scene, size) = Builtin::parse(name).expect("the name of a scene");
+        return Some(scene.build(size, SEED));
     }
     let Some(folder) = env::var_os("BINSPACE_SCENES") else {
         eprintln!("left out: {name} (BINSPACE_SCENES does not name its folder)");

@@ -6,7 +6,7 @@ use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
 use binspace::internals::open_regular;
-use binspace::scene::{Builtin, BuiltinSpec, ObjReport, Scene};
+use binspace::scene::{Builtin, ObjReport, Scene};
 use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
@@ -57,7 +57,7 @@ const ENDINGS: [&str; 7] = ["obj", "bsp", "stl", "ply", "off", "glb", "gltf"];
 pub(crate) enum Source {
     StandardInput,
     File(PathBuf),
-    Builtin(BuiltinSpec),
+    Builtin(Builtin, Option<u32>),
 }
 
 /// Reads or generates the scene on the command line, and notes the omitted data. The seed is used by random
@@ -66,10 +66,10 @@ pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
     let name = asked.to_string_lossy();
     match source(asked)? {
         Source::StandardInput => standard_input(),
-        Source::Builtin(spec) => {
-            memory::check(&name, spec.polygons())?;
+        Source::Builtin(scene, size) => {
+            memory::check(&name, scene.polygons(size))?;
             let _progress = Progress::spinner(format!("generating {name}"));
-            Ok(spec.build(seed).into())
+            Ok(scene.build(size, seed).into())
         }
         Source::File(path) if path.is_dir() => {
             let problem = "cannot be read: it is a folder; `render`, `order` and `stats` take those \
@@ -214,8 +214,8 @@ pub(crate) fn source(name: &OsStr) -> Result<Source, Failure> {
     if text.contains(std::path::is_separator) {
         return file();
     }
-    match text.parse::<BuiltinSpec>() {
-        Ok(spec) => Ok(Source::Builtin(spec)),
+    match Builtin::parse(text) {
+        Ok((scene, size)) => Ok(Source::Builtin(scene, size)),
         Err(_) if path.exists() => file(),
         Err(error) if is_like_builtin(text) => Err(Failure::Message(error.to_string())),
         Err(error) => Err(Failure::Message(format!("{error}; and there is no file {text:?}"))),
@@ -233,7 +233,10 @@ mod tests {
 
     #[test]
     fn files_are_told_from_built_in_scenes() {
-        let builtin = |text: &str| Source::Builtin(text.parse().unwrap());
+        let builtin = |text: &str| {
+            let (scene, size) = Builtin::parse(text).unwrap();
+            Source::Builtin(scene, size)
+        };
         assert_eq!(source("teapot:3".as_ref()).unwrap(), builtin("teapot:3"));
         assert_eq!(source("sphere".as_ref()).unwrap(), builtin("sphere"));
         assert_eq!(source("-".as_ref()).unwrap(), Source::StandardInput);

@@ -117,6 +117,50 @@ impl Builtin {
         matches!(self.row().2, Recipe::Seeded(..))
     }
 
+    /// Reads a name with a size, `teapot:16`, or a name alone.
+    ///
+    /// ```
+    /// use binspace::scene::Builtin;
+    ///
+    /// let (scene, size) = Builtin::parse("teapot:3")?;
+    /// assert_eq!(scene.build(size, 0).len(), 32 * 3 * 3);
+    /// assert!(Builtin::parse("teapot:0").is_err());
+    /// # Ok::<(), binspace::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If no scene has the name, or if the scene has no such size.
+    pub fn parse(text: &str) -> Result<(Self, Option<u32>), Error> {
+        let Some((name, digits)) = text.split_once(':') else { return Ok((text.parse()?, None)) };
+        let scene: Self = name.parse()?;
+        let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
+            let problem = format!("the scene {scene} has one size; write `{scene}`");
+            return Err(Kind::Argument(problem).error());
+        };
+        match digits.parse().ok().filter(|size| sizes.contains(size)) {
+            Some(size) => Ok((scene, Some(size))),
+            None => {
+                let (low, high) = sizes.into_inner();
+                let problem = format!(
+                    "{digits:?} is not a size of the scene {scene}; give a whole number from {low} to \
+                     {high}, such as {scene}:{default}"
+                );
+                Err(Kind::Argument(problem).error())
+            }
+        }
+    }
+
+    /// About how many polygons the scene has, without generating it if it is large. A size outside
+    /// [`sizes`](Self::sizes) is not clamped.
+    pub fn polygons(self, size: Option<u32>) -> usize {
+        match (self, size.or(self.default_size())) {
+            (Self::Teapot, Some(size)) => 32 * (size as usize).pow(2),
+            (_, Some(size)) if self.sizes().is_some() => size as usize,
+            _ => self.build(None, 0).len(),
+        }
+    }
+
     /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of one
     /// size ignore the size, and unseeded scenes the seed.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
@@ -139,95 +183,13 @@ impl fmt::Display for Builtin {
 impl FromStr for Builtin {
     type Err = Error;
 
-    /// Reads a bare name; [`BuiltinSpec`] reads a name with a size.
+    /// Reads a bare name; [`Builtin::parse`] reads a name with a size.
     fn from_str(text: &str) -> Result<Self, Error> {
         Self::ALL.iter().copied().find(|scene| scene.name() == text).ok_or_else(|| {
             let names: Vec<_> = Self::ALL.iter().map(|scene| scene.name()).collect();
             let names = names.join(", ");
             Kind::Argument(format!("no built-in scene is called {text:?}; there are {names}"))
                 .error()
-        })
-    }
-}
-
-/// A generated scene with a size, such as `teapot:16`.
-///
-/// ```
-/// use binspace::scene::BuiltinSpec;
-///
-/// let spec: BuiltinSpec = "teapot:3".parse()?;
-/// assert_eq!(spec.build(0).len(), 32 * 3 * 3);
-/// assert!("teapot:0".parse::<BuiltinSpec>().is_err());
-/// # Ok::<(), binspace::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct BuiltinSpec {
-    scene: Builtin,
-    size: Option<u32>,
-}
-
-impl BuiltinSpec {
-    /// The scene without its size.
-    pub fn scene(self) -> Builtin {
-        self.scene
-    }
-
-    /// The given size, or the default; `None` for scenes of one size.
-    pub fn size(self) -> Option<u32> {
-        self.size.or(self.scene.default_size())
-    }
-
-    /// About how many polygons the scene has, without generating it if it is large.
-    pub fn polygons(self) -> usize {
-        match (self.scene, self.size()) {
-            (_, None) => self.build(0).len(),
-            (Builtin::Teapot, Some(size)) => 32 * (size as usize).pow(2),
-            (_, Some(size)) => size as usize,
-        }
-    }
-
-    /// Generates the scene.
-    pub fn build(self, seed: u64) -> Scene {
-        self.scene.build(self.size, seed)
-    }
-}
-
-impl From<Builtin> for BuiltinSpec {
-    fn from(scene: Builtin) -> Self {
-        Self { scene, size: None }
-    }
-}
-
-impl fmt::Display for BuiltinSpec {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.size {
-            Some(size) => f.pad(&format!("{}:{size}", self.scene)),
-            None => f.pad(self.scene.name()),
-        }
-    }
-}
-
-impl FromStr for BuiltinSpec {
-    type Err = Error;
-
-    /// Reads `name` or `name:size`.
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let Some((name, digits)) = text.split_once(':') else {
-            return text.parse().map(|scene: Builtin| scene.into());
-        };
-        let scene: Builtin = name.parse()?;
-        let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
-            let problem = format!("the scene {scene} has one size; write `{scene}`");
-            return Err(Kind::Argument(problem).error());
-        };
-        let size = digits.parse().ok().filter(|size| sizes.contains(size));
-        size.map(|size| Self { scene, size: Some(size) }).ok_or_else(|| {
-            let (low, high) = sizes.into_inner();
-            let problem = format!(
-                "{digits:?} is not a size of the scene {scene}; give a whole number from {low} to \
-                 {high}, such as {scene}:{default}"
-            );
-            Kind::Argument(problem).error()
         })
     }
 }

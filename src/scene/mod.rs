@@ -17,7 +17,7 @@ pub(crate) mod obj;
 mod saved;
 mod teapot;
 
-pub use builtin::{Builtin, BuiltinSpec};
+pub use builtin::Builtin;
 pub use cornell::cornell_box;
 pub use generated::{
     chain, city, crossing, layers, newell_bars, random_triangles, sphere, terrain,

@@ -1,7 +1,6 @@
 //! Facts about the generated scenes: published measurements, counts,
 //! orientation, determinism.
 
-use binspace::scene::BuiltinSpec;
 use std::collections::{HashMap, HashSet};
 use testkit::prelude::*;
 
@@ -375,27 +374,23 @@ fn small_sizes_give_scenes_that_can_be_drawn() {
 fn specs_are_read_and_written() {
     for &scene in Builtin::ALL {
         assert_eq!(scene.to_string().parse(), Ok(scene));
-        let bare = BuiltinSpec::from(scene);
-        assert_eq!(scene.name().parse(), Ok(bare));
-        assert_eq!(bare.size(), scene.default_size());
+        assert_eq!(Builtin::parse(scene.name()), Ok((scene, None)));
         let Some(sizes) = scene.sizes() else {
-            assert_eq!((scene.size_meaning(), bare.size()), (None, None));
+            assert_eq!((scene.size_meaning(), scene.default_size()), (None, None));
             continue;
         };
-        assert!(bare.size().is_some_and(|size| sizes.contains(&size)));
+        assert!(scene.default_size().is_some_and(|size| sizes.contains(&size)));
         for size in [*sizes.start(), *sizes.end()] {
             let text = format!("{scene}:{size}");
-            let spec: BuiltinSpec = text.parse().expect(&text);
-            assert_eq!((spec.scene(), spec.size()), (scene, Some(size)));
-            assert_eq!(spec.to_string(), text);
+            assert_eq!(Builtin::parse(&text), Ok((scene, Some(size))));
         }
     }
 }
 
 #[test]
 fn bad_specs_say_what_would_do() {
-    let error = |text: &str| match text.parse::<BuiltinSpec>() {
-        Ok(spec) => panic!("{text:?} was read as {spec}"),
+    let error = |text: &str| match Builtin::parse(text) {
+        Ok(read) => panic!("{text:?} was read as {read:?}"),
         Err(error) => error.to_string(),
     };
     for text in ["", "tepot", "Teapot", "tepot:3", ":3"] {
@@ -426,9 +421,8 @@ fn a_scene_stores_its_input_unchanged() {
 #[test]
 fn polygons_are_counted_before_they_are_generated() {
     for &scene in Builtin::ALL {
-        let spec = BuiltinSpec::from(scene);
-        let (said, made) = (spec.polygons(), spec.build(1).len());
+        let (said, made) = (scene.polygons(None), scene.build(None, 1).len());
         assert!(said.abs_diff(made) * 10 <= made, "{scene}: {said} {made}");
     }
-    assert_eq!("teapot:790".parse::<BuiltinSpec>().unwrap().polygons(), 19_971_200);
+    assert_eq!(Builtin::Teapot.polygons(Some(790)), 19_971_200);
 }
