@@ -37,7 +37,7 @@ impl Polygons {
                 let problem = "it is read twice with `--cells`: name a file";
                 Err(Failure::about("standard input", problem))
             }
-            Source::Builtin(_) => {
+            Source::Builtin(..) => {
                 Ok(Self::Whole(Box::new(scene_arg::load(&args.name, args.seed)?.scene)))
             }
             Source::File(path) if path.is_dir() => Err(Failure::about(name, BUILT)),
