@@ -31,7 +31,8 @@ pub struct Rays {
     pub(super) size: [u32; 2],
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
-    /// The height of the whole picture, of which these rays are some rows.
+    /// The height of the whole picture of which these rays are some rows; `above` is the number of rows above
+    /// them.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
