@@ -102,7 +102,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// The picture's width and height in pixels.
+    /// Returns the picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }

@@ -247,9 +247,9 @@ fn floor(value: f64) -> f64 {
 /// Σ |nᵢ||dᵢ| ≤ 2 − 2|N|.
 ///
 /// - If P and V have the same sign, Σ |nᵢ||dᵢ| + |P| + |V| ≤ 2 as well: 4 + |N|.
-/// - Otherwise let x be |n₂|. One of P and V has the sign of N: b is its magnitude, a that of the
-///   other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
-///   |N| ≤ x − a, so the sum is at most
+/// - Otherwise let x be |n₂|. Of P and V, one has the sign of N: let b be its magnitude, and a the magnitude
+///   of the other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
+///   |N| ≤ x − a. So the sum is at most
 ///   4 − x − 2|b − a| + 3b, with a and b at most 1 − x. That is at most 4 + 2x and 7 − 4x.
 ///
 /// The total is 9 επm. For a corner moved onto its face's plane, the error of the vertex is replaced by half

@@ -41,7 +41,7 @@ impl Vertex {
         self.vertex_id
     }
 
-    /// The line that bounds the piece from this vertex to the next.
+    /// Returns the line that bounds the piece from this vertex to the next.
     #[inline]
     pub fn line(&self) -> EdgeLine {
         self.line
