@@ -299,13 +299,13 @@ impl fmt::Display for Error {
             ),
             Kind::OffGrid => write!(
                 f,
-                "{shape} {number} reaches beyond the tree's grid: build the tree with bounds \
-                 (`with_bounds`), or a cell with an extent, that hold everything that will be added or moved"
+                "{shape} {number} reaches outside the tree's grid: build the tree with bounds (`with_bounds`), \
+                 or the partition with an extent, that contain everything to be added or moved"
             ),
             Kind::InOverlay => write!(
                 f,
-                "{shape} {number} of the overlay cannot be drawn: drawings take its lines and points \
-                 alone, so give the polygons to the tree"
+                "{shape} {number} of the overlay cannot be drawn: drawings include only its lines and \
+                 points, so build the polygons into the tree"
             ),
             Kind::Opacity(value) => write!(
                 f,
@@ -313,7 +313,7 @@ impl fmt::Display for Error {
             ),
             Kind::Opacities { given, expected } => write!(
                 f,
-                "there are {given} opacities, but {expected} polygons: give one for each polygon"
+                "there are {given} opacities, but {expected} polygons: pass one for each polygon"
             ),
             Kind::Argument(problem) => f.write_str(problem),
             Kind::File(FileFault { name, line, problem }) => {
@@ -370,16 +370,16 @@ impl fmt::Display for Error {
                 f.write_str("the viewport has a number that is NaN, infinite or too large")
             }
             Kind::OfCell => f.write_str(
-                "the tree is of one cell of a partition, but drawings and winding numbers need whole polygons: \
-                 build one tree of the scene",
+                "the tree belongs to one cell of a partition, but drawings and winding numbers need whole \
+                 polygons: build one tree of the scene",
             ),
             Kind::OpenEdge(corner) => write!(
                 f,
-                "{shape} {number} has an open edge, from its corner {corner}: no other edge runs back along it, \
-                 so there is no inside",
+                "{shape} {number} has an open edge, from its corner {corner}: no edge in the opposite direction closes \
+                 it, so the body has no inside",
             ),
             Kind::OverlaidTree => f.write_str(
-                "the tree is not the one that the overlay was made for: make an overlay for it",
+                "the overlay was made for another tree: make an overlay for this tree",
             ),
             Kind::MeshOfOtherTree => {
                 f.write_str("the mesh was made of another tree: make the mesh of this tree")

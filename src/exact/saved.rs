@@ -129,7 +129,7 @@ impl Faces {
         if let [low, high] = self.cell()
             && (0..3).any(|axis| low[axis] > high[axis])
         {
-            return Err(damaged("cell", "ends before it begins"));
+            return Err(damaged("cell", "has its lower corner above its upper corner"));
         }
         let ranges = (0..self.faces.len()).step_by(FACES_A_THREAD);
         let ranges =
@@ -149,7 +149,7 @@ impl Faces {
             return Err(invalid("corner", range.start + k, "is outside the grid"));
         }
         if face > 0 && self.faces[face].polygon < self.faces[face - 1].polygon {
-            return Err(invalid("face", face, "comes before one of an earlier polygon"));
+            return Err(invalid("face", face, "precedes a face of an earlier polygon"));
         }
         let frame = self.faces[face].frame;
         check_outline(corners, frame).map_err(|fault| invalid("face", face, fault))
@@ -222,7 +222,7 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
     // The nearest lattice points are off the plane by at most half a step along the axis.
     let most = match frame.moved_axis() {
         Some(moved) if moved != axis => {
-            return Err("is moved along another axis than its plane's");
+            return Err("is moved along the wrong axis");
         }
         Some(axis) => plane.normal()[axis].unsigned_abs() / 2,
         None => 0,

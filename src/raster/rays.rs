@@ -117,7 +117,7 @@ impl Rays {
         let sides = camera.size().map(|side| side.checked_mul(samples).filter(|&side| side > 0));
         let [Some(width), Some(height)] = sides else {
             return refused(format!(
-                "{samples} samples each way in a pixel: there must be 1 or more, and fewer than 2³² \
+                "a pixel has {samples} samples in each direction: expected 1 or more, and fewer than 2³² \
                  across the picture"
             ));
         };
@@ -170,7 +170,7 @@ impl Rays {
         let fits = reach.max_element() < REGION;
         if !fits {
             let problem =
-                "the parallel camera shows, or is centred on, a region too far from the scene";
+                "the picture of the parallel camera, or its centre, is too far from the scene";
             return refused(problem);
         }
         let cosine = camera.right().dot(camera.up());

@@ -145,8 +145,10 @@ impl FromStr for Builtin {
         Self::ALL.iter().copied().find(|scene| scene.name() == text).ok_or_else(|| {
             let names: Vec<_> = Self::ALL.iter().map(|scene| scene.name()).collect();
             let names = names.join(", ");
-            Kind::Argument(format!("no built-in scene is called {text:?}; there are {names}"))
-                .error()
+            Kind::Argument(format!(
+                "no built-in scene is called {text:?}; the built-in scenes are {names}"
+            ))
+            .error()
         })
     }
 }
@@ -218,7 +220,7 @@ impl FromStr for BuiltinSpec {
         };
         let scene: Builtin = name.parse()?;
         let (Some(sizes), Some(default)) = (scene.sizes(), scene.default_size()) else {
-            let problem = format!("the scene {scene} has one size; write `{scene}`");
+            let problem = format!("the scene {scene} has only one size; write `{scene}`");
             return Err(Kind::Argument(problem).error());
         };
         let size = digits.parse().ok().filter(|size| sizes.contains(size));

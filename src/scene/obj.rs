@@ -451,7 +451,7 @@ impl fmt::Display for ObjReport {
                 list(&self.outside_libraries),
             ),
             ("materials not defined", list(&self.missing_materials)),
-            ("colours and opacities taken as 0 or 1", list(&self.clamped_material_lines)),
+            ("colours and opacities clamped to 0 or 1", list(&self.clamped_material_lines)),
         ];
         let said = parts.into_iter().filter_map(|(what, said)| Some(format!("{what}: {}", said?)));
         f.write_str(&said.collect::<Vec<_>>().join("; "))

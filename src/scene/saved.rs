@@ -142,12 +142,12 @@ impl Scene {
         let Attributes { uvs, normals, colors } = &scene.attributes;
         let is_wrong = |len: usize, of: usize| len != 0 && len != of;
         if is_wrong(scene.lines.len(), scene.len()) {
-            return Err(damaged("lines", "are more or fewer than its polygons"));
+            return Err(damaged("lines", "do not match its polygons in number"));
         }
         let of_corners = [uvs.len(), normals.len(), colors.len()];
         if of_corners.into_iter().any(|len| is_wrong(len, scene.corners.len())) {
             let what = "texture coordinates, normals or colours";
-            return Err(damaged(what, "are more or fewer than its corners"));
+            return Err(damaged(what, "do not match its corners in number"));
         }
         Ok(scene)
     }

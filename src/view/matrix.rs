@@ -171,8 +171,8 @@ impl Camera {
     }
 }
 
-const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither an eye nor a direction of view: one is \
-                         zero, or they depend on each other";
+const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither an eye nor a direction of view: a \
+                         row is zero, or the rows are linearly dependent";
 const NOTHING_AHEAD: &str = "w of the matrix is zero or negative for every point: it must be positive ahead of the \
                              camera";
 const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror the drawing; or, if its y \

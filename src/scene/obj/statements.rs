@@ -141,7 +141,7 @@ impl Contents {
             found += 1;
         }
         if found < 3 {
-            return Err(format!("{found} coordinates; a `v` line must give x, y and z").into());
+            return Err(format!("{found} coordinates; a `v` line needs x, y and z").into());
         }
         self.vertices += 1;
         Ok(vertex.into())
@@ -225,7 +225,7 @@ pub(super) fn index(word: &str, count: usize) -> Option<usize> {
 fn no_vertex(word: &str, vertices: usize) -> Problem {
     let vertex = word.split('/').next().unwrap_or_default();
     match vertex.parse::<i128>() {
-        Ok(0) => "vertex 0 does not exist; the first is 1".into(),
+        Ok(0) => "vertex 0 does not exist; the first vertex is 1".into(),
         Ok(_) => format!("vertex {vertex} does not exist; there are {vertices} `v` lines").into(),
         Err(_) => {
             format!("{word:?} does not name a vertex; write whole numbers such as 3, 3/1 or -1")

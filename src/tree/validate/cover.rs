@@ -58,7 +58,7 @@ impl BspTree {
         if counted == splits {
             return Ok(());
         }
-        let what = format_args!("the builder counted {counted} cuts, but the pieces show {splits}");
+        let what = format_args!("the builder counted {counted} cuts, but the pieces have {splits}");
         Err(fault(0, what))
     }
 

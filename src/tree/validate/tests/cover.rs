@@ -340,7 +340,7 @@ fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
 fn cuts_that_are_counted_wrongly_are_found() {
     let tree = build(&tilted(&decals()), Heuristic::default());
     for cuts in [0, tree.cuts - 1, tree.cuts + 1] {
-        let fault = format!("the builder counted {cuts} cuts, but the pieces show {}", tree.cuts);
+        let fault = format!("the builder counted {cuts} cuts, but the pieces have {}", tree.cuts);
         assert_fault(&tree, |parts| parts.cuts = cuts, &fault);
     }
 }
