@@ -166,9 +166,9 @@ pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
     /// 1980). It compares no planes, and makes up to 14 times as many fragments as a scored heuristic.
     First,
-    /// The plane of a random polygon; the same seed gives the same tree. The expected number of
-    /// fragments is O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient
-    /// binary space partitions for hidden-surface removal and solid modeling”, 1990).
+    /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
+    /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space
+    /// partitions for hidden-surface removal and solid modeling”, 1990).
     Random {
         /// Seed of the pseudo-random sequence.
         seed: u64,

@@ -58,7 +58,7 @@ impl Eye {
 
     /// An eye infinitely far away in a direction.
     fn towards(direction: [f64; 3]) -> Self {
-        // An infinite component outweighs all finite ones.
+        // An infinite component outweighs all finite components.
         let finite = if largest(direction).is_infinite() {
             direction.map(|c| if c.is_infinite() { c.signum() } else { 0.0 })
         } else {
@@ -165,8 +165,8 @@ fn nearest_integer(rounded: f64, lost: f64) -> i64 {
 /// parameter of [`Ray`]; the direction of an endless ray has a separate scale.
 ///
 /// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so a
-/// plane at a point of the ray, and along its direction, takes 236 bits, and a product of two such numbers
-/// 472.
+/// plane at a point of the ray, and along its direction, takes 236 bits. A product of two such numbers takes
+/// 472 bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExactRay {
     origin: [i128; 3],

@@ -143,7 +143,7 @@ impl Faces {
         &self.corners[self.corner_range(face)]
     }
 
-    /// Whether a plane is the plane of a face or goes through a corner.
+    /// Whether a plane is the plane of a face or contains a corner.
     #[cfg(any(feature = "save", feature = "validate"))]
     pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
         match plane.kind() {
@@ -311,7 +311,7 @@ impl Faces {
         Self { lattice, tolerance, ..Self::default() }
     }
 
-    /// A copy, or an error if memory runs out.
+    /// Copies the faces; an error if memory runs out.
     pub(crate) fn try_clone(&self) -> Result<Self, Error> {
         let Self { lattice, tolerance, ref corners, ref numbers, ref numbered, .. } = *self;
         let Self { ref faces, ref moved, ref planes, thin, .. } = *self;

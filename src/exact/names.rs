@@ -22,8 +22,7 @@ pub struct PlaneId(pub(crate) u32);
 /// The plane that a [`PlaneId`] names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaneKind {
-    /// The plane of a face; its front is the side from which the face's corners run
-    /// counter-clockwise.
+    /// The plane of a face; its front is the side from which the face's corners are counter-clockwise.
     Face(u32),
     /// The plane perpendicular to an axis (0, 1, 2 for x, y, z) through a corner, counted over all
     /// faces; its front is the side of larger coordinates.

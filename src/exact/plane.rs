@@ -32,8 +32,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The plane through three lattice points; its front is the side from which they run
-    /// counter-clockwise.
+    /// The plane through three lattice points; its front is the side from which they are counter-clockwise.
     pub(crate) fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
         Self { normal: cross(p, q, r), point: p.map(|c| c as i64) }
     }

@@ -75,8 +75,8 @@ impl Faces {
         })
     }
 
-    /// Reads faces, which must be [checked](Self::check) after the file's checksum. The corners of all
-    /// faces follow those of their cell, `of_cell` in number.
+    /// Reads faces, which must be [checked](Self::check) after the file's checksum. The corners of all faces
+    /// follow the corners of their cell, `of_cell` in number.
     pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, Error> {
         let point = |bytes: &[u8], at: usize| {
             let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);

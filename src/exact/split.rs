@@ -35,7 +35,7 @@ impl Vertex {
         self.position
     }
 
-    /// Its definition.
+    /// Returns the definition of the vertex.
     #[inline]
     pub fn vertex_id(&self) -> VertexId {
         self.vertex_id
@@ -74,7 +74,7 @@ pub struct StoredVertex {
 }
 
 impl StoredVertex {
-    /// Its definition.
+    /// Returns the definition of the vertex.
     pub(crate) fn vertex_id(&self) -> VertexId {
         self.vertex_id
     }

@@ -295,7 +295,7 @@ impl Faces {
             let off = |i: usize| if is_on[i] { 0 } else { own.last_bits_at(&ends[i]) };
             let (offs, slope) = ([off(0), off(1)], own.normal()[axis]);
             // An edge between two corners that are not moved must be treated as an edge, not as a cut by an
-            // upright plane: the neighbour across it may have moved no corner, and both faces must compute
+            // upright plane. The neighbour across it may have moved no corner, and both faces must compute
             // the same bits.
             (offs != [0; 2]).then_some(Moved { axis, offs, slope })
         });

@@ -283,7 +283,7 @@ impl Layer {
         self.rows == other.rows
     }
 
-    /// The corners (u, v) of the rectangle; edge k runs from corner k to the next.
+    /// The corners (u, v) of the rectangle; edge k leads from corner k to the next.
     pub(super) fn corners(&self) -> [DVec2; 4] {
         let Self { low, high, .. } = *self;
         [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]

@@ -90,9 +90,9 @@ impl<'a> Coverage<'a> {
                 }
             }
         }
-        // Where a ray meets the plane behind the eye, all sides are reversed. No point lies outside all
-        // edges of a convex face, so the ray is not inside all of them. The lines of other pieces may
-        // also bound a mirror image behind the eye, so rays must be restricted to the half-space ahead.
+        // Where a ray meets the plane behind the eye, all sides are reversed. No point lies outside all edges
+        // of a convex face, so the ray is not inside all edges. The lines of other pieces may also bound a
+        // mirror image behind the eye, so rays must be restricted to the half-space ahead.
         if rays.is_perspective() && !matches!(outline, Outline::Whole) {
             add(Source::Ahead);
         }

@@ -153,7 +153,7 @@ const HALF: i128 = 1 << (BITS - 1);
 
 /// The sum of digitᵢ · 2⁵²ⁱ, each digit from −2⁵¹ to 2⁵¹ − 1.
 ///
-/// Nothing checks for overflow in release builds: N digits hold magnitudes below 2^(52 N − 1).
+/// Nothing checks for overflow in release builds: N digits store magnitudes below 2^(52 N − 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digits<const N: usize>([i64; N]);
 

@@ -86,8 +86,8 @@ impl Seen<'_> {
         self.oriented(source, self.rays.pixel(x, y))
     }
 
-    /// The side of a line for a ray that meets it exactly. The ray is treated as moved slightly to the
-    /// right, and much less downwards, which matters only for a line that runs to the right.
+    /// The side of a line for a ray that meets it exactly. The ray is treated as moved slightly to the right,
+    /// and much less downwards, which matters only for a horizontal line.
     pub(super) fn tie(&self, source: Source) -> Ordering {
         let right = self.oriented(source, Given::Step(self.rays.right));
         if right.is_ne() { right } else { self.oriented(source, Given::Step(self.rays.down)) }

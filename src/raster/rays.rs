@@ -73,7 +73,7 @@ pub(super) enum Given {
 /// beyond 2⁶¹).
 ///
 /// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a direction 168,
-/// and the product of two such 358: [`Digits`](super::digits) hold every decision. Too large: a wide view
+/// and the product of two such 358: every decision fits [`Digits`](super::digits). Too large: a wide view
 /// leaves the [`REGION`], because a direction's components, and those of `right` and `down` times the
 /// picture's sides, add up to three times as much. Too small: narrow views are rejected.
 const DIRECTION: f64 = (1u64 << 58) as f64;
@@ -238,7 +238,7 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// Restricts the rays to the fronts of faces: the sides from which their corners run counter-clockwise.
+    /// Restricts the rays to the fronts of faces: the sides from which their corners are counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }

@@ -32,11 +32,11 @@ impl Scene {
     /// significant digits of the largest coordinates. Zeros at the end of all coordinates do not count
     /// (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15 significant digits is
     /// first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate of less than about 10⁻¹¹
-    /// of the largest counts as 0. A few computed numbers do not decide for all: if at most one coordinate in
-    /// 100 has nine significant digits or more *and* more decimals than all coordinates with fewer digits,
-    /// only the first three digits of such coordinates count. If all coordinates of nine digits and more
-    /// (except one in 100) are `f32` numbers up to their written digits, a unit is a step of `f32` of the
-    /// largest coordinate. Up is y, because OBJ files do not define it.
+    /// of the largest counts as 0. A few computed numbers do not decide for all. Suppose that at most one
+    /// coordinate in 100 has nine significant digits or more *and* more decimals than all coordinates with
+    /// fewer digits. Then only the first three digits of such coordinates count. If all coordinates of nine
+    /// digits and more (except one in 100) are `f32` numbers up to their written digits, a unit is a step of
+    /// `f32` of the largest coordinate. Up is y, because OBJ files do not define it.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB, with its `d` or `Tr` as opacity. A missing
     /// or unreadable library is not an error: its materials appear as
@@ -339,7 +339,7 @@ impl ObjStream {
     }
 }
 
-/// Opens a file to read all of it.
+/// Opens a file to read it completely.
 fn open(path: &Path) -> io::Result<File> {
     // Unnamed pipes, such as `/dev/stdin`, have a writer. If `/dev/fd` contains links, links to such pipes
     // have no target; on other systems it contains files.

@@ -70,7 +70,7 @@ impl<'t> Fragment<'t> {
         self.face
     }
 
-    /// Returns the unit normal of the plane. It points to the front, the side from which vertices run
+    /// Returns the unit normal of the plane. It points to the front, the side from which vertices are
     /// counter-clockwise. It is bit for bit the same for all fragments of a polygon, or of a triangle if the
     /// polygon was triangulated.
     ///
@@ -192,9 +192,9 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices run
-    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view runs
-    /// along it.
+    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices are
+    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view is
+    /// parallel to the plane.
     ///
     /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so it is the same for
     /// all fragments of a face. The triangles of a non-planar polygon are faces with separate planes. O(1).
@@ -275,7 +275,7 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 /// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: there
 /// `base` cannot store all digits.
 ///
-/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions: the
+/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions. The
 /// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
 /// positive.
 ///

@@ -153,7 +153,7 @@ fn positions_inside_are_right_or_not_told() {
     assert!(told > 10_000 && untold > 400, "{told} told, {untold} not");
 }
 
-/// Leading bits rarely decide nothing, and otherwise give the same results as all bits.
+/// Leading bits nearly always decide, and then compute the same results as all bits.
 #[test]
 fn leading_bits_nearly_always_tell() {
     let mut random = SplitMix64::new(5);

@@ -255,7 +255,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
                         vertices[at] = corner.with_line(EdgeLine::edge(0)).stored();
                         vertices.insert(at + 1, made.with_line(corner.line()).stored());
                     }
-                    // The cut goes to an edge that ends at the corner.
+                    // The cut leads to an edge that ends at the corner.
                     (3, true) => vertices.insert(at, made.with_line(EdgeLine::edge(3)).stored()),
                     _ => vertices[at] = made.stored(),
                 }
