@@ -135,7 +135,7 @@ use crate::viewpoint::Ray;
 /// The tolerance applies as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
-/// - a segment that reaches further on one side only lies entirely on that side.
+/// - a segment that reaches further on only one side lies entirely on that side.
 ///
 /// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. If a wide line
 /// extends over a polygon that the line itself only touches, such as one of two walls that meet at the line,
@@ -145,7 +145,7 @@ use crate::viewpoint::Ray;
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where they meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
-/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus that of the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
 /// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these

@@ -232,7 +232,7 @@ pub struct Hit<'t> {
 
 impl<'t> Hit<'t> {
     /// Returns the fragment that is hit, for instance for its [normal](Fragment::normal). If several
-    /// fragments of the polygon meet at the point, it is any one.
+    /// fragments of the polygon meet at the point, the result is one of these.
     #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment
