@@ -1,6 +1,9 @@
 """Exact axes: pictures judged pixel by pixel, and that all else is as with mplot3d's axes."""
 
+import copy
 import io
+import pickle
+import shutil
 import subprocess
 import sys
 
@@ -77,6 +80,7 @@ def one_surface(ax):
 def one_line(ax):
     t = np.linspace(0, 9, 40)
     ax.plot(np.cos(t), np.sin(t), t, "r--", marker="o", ms=4, markevery=3)
+    ax.plot(np.cos(t) + 1, np.sin(t), t, "bs", ms=4, markevery=(0.05, 0.2))
 
 
 def one_scatter(ax):
@@ -98,6 +102,12 @@ def contours(ax):
     ax.contour(x, y, np.sin(x) * y, linewidths=[1, 2, 3])
 
 
+def hatches(ax):
+    x, y = np.meshgrid(np.linspace(-2, 2, 40), np.linspace(-2, 2, 40))
+    ax.contourf(x, y, np.sin(x) * y, offset=0, levels=6, hatches=["/", "x", None, ".."])
+    ax.contourf(x, y, np.sin(x) * y, offset=2, levels=6, hatches=["+", "\\\\"], colors="none")
+
+
 def a_patch(ax):
     patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, hatch="/")
     ax.add_patch(patch)
@@ -110,7 +120,7 @@ def a_text(ax):
 
 
 @pytest.mark.parametrize(
-    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, a_patch, a_text]
+    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, hatches, a_patch, a_text]
 )
 def test_what_mplot3d_draws_right_is_the_same(draw, way):
     before, ours = picture(draw, "3d"), picture(draw, "exact3d")
@@ -142,15 +152,16 @@ def test_svg_has_one_path_a_polygon():
     assert 100 <= file.getvalue().count("fill: #ff0000") + file.getvalue().count("fill: #00ff00") <= 200
 
 
+class Own(Axes3D):
+    pass
+
+
 def test_existing_axes_become_exact():
     figure, ax = plt.subplots(subplot_kw={"projection": "3d"})
     assert binspace.mpl.exact(ax) is ax and isinstance(ax, binspace.mpl.ExactAxes3D)
     assert type(binspace.mpl.exact(ax)) is binspace.mpl.ExactAxes3D
     compare.SCENES[0](ax)
     figure.canvas.draw()
-
-    class Own(Axes3D):
-        pass
 
     own = figure.add_axes(Own(figure))
     binspace.mpl.exact(own)
@@ -260,6 +271,21 @@ def test_nan_empty_and_hidden_artists_draw():
     figure.canvas.draw()
 
 
+@pytest.mark.parametrize("view", [{}, {"elev": 0, "azim": 0}, {"elev": 90, "azim": -90}], ids=str)
+@pytest.mark.parametrize("z", [1e300, 1e-300, np.inf, np.nan, 0.0], ids=str)
+def test_any_numbers_draw(z, view, way):
+    figure = plt.figure(figsize=(2, 2), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.arange(-2, 3), np.arange(-2, 3))
+    with np.errstate(all="ignore"):
+        ax.plot_surface(x, y, np.where(x > 0, z, 1.0) * y)
+        ax.plot_surface(x + 10**12, y, np.ma.masked_greater(y, 1))
+    ax.set_proj_type("ortho")
+    ax.view_init(**view)
+    ax.invert_xaxis()
+    figure.canvas.draw()
+
+
 def test_axes_of_very_different_scales(way):
     """The picture depends on the axes' limits, not on the numbers."""
 
@@ -316,3 +342,54 @@ plt.savefig("first.png")
 def test_a_first_try(tmp_path):
     subprocess.run([sys.executable, "-c", FIRST_TRY], check=True, cwd=tmp_path)
     assert (tmp_path / "first.png").stat().st_size > 10_000
+
+
+def test_axes_are_copied_and_pickled():
+    figure = plt.figure(figsize=(2, 2))
+    compare.SCENES[0](figure.add_subplot(projection="exact3d"))
+    own = binspace.mpl.exact(figure.add_axes(Own(figure)))
+    compare.SCENES[0](own)
+    figure.canvas.draw()
+    for again in (copy.deepcopy(figure), pickle.loads(pickle.dumps(figure))):
+        assert [type(axes) for axes in again.axes] == [type(axes) for axes in figure.axes]
+        again.canvas.draw()
+        assert np.array_equal(again.canvas.buffer_rgba(), figure.canvas.buffer_rgba())
+
+
+def test_pgf_has_one_path_a_polygon(tmp_path):
+    if not shutil.which("pdflatex"):
+        pytest.skip("matplotlib measures texts with LaTeX for this format")
+    figure = plt.figure()
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.linspace(-2, 2, 11), np.linspace(-2, 2, 11))
+    ax.plot_surface(x, y, 0 * x)
+    ax.plot_surface(x, y, x)
+    ax.set_axis_off()
+    with matplotlib.rc_context({"pgf.texsystem": "pdflatex"}):
+        figure.savefig(tmp_path / "a.pgf")
+    paths = (tmp_path / "a.pgf").read_text().count(r"\pgfusepath{fill}")
+    assert 100 <= paths <= 200
+    (tmp_path / "a.tex").write_text(r"\documentclass{article}\usepackage{pgf}\begin{document}\input{a.pgf}\end{document}")
+    subprocess.run(["pdflatex", "-interaction=batchmode", "a.tex"], cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
+    assert (tmp_path / "a.pdf").stat().st_size > 10_000
+
+
+def test_the_build_of_a_tree_reports_and_is_cancelled():
+    figure = plt.figure(figsize=(3, 3), dpi=50)
+    ax = figure.add_subplot(projection="exact3d")
+    compare.SCENES[0](ax)
+    calls = []
+
+    def stop(done, total):
+        raise InterruptedError("enough")
+
+    ax.exact_progress = stop
+    with pytest.raises(InterruptedError, match="enough"):
+        figure.canvas.draw()
+    ax.exact_progress = lambda done, total: calls.append((done, total))
+    figure.canvas.draw()
+    assert calls and calls[-1][0] == calls[-1][1]
+    count = len(calls)
+    ax.view_init(10, 20)
+    figure.canvas.draw()
+    assert len(calls) == count

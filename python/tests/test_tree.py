@@ -166,6 +166,27 @@ def test_polygons_with_nan_keep_their_number():
     assert tree.fragments.polygon[tree.order(eye=(0, 0, 9))].tolist() == [2, 0]
 
 
+def test_polygons_with_masked_numbers_are_left_out():
+    polygons = np.ma.array(squares(2, 0, 1))
+    polygons[1, 2, 0] = np.ma.masked
+    for given in (polygons, list(polygons), (polygons.reshape(-1, 3), np.arange(0, 13, 4))):
+        assert binspace.Tree(given).dropped.tolist() == [1]
+
+
+def test_numbers_of_all_kinds_are_read():
+    expected = binspace.Tree([SQUARE]).fragments.points
+    for kind in (">f8", np.float16, np.longdouble, np.int8, np.uint64, bool):
+        assert np.array_equal(binspace.Tree([SQUARE.astype(kind)]).fragments.points, expected)
+
+
+def test_extreme_numbers_are_read():
+    for factor in (1e300, 1.7e308, 1e-300, 5e-324):
+        tree = binspace.Tree([SQUARE * factor, SQUARE * factor + [0, 0, factor]])
+        assert tree.order(eye=(0, 0, 1e308)).tolist() in ([0, 1], [0], [])
+    tree = binspace.Tree([SQUARE + 1e15, SQUARE + [1e15, 1e15, 1e15 + 4]])
+    assert tree.order(direction=(0, 0, -1)).tolist() == [0, 1]
+
+
 def test_nothing_has_an_order():
     for nothing in ([], np.empty((0, 4, 3)), (np.empty((0, 3)), []), (np.empty((0, 3)), np.array([0]))):
         tree = binspace.Tree(nothing)
@@ -180,8 +201,13 @@ BAD = {
     "words": lambda: binspace.Tree([[["a", "b", "c"]] * 3]),
     "objects": lambda: binspace.Tree([np.array([[None] * 3] * 3)]),
     "complex": lambda: binspace.Tree([SQUARE * 1j]),
+    "structured": lambda: binspace.Tree([np.zeros(4, dtype=[("x", float), ("y", float)])]),
+    "dates": lambda: binspace.Tree([SQUARE.astype("M8[s]")]),
     "infinite": lambda: binspace.Tree([SQUARE, np.where(SQUARE == 1, np.inf, SQUARE)]),
     "number": lambda: binspace.Tree(5),
+    "nothing": lambda: binspace.Tree(None),
+    "text": lambda: binspace.Tree("abc"),
+    "progress is a number": lambda: binspace.Tree([SQUARE], progress=3),
     "one polygon": lambda: binspace.Tree(SQUARE),
     "index too large": lambda: binspace.Tree((SQUARE, [[0, 1, 4]])),
     "index of nothing": lambda: binspace.Tree((np.empty((0, 3)), [[0, 1, 2]])),

@@ -220,8 +220,8 @@ impl Corner {
     ///
     /// The products of a × b and their difference are rounded: by 2 roundings of their sizes, where 8 are
     /// subtracted. If parts of the slopes are off by s and t, a × b is off by
-    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two parts is at most 1.4 times a line's `slope`; twice
-    /// the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
+    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two parts is at most 1.4 times a line's `slope`;
+    /// twice the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);

@@ -2,8 +2,8 @@
 //! two other lines meet.
 //!
 //! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
-//! k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the plane through both points and the eye. The cut of
-//! a face f by a plane h consists of the rays that meet both in one point. With κ the value of a plane at the
+//! k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the plane through both points and the eye. The cut of a
+//! face f by a plane h consists of the rays that meet both in one point. With κ the value of a plane at the
 //! eye (for parallel rays, its slope along them) and φ its value along a ray, k = κ_f φ_h − κ_h φ_f.
 //!
 //! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361 bits; the

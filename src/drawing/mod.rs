@@ -13,8 +13,8 @@
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
-//! A [`VectorPicture`] combines any of these with colours and line styles of your choice. It writes SVG and,
-//! with the feature `pdf`, PDF.
+//! A [`VectorPicture`] combines any of these with colours and line styles of your choice. It writes SVG, TikZ
+//! and, with the feature `pdf`, PDF.
 //!
 //! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
 //! map.
@@ -59,6 +59,7 @@ mod quadtree;
 mod regions;
 mod segments;
 mod svg;
+mod tikz;
 mod translucent;
 
 pub use edges::{EdgeKind, EdgeRun};

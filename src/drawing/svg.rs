@@ -37,13 +37,33 @@ impl VectorPicture {
         if self.adds_up {
             writeln!(out, "<style>.binspace-sum path{{mix-blend-mode:plus-lighter}}</style>")?;
         }
-        write_nodes(out, &self.nodes, scale)?;
+        write_nodes(&self.nodes, |part| match part {
+            Written::Begin { attributes, look } => {
+                write!(out, "<g{attributes}")?;
+                write_look(out, look, scale)?;
+                writeln!(out, ">")
+            }
+            Written::Item { item, attributes, look } => {
+                write_item(out, item, attributes, look, scale)
+            }
+            Written::End => writeln!(out, "</g>"),
+        })?;
         writeln!(out, "</g>\n</svg>")
     }
 }
 
 /// The attributes that shapes may have in common: their paint, and the size of their font.
-type Look = (Paint, Option<f64>);
+pub(super) type Look = (Paint, Option<f64>);
+
+/// A part of a file, in the order to write it. Looks are absent where a group around it has them.
+pub(super) enum Written<'a> {
+    /// The beginning of a group.
+    Begin { attributes: &'a str, look: Option<Look> },
+    /// A shape, with the attributes of a group of it alone.
+    Item { item: &'a PaintedShape, attributes: &'a str, look: Option<Look> },
+    /// The end of the last group that is open.
+    End,
+}
 
 /// A group that is being written: its end, and the look of its contents, if the group states it.
 struct Open {
@@ -51,56 +71,50 @@ struct Open {
     look: Option<Look>,
 }
 
-fn write_nodes(out: &mut String, nodes: &[Node], scale: f64) -> fmt::Result {
+/// Writes nodes. Shapes of one look that follow one another are grouped.
+pub(super) fn write_nodes(
+    nodes: &[Node],
+    mut write: impl FnMut(Written<'_>) -> fmt::Result,
+) -> fmt::Result {
     let looks = looks(nodes);
     let mut open: Vec<Open> = Vec::new();
     let mut at = 0;
     loop {
         while open.pop_if(|group| group.end == at).is_some() {
-            writeln!(out, "</g>")?;
+            write(Written::End)?;
         }
         let Some(node) = nodes.get(at) else { return Ok(()) };
         let known = open.last().and_then(|group| group.look);
         // The look of this node, if no group around it has it.
-        let own = if known.is_none() { looks[at] } else { None };
-        if own.is_some() {
+        let look = if known.is_none() { looks[at] } else { None };
+        if look.is_some() {
             let limit = open.last().map_or(nodes.len(), |group| group.end);
             let mut end = after(nodes, at);
-            let is_alone = end == limit || looks[end] != own;
-            while end < limit && looks[end] == own {
+            let is_alone = end == limit || looks[end] != look;
+            while end < limit && looks[end] == look {
                 end = after(nodes, end);
             }
             // A group for one node would make the file longer.
             if !is_alone {
-                write!(out, "<g")?;
-                write_look(out, own, scale)?;
-                writeln!(out, ">")?;
-                open.push(Open { end, look: own });
+                write(Written::Begin { attributes: "", look })?;
+                open.push(Open { end, look });
                 continue;
             }
         }
-        let (attributes, item) = match node {
-            Node::Shape(item) => ("", item),
+        match node {
+            Node::Shape(item) => write(Written::Item { item, attributes: "", look })?,
             Node::Group { attributes, end } => match &nodes[at + 1..*end] {
-                [] => {
-                    at += 1;
-                    continue;
-                }
+                [] => {}
                 [Node::Shape(item)] => {
                     at += 1;
-                    (&attributes[..], item)
+                    write(Written::Item { item, attributes, look })?;
                 }
                 _ => {
-                    write!(out, "<g{attributes}")?;
-                    write_look(out, own, scale)?;
-                    writeln!(out, ">")?;
-                    open.push(Open { end: *end, look: known.or(own) });
-                    at += 1;
-                    continue;
+                    write(Written::Begin { attributes, look })?;
+                    open.push(Open { end: *end, look: known.or(look) });
                 }
             },
-        };
-        write_item(out, item, attributes, own, scale)?;
+        }
         at += 1;
     }
 }

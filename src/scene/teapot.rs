@@ -54,8 +54,8 @@ const SPOUT_UPPER: Tube = [
 /// points along +x.
 ///
 /// Martin Newell's bicubic patches of 1975 in the published proportions (3.15 high, the body 4 across), with
-/// the bottom that F. Crow added: "The origins of the teapot", IEEE Computer Graphics and Applications 7(1),
-/// 1987. Patches in the published order: 4 of the rim, 8 of the body, 4 of the handle, 4 of the spout, 8 of
+/// the bottom that F. Crow added: "The origins of the teapot", IEEE Computer Graphics and Applications 7(1)
+/// (1987). Patches in the published order: 4 of the rim, 8 of the body, 4 of the handle, 4 of the spout, 8 of
 /// the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of revolution, and handle and spout are
 /// symmetric, so their profiles define all patches.
 ///

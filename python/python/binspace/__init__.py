@@ -50,8 +50,10 @@ __version__ = "0.1.0"
 
 
 def _points(array, name="points"):
-    """Rows of three numbers, f64 or f32, without a copy where they are that already."""
+    """Rows of three numbers, f64 or f32, without a copy where they are that already. Masked numbers become NaN."""
     try:
+        if isinstance(array, np.ma.MaskedArray):
+            array = np.ma.filled(array.astype(float), np.nan)
         array = np.asarray(array)
     except ValueError as error:
         raise ValueError(f"{name} must be an array of shape (n, 3): {error}") from None
@@ -97,8 +99,8 @@ class Tree(_binspace.Tree):
         A list of polygons, each an array of shape (n, 3); one array of shape (polygons, n, 3); a tuple
         ``(vertices, faces)`` of an array of shape (n, 3) and an array of indices, one row a face, or a list of
         lists of indices; or a tuple ``(flat, offsets)``: polygon `i` has the rows of `flat` from ``offsets[i]`` to
-        ``offsets[i + 1]``. Arrays of f64 and of f32 are read without a copy. A polygon that has NaN is left out, and
-        keeps its number. (A tuple of two is never a list of two polygons.)
+        ``offsets[i + 1]``. Arrays of f64 and of f32 are read without a copy. A polygon that has NaN or masked
+        numbers is left out, and keeps its number. (A tuple of two is never a list of two polygons.)
     opacity : array of float, optional
         The opacity of each polygon, from 0 to 1. By default all are opaque.
     tolerance : float, optional

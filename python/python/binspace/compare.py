@@ -20,6 +20,7 @@ from mpl_toolkits.mplot3d import art3d
 
 import binspace.mpl  # noqa: F401 - registers the projection
 
+from . import _matplotlib_tests, _speed
 from ._scenes import SCENES
 
 # Depths that differ by less than this share of the scene's are the same.
@@ -161,8 +162,10 @@ class Depths:
         self.low_number = np.full(shape, -1)
         self.edge = np.full(shape, np.inf)
         self.layers = []
+        self.edges = [(np.empty((0, 2)), np.empty((0, 2)), np.empty(0), np.empty(0))]
         for number, outlines in enumerate(faces.outlines):
             self._add(number, [outline for outline in outlines if len(outline) > 2])
+        self._mark_edges()
         finite = self.best[np.isfinite(self.best)]
         self.margin = _CLOSE * (np.ptp(finite) + np.abs(finite).max(initial=0)) if len(finite) else 0.0
 
@@ -172,7 +175,7 @@ class Depths:
         if not np.isfinite(every).all():
             return
         for place, d in zip(places, depths):
-            self._add_edges(place, d)
+            self.edges.append((place, np.roll(place, -1, 0), d, np.roll(d, -1)))
         low = np.maximum(np.floor(every.min(0)).astype(int), 0)
         high = np.minimum(np.ceil(every.max(0)).astype(int) + 1, [self.view.width, self.view.height])
         if (high <= low).any():
@@ -214,17 +217,19 @@ class Depths:
         pixels = (rows + low[1]) * self.view.width + columns + low[0]
         self.layers.append((pixels, nearest[rows, columns], furthest[rows, columns], np.full(len(rows), number)))
 
-    def _add_edges(self, places, depths):
-        ends, far = np.roll(places, -1, 0), np.roll(depths, -1)
-        counts = np.minimum(np.ceil(np.hypot(*(ends - places).T) * 2).astype(int) + 1, 20_000)
-        for a, b, d, e, count in zip(places, ends, depths, far, counts):
-            t = np.linspace(0, 1, count)[:, None]
-            at, depth = np.floor(a + t * (b - a)).astype(int), d + t[:, 0] * (e - d)
-            for dx in (-1, 0, 1):
-                for dy in (-1, 0, 1):
-                    x, y = at[:, 0] + dx, at[:, 1] + dy
-                    inside = (x >= 0) & (y >= 0) & (x < self.view.width) & (y < self.view.height)
-                    np.minimum.at(self.edge, (y[inside], x[inside]), depth[inside])
+    def _mark_edges(self):
+        """The least depth of edges next to each pixel."""
+        a, b, d, e = (np.concatenate(part) for part in zip(*self.edges))
+        counts = np.minimum(np.ceil(np.hypot(*(b - a).T) * 2).astype(int) + 1, 20_000)
+        owner = np.repeat(np.arange(len(a)), counts)
+        t = (np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)) / np.maximum(counts - 1, 1)[owner]
+        at = np.floor(a[owner] + t[:, None] * (b - a)[owner]).astype(int)
+        depth = d[owner] + t * (e - d)[owner]
+        for dx in (-1, 0, 1):
+            for dy in (-1, 0, 1):
+                x, y = at[:, 0] + dx, at[:, 1] + dy
+                inside = (x >= 0) & (y >= 0) & (x < self.view.width) & (y < self.view.height)
+                np.minimum.at(self.edge, (y[inside], x[inside]), depth[inside])
 
     def certain(self):
         """The pixels whose nearest polygon is certain."""
@@ -425,7 +430,15 @@ def main():
     parser.add_argument("--dpi", type=int, default=300)
     parser.add_argument("--picture", metavar="FILE", help="write the scenes as both draw them, and judge nothing")
     parser.add_argument("scenes", nargs="*", help="names of scenes; by default all")
+    parser.add_argument("--speed", action="store_true", help="time pictures, and judge nothing")
+    parser.add_argument("--rounds", type=int, default=7, help="how often each picture is timed (default: 7)")
+    parser.add_argument("--matplotlib-tests", metavar="FOLDER",
+                        help="run matplotlib's tests in the folder lib/mpl_toolkits/mplot3d/tests of its sources on both")
     options = parser.parse_args()
+    if options.matplotlib_tests:
+        return _matplotlib_tests.main(options.matplotlib_tests)
+    if options.speed:
+        return _speed.main(options.rounds)
     scenes = [scene for scene in SCENES if not options.scenes or scene.__name__ in options.scenes]
     if options.picture:
         write_picture(options.picture, scenes)

@@ -14,6 +14,9 @@ on it, are painted in the order of their z-orders, and otherwise in the order in
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib import artist as martist
 from matplotlib import collections as mcoll
@@ -49,19 +52,19 @@ _JOINED = 1e-5
 
 def _placed(axes, artist, points):
     """Points in scaled data coordinates; NaN where they are invalid or clipped."""
-    points = np.ma.asarray(points, float)
-    mask = np.ma.getmaskarray(points).any(-1)
-    points = np.array(np.ma.getdata(points))
+    mask = np.ma.getmaskarray(points).any(-1) if isinstance(points, np.ma.MaskedArray) else False
+    points = np.array(np.ma.getdata(points), float)
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
-    if hasattr(art3d, "_scale_invalid_mask"):
-        mask = mask | art3d._scale_invalid_mask(x, y, z, axes)
     if getattr(artist, "_axlim_clip", False):
         mask = mask | art3d._viewlim_mask(x, y, z, axes)
-    if hasattr(proj3d, "_apply_scale_transforms"):
+    if hasattr(proj3d, "_apply_scale_transforms") and any(axis.get_scale() != "linear" for axis in axes._axis_map.values()):
+        mask = mask | art3d._scale_invalid_mask(x, y, z, axes)
         with np.errstate(all="ignore"):
             points = np.stack(proj3d._apply_scale_transforms(x, y, z, axes), -1)
-    mask = mask | ~np.isfinite(points).all(-1)
-    if mask.any():
+    is_finite = np.isfinite(points)
+    if not is_finite.all():
+        mask = mask | ~is_finite.all(-1)
+    if np.any(mask):
         points[mask] = np.nan
     return points
 
@@ -224,6 +227,8 @@ class _Source:
         self.point_rows = np.empty(0, int)
         self.face = self.edge = np.empty((0, 4))
         self.widths, self.dashes, self.smooth = [0.0], [(0, None)], [True]
+        # Of filled contours, one for each level.
+        self.hatches = list(getattr(artist, "hatches", None) or [artist.get_hatch() if hasattr(artist, "get_hatch") else None])
 
     def set_style(self, face, edge):
         artist = self.artist
@@ -239,7 +244,8 @@ class _Source:
             self.widths = np.zeros(1)
 
     def is_filled(self, rows):
-        return self.face[rows % len(self.face), 3] > 0 if len(self.face) else np.zeros(len(rows), bool)
+        filled = np.array([bool(hatch) for hatch in self.hatches])[rows % len(self.hatches)]
+        return filled | (self.face[rows % len(self.face), 3] > 0) if len(self.face) else filled
 
     def is_stroked(self, rows):
         if not len(self.edge):
@@ -302,15 +308,23 @@ def _own_lines(own):
 
 def _of_polygons(axes, artist):
     source = _Source(artist)
+    if artist.get_array() is not None:
+        artist.update_scalarmappable()
+        if artist._face_is_mapped:
+            artist._facecolor3d = artist._facecolors
+        if artist._edge_is_mapped:
+            artist._edgecolor3d = artist._edgecolors
     source.set_style(artist._facecolor3d, artist._edgecolor3d)
     if len(source.edge) and len(source.edge) not in (1, len(source.face)) and len(source.face):
         source.edge = source.edge[:1]
     if hasattr(artist, "_faces"):
         faces, invalid = artist._faces, artist._invalid_vertices
         count, most = faces.shape[:2] if faces.ndim == 3 else (0, 0)
-        valid = ~np.broadcast_to(invalid, (count, most))
-        lengths = valid.sum(1)
-        points = faces[valid] if count else np.empty((0, 3))
+        if np.any(invalid):
+            valid = ~np.broadcast_to(invalid, (count, most))
+            lengths, points = valid.sum(1), faces[valid]
+        else:
+            lengths, points = np.full(count, most), faces.reshape(-1, 3) if count else np.empty((0, 3))
     else:
         points = artist._vec[:3].T
         lengths = np.array([part.stop - part.start for part in artist._segslices], int)
@@ -355,10 +369,13 @@ def _of_segments(axes, artist):
     artist.update_scalarmappable()
     source.set_style(np.empty((0, 4)), artist.get_edgecolor())
     rows = np.arange(len(artist._segments3d))
-    for row, (segment, stroked) in enumerate(zip(artist._segments3d, source.is_stroked(rows))):
-        if stroked and len(segment) > 1:
-            source.lines.append(_placed(axes, artist, segment))
-            source.line_rows.append(row)
+    lengths = np.array([len(segment) for segment in artist._segments3d], int)
+    rows = rows[source.is_stroked(rows) & (lengths > 1)]
+    if len(rows):
+        segments = [np.ma.asarray(artist._segments3d[row], float) for row in rows.tolist()]
+        placed = _placed(axes, artist, np.ma.concatenate(segments))
+        source.lines = np.split(placed, np.cumsum(lengths[rows])[:-1])
+        source.line_rows = rows.tolist()
     return source
 
 
@@ -370,7 +387,7 @@ def _of_line(axes, artist):
     if artist.get_linestyle() not in ("None", "none", " ", "", None) and source.widths[0] > 0 and len(points) > 1:
         source.lines, source.line_rows = [points], [0]
     if artist.get_marker() not in ("None", "none", " ", "", None):
-        source.point_rows = _marked(artist, points)
+        source.point_rows = _marked(axes, artist, points)
         source.points = points[source.point_rows]
     # Picking and `get_data` use these positions.
     projected = _projected(axes.M, points)
@@ -378,7 +395,7 @@ def _of_line(axes, artist):
     return source
 
 
-def _marked(artist, points):
+def _marked(axes, artist, points):
     """The vertices of a line that have markers."""
     every = artist.get_markevery()
     numbers = np.arange(len(points))
@@ -389,7 +406,10 @@ def _marked(artist, points):
     if isinstance(every, tuple) and all(isinstance(number, (int, np.integer)) for number in every):
         return numbers[every[0] :: every[1]]
     if isinstance(every, (float, tuple)):
-        raise NotImplementedError("exact axes have no markers at distances: markevery must not be a float")
+        # At distances in the picture.
+        places = _projected(axes.M, points)
+        chosen = mlines._mark_every_path(every, Path(places), axes.transData, axes).vertices
+        return np.array([np.flatnonzero((places == place).all(1))[0] for place in chosen], int)
     return numbers[every]
 
 
@@ -426,20 +446,69 @@ def _kind(artist):
     return next((gather for kind, gather in _KINDS if isinstance(artist, kind)), None)
 
 
+class _Late(Sequence):
+    """The paths of a collection in the plane of the picture, projected when someone reads them: picking does, painting
+    does not."""
+
+    def __init__(self, artist):
+        self._artist = artist
+
+    def _paths(self):
+        artist = self._artist
+        if artist._paths is self:
+            artist._paths = []
+            if artist.axes is not None:
+                artist.do_3d_projection()
+        return artist._paths
+
+    def __len__(self):
+        return len(self._paths())
+
+    def __getitem__(self, number):
+        return self._paths()[number]
+
+
+def _may_be_late(artist):
+    """Whether the projection of an artist is that of mplot3d, and can wait."""
+    project = getattr(type(artist), "do_3d_projection", None)
+    return project in (art3d.Poly3DCollection.do_3d_projection, art3d.Line3DCollection.do_3d_projection)
+
+
+def _project_late(artist):
+    artist._paths = _Late(artist)
+    # mplot3d projects again where these are missing.
+    for name in ("_facecolors2d", "_edgecolors2d"):
+        artist.__dict__.pop(name, None)
+
+
 # The view.
 
 
 def _projected(matrix, points):
     """x and y of points in the plane of the projection."""
-    rows = matrix[[0, 1, 3]]
-    x, y, w = rows[:, :3] @ points.T + rows[:, 3:]
+    result = np.empty((*points.shape[:-1], 2))
+    # Column by column: products of such long matrices are slower.
+    depth = _times(matrix[3], points)
     with np.errstate(all="ignore"):
-        return np.stack([x / w, y / w], -1)
+        for axis in range(2):
+            np.divide(_times(matrix[axis], points), depth, result[..., axis])
+    return result
 
 
-def _displayed(matrix, to_display, points):
-    """Points in display coordinates."""
-    return _projected(matrix, points) * to_display[[0, 1], [0, 1]] + to_display[:2, 2]
+def _times(row, points):
+    """The products of points with a row of a matrix."""
+    result = points[..., 0] * row[0]
+    for axis in (1, 2):
+        result += points[..., axis] * row[axis]
+    result += row[3]
+    return result
+
+
+def _to_pixels(matrix, to_display):
+    """The matrix that projects points to display coordinates."""
+    result = matrix.copy()
+    result[:2] = to_display[[0, 1], [0, 1], None] * matrix[:2] + to_display[:2, 2:] * matrix[3]
+    return result
 
 
 def _viewpoint(matrix):
@@ -456,11 +525,8 @@ def _viewpoint(matrix):
 
 def _camera(matrix, to_display, size):
     """The camera of a picture of a size, and whether x is mirrored."""
-    scale, shift = to_display[[0, 1], [0, 1]], to_display[:2, 2]
-    clip = matrix.copy()
-    for axis in range(2):
-        in_pixels = scale[axis] * matrix[axis] + shift[axis] * matrix[3]
-        clip[axis] = 2 / size[axis] * in_pixels - matrix[3]
+    clip = _to_pixels(matrix, to_display)
+    clip[:2] = 2 / np.array(size)[:, None] * clip[:2] - matrix[3]
     # Inverted axes mirror a picture.
     volume = np.linalg.det(clip[[0, 1, 3]][:, :3])
     direction = _viewpoint(matrix).get("direction")
@@ -478,7 +544,7 @@ def _camera(matrix, to_display, size):
 class _Built:
     """A tree of polygons, with lines and points; kept while these are the same."""
 
-    def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers):
+    def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
         valid = everything[~np.isnan(everything).any(1)]
@@ -489,9 +555,9 @@ class _Built:
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
         # A little larger, as quotients are rounded.
         bounds = [np.full(3, -1.001), np.full(3, 1.001)]
-        self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds)
+        self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds, progress=progress)
         line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
-        self.overlay = self.tree.overlay((lines, line_offsets), markers)
+        self.overlay = self.tree.overlay((lines, line_offsets), markers, progress=progress)
         self.pieces = self.overlay.pieces
         fragments = self.tree.fragments
         self.points, self.polygon = fragments.points, fragments.polygon.astype(np.int64)
@@ -501,11 +567,14 @@ class _Built:
         self.own = edges >= 0
         first = np.repeat(offsets[self.polygon], np.diff(offsets_of_fragments))
         self.own[self.own] = own[(first + edges)[self.own]]
-        self.is_whole = _are_all(self.own, self.starts)
-        self.corners, codes, self.closed = _closed(offsets_of_fragments)
-        places = np.zeros((len(self.corners), 2))
-        self.paths = _paths(places, codes, self.closed)
-        self.strokes = {}
+        self.outlines = np.asfortranarray(points)
+        self.offsets = offsets
+        self.counts = np.bincount(self.polygon, minlength=len(lengths))
+        self.paths, self.corners, self.places = _views(offsets)
+        self.is_own = _are_all(own, offsets[:-1], lengths)
+        # Fragments of polygons with several, and the normals that say which of their sides a view shows.
+        self.several = np.flatnonzero(self.counts[self.polygon] > 1)
+        self.planes = _planes(self.points, self.starts, self.ends, self.several)
 
     def matrix(self, matrix):
         """A matrix for points in the coordinates of the tree."""
@@ -519,17 +588,37 @@ class _Built:
             for a, b in zip(self.given, given)
         )
 
-    def stroke(self, fragment):
-        """The lines along edges of the polygon of a fragment that is cut: corners and codes."""
-        if fragment not in self.strokes:
-            start, end = self.starts[fragment], self.ends[fragment]
-            self.strokes[fragment] = _compound([start + line for line in _own_lines(self.own[start:end])])
-        return self.strokes[fragment]
+
+def _are_all(values, starts, lengths):
+    """Whether all of as many values from each start are true."""
+    wrong = np.append(0, np.cumsum(~values))
+    return wrong[starts] == wrong[starts + lengths]
 
 
-def _are_all(values, starts):
-    """Whether all values from each start to the next are true."""
-    return np.logical_and.reduceat(values, starts) if len(starts) else np.empty(0, bool)
+def _planes(points, starts, ends, numbers):
+    """The planes of the outlines with these numbers: normals, and their products with a corner of each."""
+    starts, lengths = starts[numbers], (ends - starts)[numbers]
+    corners, owner = _ranges(starts, lengths)
+    last = np.cumsum(lengths) - 1
+    # One coordinate after the other: products of the steps from the first corner need less memory so.
+    steps = [points[corners, axis] - points[starts, axis][owner] for axis in range(3)]
+    following = [np.roll(step, -1) for step in steps]
+    for step in following:
+        step[last] = 0
+    planes = np.zeros((4, len(numbers)))
+    for axis in range(3):
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        products = steps[i] * following[j] - steps[j] * following[i]
+        planes[axis] = np.bincount(owner, products, len(numbers))
+        planes[3] += planes[axis] * points[starts, axis]
+    return planes
+
+
+def _ranges(starts, lengths):
+    """The numbers from each start on, as many as each length, and for each number whose it is."""
+    owner = np.repeat(np.arange(len(starts)), lengths)
+    before = np.cumsum(lengths) - lengths
+    return np.arange(len(owner)) + (starts - before)[owner], owner
 
 
 def _closed(offsets):
@@ -544,18 +633,62 @@ def _closed(offsets):
     return corners, codes, closed
 
 
+class _Outline(Path):
+    """A path whose attributes are read without calls: renderers read those of each path of a collection."""
+
+    __slots__ = ("vertices", "codes")
+    should_simplify = _should_simplify = False
+    simplify_threshold = _simplify_threshold = 0.0
+    _interpolation_steps = 1
+    _readonly = False
+
+    def __init__(self, vertices, codes):
+        self.vertices, self.codes = vertices, codes
+
+
+def _views(offsets):
+    """Closed paths of outlines, the corners of all, by number, and their places: the paths are views of these."""
+    lengths = np.diff(offsets)
+    places = np.zeros((offsets[-1] + len(lengths), 2))
+    corners, paths, start = [np.empty(0, int)], np.empty(len(lengths), object), 0
+    # Outlines of one length are the rows of a matrix: this is faster than to cut one after the other.
+    for length in np.unique(lengths):
+        chosen = np.flatnonzero(lengths == length)
+        around = np.append(np.arange(length), 0 if length else [])
+        corners.append((offsets[chosen, None] + around.astype(int)).ravel())
+        end = start + len(corners[-1])
+        codes = np.full(len(around), Path.LINETO, np.uint8)
+        codes[:1], codes[1:][-1:] = Path.MOVETO, Path.CLOSEPOLY
+        rows = places[start:end].reshape(len(chosen), len(around), 2)
+        paths[chosen] = np.fromiter((_Outline(row, codes) for row in rows), object, len(chosen))
+        start = end
+    return paths, np.concatenate(corners), places[:start]
+
+
 def _paths(places, codes, offsets):
     offsets = offsets.tolist()
-    make = Path._fast_from_codes_and_verts
-    return [make(places[a:b], codes[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
+    return [_Outline(places[a:b], codes[a:b]) for a, b in zip(offsets[:-1], offsets[1:])]
 
 
-def _compound(lines):
-    if not lines:
-        return np.empty(0, int), np.empty(0, np.uint8)
-    codes = np.full(sum(map(len, lines)), Path.LINETO, np.uint8)
-    codes[np.cumsum([0] + [len(line) for line in lines[:-1]])] = Path.MOVETO
-    return np.concatenate(lines), codes
+def _stroked(starts, lengths, own):
+    """Lines along those edges of outlines that are their own: corners, by number; codes; and where each outline's begin."""
+    corners, owner = _ranges(starts, lengths)
+    first = np.cumsum(lengths) - lengths
+    # Each begins after an edge that is not its own.
+    at = np.arange(len(corners)) - first[owner]
+    turn = np.full(len(starts), len(corners))
+    np.minimum.at(turn, owner, np.where(own[corners], len(corners), at + 1))
+    is_ring = turn == len(corners)
+    turn[is_ring] = 0
+    from_, to = (starts[owner] + (at + step + turn[owner]) % lengths[owner] for step in (0, 1))
+    is_own = own[from_]
+    begins = is_own & np.append(True, ~is_own[:-1] | (owner[1:] != owner[:-1]))[: len(is_own)]
+    chosen = np.stack([begins, is_own], -1)
+    corners = np.stack([from_, to], -1)[chosen]
+    codes = np.where(is_ring[owner] & (at == lengths[owner] - 1), Path.CLOSEPOLY, Path.LINETO).astype(np.uint8)
+    codes = np.stack([np.full(len(codes), Path.MOVETO, np.uint8), codes], -1)[chosen]
+    counts = np.bincount(owner, begins.astype(int) + is_own, len(starts)).astype(int)
+    return corners, codes, np.append(0, np.cumsum(counts))
 
 
 class _Shown:
@@ -568,7 +701,7 @@ class _Shown:
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
         # Paths of areas, and whether all of their sides are edges of their polygons.
-        self.fills, self.is_whole = [], np.empty(0, bool)
+        self.fills, self.is_whole = np.empty(0, object), np.empty(0, bool)
 
     def sort_markers(self, depths):
         """Sorts markers that follow one another by depth: those that are in one plane with the eye overlap as well."""
@@ -579,47 +712,68 @@ class _Shown:
         order = np.lexsort([-depth, run])
         self.kinds, self.numbers = self.kinds[order], self.numbers[order]
 
-    def stroke(self, number):
-        """The path of those sides of an area that are edges of its polygon."""
+    def strokes(self, numbers):
+        """The paths of those sides of areas that are edges of their polygons."""
         raise NotImplementedError
 
 
+def _runs(built, order, view, may_join):
+    """Where the fragments of each polygon begin that follow one another in an order, if the polygon may be joined. Each of
+    the others, and each part of a line and each point, begins a run."""
+    *normals, shift = built.planes
+    eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
+    is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
+    fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
+    # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
+    may_join = may_join & ((fronts == 0) | (fronts == built.counts))
+    polygon = np.append(built.polygon, np.full(len(built.pieces.number), -1))[order]
+    joined = np.append(may_join, False)[polygon]
+    continues = joined[1:] & (polygon[1:] == polygon[:-1])
+    return np.flatnonzero(np.append(True, ~continues)[: len(order)])
+
+
 class _Ordered(_Shown):
-    """The fragments of a tree in its own order: fast, for any view."""
+    """The fragments of a tree in its own order: fast, for any view. Fragments of one polygon that follow one another are
+    one area, and those of a whole polygon are its own outline."""
 
     def __init__(self, built, matrix, to_display):
         view = _viewpoint(matrix)
         order = built.overlay.order(**view).astype(np.int64)
         count = len(built.polygon)
+        to_pixels = _to_pixels(matrix, to_display)
+
+        def place(points):
+            return _projected(to_pixels, points)
+
+        self.built, self.place = built, place
+        depth = _times(matrix[3], built.outlines)
+        self.least = _NEAR * np.nanmax(np.abs(depth), initial=0)
+        is_near = ~_are_all(~(depth <= self.least), built.offsets[:-1], built.given[1])
+        first = _runs(built, order, view, ~is_near)
+        is_area = order[first] < count
+        lengths = np.diff(np.append(first, len(order)))
+        self.order, self.first_of_area, self.length_of_area = order, first[is_area], lengths[is_area]
+        pieces = order[first] - count
         is_point = built.pieces.segment < 0
-        kinds = np.concatenate([np.zeros(count, int), np.where(is_point, 2, 1)])
-        numbers = np.concatenate([np.arange(count), np.arange(len(is_point))])
-        super().__init__(kinds[order], numbers[order])
-        self.built = built
-        self.polygon = built.polygon
+        kinds = np.zeros(len(first), int)
+        kinds[~is_area] = np.where(is_point, 2, 1)[pieces[~is_area]]
+        super().__init__(kinds, np.where(is_area, np.cumsum(is_area) - 1, pieces))
+        self.polygon = built.polygon[order[self.first_of_area]]
         self.line = self.marker = built.pieces.number.astype(np.int64)
         self.segment = built.pieces.segment
 
-        def place(points):
-            return _displayed(matrix, to_display, points)
-
-        self.places = place(built.points)
-        depth = built.points @ matrix[3, :3] + matrix[3, 3]
-        near = _NEAR * np.abs(depth).max(initial=0)
+        is_complete = (self.length_of_area == built.counts[self.polygon]) & ~is_near[self.polygon]
+        np.take(place(built.outlines), built.corners, 0, built.places)
+        self.fills = np.empty(len(self.polygon), object)
+        self.fills[is_complete] = built.paths[self.polygon[is_complete]]
+        self.is_whole = is_complete & built.is_own[self.polygon]
         self.near = {}
-        if (depth <= near).any():
-            is_near = np.logical_or.reduceat(depth <= near, built.starts)
-            for i in np.flatnonzero(is_near):
-                part = slice(built.starts[i], built.ends[i])
-                self.near[int(i)] = _before_eye(built.points[part], built.own[part], depth[part], near, place)
-        corners, offsets = self.places[built.corners], built.closed.tolist()
-        for path, a, b in zip(built.paths, offsets[:-1], offsets[1:]):
-            path._vertices = corners[a:b]
-        self.fills, self.is_whole = built.paths, built.is_whole
-        if self.near:
-            self.fills, self.is_whole = list(built.paths), built.is_whole.copy()
-            for i, (path, _) in self.near.items():
-                self.fills[i], self.is_whole[i] = path, False
+        for area in np.flatnonzero(is_near[self.polygon]).tolist():
+            self.near[area] = self._before_eye(order[self.first_of_area[area]], matrix)
+            self.fills[area] = self.near[area][0]
+        parts = np.flatnonzero(~is_complete & ~is_near[self.polygon])
+        for area, path in zip(parts.tolist(), self._parts(parts)):
+            self.fills[area] = path
         ends = built.pieces.ends
         self.ends = place(ends.reshape(-1, 3)).reshape(-1, 2, 2)
         self.at = self.ends[:, 0]
@@ -628,11 +782,32 @@ class _Ordered(_Shown):
             keep = (self.kinds == 0) | ~behind[np.where(self.kinds == 0, 0, self.numbers)]
             self.kinds, self.numbers = self.kinds[keep], self.numbers[keep]
 
-    def stroke(self, number):
-        if number in self.near:
-            return self.near[number][1]
-        corners, codes = self.built.stroke(number)
-        return Path(self.places[corners], codes)
+    def _parts(self, areas):
+        """The paths of areas that are parts of polygons."""
+        built = self.built
+        numbers, owner = _ranges(self.first_of_area[areas], self.length_of_area[areas])
+        fragments = self.order[numbers]
+        lengths = (built.ends - built.starts)[fragments]
+        corners, _ = _ranges(built.starts[fragments], lengths)
+        closed_corners, codes, closed = _closed(np.append(0, np.cumsum(lengths)))
+        places = self.place(built.points[corners])[closed_corners]
+        ends = np.append(0, np.cumsum(np.bincount(owner, minlength=len(areas)))) if len(areas) else np.zeros(1, int)
+        return _paths(places, codes, closed[ends])
+
+    def _before_eye(self, fragment, matrix):
+        """The path of the part of a fragment that is before the eye, and of its strokes."""
+        part = slice(self.built.starts[fragment], self.built.ends[fragment])
+        points, own = self.built.points[part], self.built.own[part]
+        return _before_eye(points, own, points @ matrix[3, :3] + matrix[3, 3], self.least, self.place)
+
+    def strokes(self, numbers):
+        built = self.built
+        rows, owner = _ranges(self.first_of_area[numbers], self.length_of_area[numbers])
+        fragments = self.order[rows]
+        corners, codes, offsets = _stroked(built.starts[fragments], (built.ends - built.starts)[fragments], built.own)
+        ends = np.append(0, np.cumsum(np.bincount(owner, minlength=len(numbers))))
+        paths = _paths(self.place(built.points[corners]), codes, offsets[ends])
+        return [self.near[number][1] if number in self.near else path for number, path in zip(numbers.tolist(), paths)]
 
 
 def _before_eye(points, own, depth, near, place):
@@ -651,7 +826,7 @@ def _before_eye(points, own, depth, near, place):
     line = np.append(np.arange(len(places)), 0) if len(places) > 2 else np.empty(0, int)
     codes = np.full(len(line), Path.LINETO, np.uint8)
     codes[:1], codes[-1:] = Path.MOVETO, Path.CLOSEPOLY
-    corners, stroke_codes = _compound(_own_lines(np.array(edges)) if len(line) else [])
+    corners, stroke_codes, _ = _stroked(np.zeros(1, int), np.array([len(places)]), np.array(edges, bool))
     return Path(places[line].reshape(-1, 2), codes), Path(places[corners].reshape(-1, 2), stroke_codes)
 
 
@@ -682,16 +857,17 @@ class _Drawn(_Shown):
         first = np.repeat(offsets[self.polygon], np.diff(starts))
         self.own = edges >= 0
         self.own[self.own] = own[(first + edges)[self.own]]
-        self.is_whole = _are_all(self.own, starts[:-1])
+        self.is_whole = _are_all(self.own, starts[:-1], np.diff(starts))
         if traps.any():
             # Polygons below would show through seams between faces.
             filled = drawing._trapped(traps.tolist())
             corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
-            self.fills = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
+            paths = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
             self.is_whole[traps[self.polygon]] = False
         else:
             corners, codes, closed = _closed(self.of_outlines)
-            self.fills = _paths(self.corners[corners], codes, closed[self.of_paths])
+            paths = _paths(self.corners[corners], codes, closed[self.of_paths])
+        self.fills = np.fromiter(paths, object, len(paths))
         if drawing.lines is not None:
             self.line = drawing.lines.line.astype(np.int64)
             self.segment = drawing.lines.segment.astype(np.int64)
@@ -707,40 +883,43 @@ class _Drawn(_Shown):
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
-        runs = seen.lines(overlay)
-        known = {}
-        for line, segment, ends in zip(runs.line.tolist(), runs.segment.tolist(), place(runs.ends)):
-            known.setdefault((line, segment), []).append(ends)
         markers = seen.markers(overlay)
         is_shown = are_texts.copy()
         is_shown[markers.point[markers.is_visible]] = True
-        kinds, numbers, origin, parts = [], [], [], []
-        for kind, number in zip(self.kinds.tolist(), self.numbers.tolist()):
-            if kind == 0 and not is_visible[self.polygon[number]] or kind == 2 and not is_shown[self.marker[number]]:
-                continue
-            if kind != 1:
-                kinds.append(kind)
-                numbers.append(number)
-                continue
-            start, step = self.ends[number, 0], self.ends[number, 1] - self.ends[number, 0]
-            square = step @ step
-            for ends in known.get((int(self.line[number]), int(self.segment[number])), ()):
-                a, b = np.clip((ends - start) @ step / square, 0, 1) if square > 0 else (0, 0)
-                if b > a:
-                    kinds.append(1)
-                    numbers.append(len(parts))
-                    origin.append(number)
-                    parts.append(start + np.outer([a, b], step))
-        self.kinds, self.numbers = np.array(kinds, int), np.array(numbers, int)
-        self.ends = np.array(parts).reshape(-1, 2, 2)
-        origin = np.array(origin, int)
+        is_line = self.kinds == 1
+        keep = is_line.copy()
+        is_area, is_marker = self.kinds == 0, self.kinds == 2
+        keep[is_area] = is_visible[self.polygon[self.numbers[is_area]]]
+        keep[is_marker] = is_shown[self.marker[self.numbers[is_marker]]]
+        self.kinds, self.numbers, is_line = self.kinds[keep], self.numbers[keep], is_line[keep]
+        # Each part of a line with each visible part of its segment.
+        runs = seen.lines(overlay)
+        most = 1 + max(runs.segment.max(initial=0), self.segment.max(initial=0))
+        keys = runs.line.astype(np.int64) * most + runs.segment
+        sorting = np.argsort(keys, kind="stable")
+        parts = self.numbers[is_line]
+        own_keys = self.line[parts] * most + self.segment[parts]
+        low, high = (np.searchsorted(keys[sorting], own_keys, side) for side in ("left", "right"))
+        pairs, owner = _ranges(low, high - low)
+        visible = place(runs.ends)[sorting[pairs]]
+        start = self.ends[parts[owner], 0]
+        step = self.ends[parts[owner], 1] - start
+        square = np.maximum((step * step).sum(-1), np.finfo(float).tiny)
+        shares = np.clip(((visible - start[:, None]) * step[:, None]).sum(-1) / square[:, None], 0, 1)
+        chosen = shares[:, 1] > shares[:, 0]
+        self.ends = (start[:, None] + shares[..., None] * step[:, None])[chosen]
+        counts = np.ones(len(self.kinds), int)
+        counts[is_line] = np.bincount(owner[chosen], minlength=len(parts))
+        self.kinds, self.numbers = np.repeat(self.kinds, counts), np.repeat(self.numbers, counts)
+        origin = parts[owner[chosen]]
         self.line, self.segment = self.line[origin], self.segment[origin]
+        self.numbers[self.kinds == 1] = np.arange(len(origin))
 
-    def stroke(self, number):
-        outlines = range(self.of_paths[number], self.of_paths[number + 1])
-        starts = [(self.of_outlines[i], self.of_outlines[i + 1]) for i in outlines]
-        corners, codes = _compound([a + line for a, b in starts for line in _own_lines(self.own[a:b])])
-        return Path(self.corners[corners].reshape(-1, 2), codes)
+    def strokes(self, numbers):
+        outlines, owner = _ranges(self.of_paths[numbers], np.diff(self.of_paths)[numbers])
+        corners, codes, offsets = _stroked(self.of_outlines[outlines], np.diff(self.of_outlines)[outlines], self.own)
+        ends = np.append(0, np.cumsum(np.bincount(owner, minlength=len(numbers))))
+        return _paths(self.corners[corners], codes, offsets[ends])
 
 
 class _Looks:
@@ -757,15 +936,11 @@ class _Looks:
         self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
         self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
         self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
+        self.hatches = np.array([s.hatches[row % len(s.hatches)] for s, r in parts for row in r], object)
         self.widths = np.where(self.is_stroked, self.widths, 0.0)
         self.dashes = None
         if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
             self.dashes = [s.dashes[row % len(s.dashes)] for s, r in parts for row in r]
-
-    def dashes_of(self, polygons):
-        if self.dashes is None:
-            return [(0, None)] * len(polygons)
-        return [self.dashes[i] for i in polygons]
 
 
 class _Composite(martist.Artist):
@@ -796,7 +971,8 @@ class _Composite(martist.Artist):
         self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
-        opacity = None if is_opaque else np.clip(alpha, 0, 1)
+        # Areas with a hatch alone are painted too.
+        opacity = None if is_opaque else np.clip(alpha, 0.01, 1)
         given = (
             points,
             lengths,
@@ -808,7 +984,8 @@ class _Composite(martist.Artist):
         )
         built = getattr(axes, "_exact_built", None)
         if built is None or not built.is_of(*given):
-            built = axes._exact_built = _Built(*(None if array is None else array.copy() for array in given))
+            copies = (None if array is None else array.copy() for array in given)
+            built = axes._exact_built = _Built(*copies, axes.exact_progress)
         to_display = axes.transData.get_matrix()
         size = [int(np.ceil(side)) for side in (axes.figure.bbox.width, axes.figure.bbox.height)]
         matrix = np.asarray(axes.M, float)
@@ -826,7 +1003,8 @@ class _Composite(martist.Artist):
             shown = _Ordered(built, built.matrix(matrix), to_display)
         homogeneous = markers @ matrix[2:, :3].T + matrix[2:, 3]
         shown.sort_markers(homogeneous[:, 0] / homogeneous[:, 1])
-        self._paint(renderer, sources, shown, lambda points: _displayed(matrix, to_display, points))
+        to_pixels = _to_pixels(matrix, to_display)
+        self._paint(renderer, sources, shown, lambda points: _projected(to_pixels, points))
         for artist in self.sources:
             artist.stale = False
         self.stale = False
@@ -843,13 +1021,19 @@ class _Composite(martist.Artist):
         # Areas and the lines of collections of one group are painted at once; others by artist.
         is_line2d = np.array([isinstance(source.artist, mlines.Line2D) for source in sources] + [False])
         alone = (kinds == 2) | is_line2d[owners]
-        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
+        hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
+        hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
+        known = {}
+        hatch = np.array([known.setdefault(name, len(known)) for name in hatches], int)
+        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners]) + (len(groups) + 3 * len(sources)) * hatch
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
             chosen = numbers[start:end]
             if not alone[start]:
-                self._paint_paths(renderer, sources, shown, kinds[start:end], chosen, owners[start:end], place)
+                batch = self._paths(sources, shown, kinds[start:end], chosen, owners[start:end], place)
+                batch.set_hatch(hatches[start])
+                batch.draw(renderer)
             elif kinds[start] == 1:
                 self._paint_line(renderer, source, shown, chosen, place)
             elif isinstance(source.artist, mlines.Line2D):
@@ -864,120 +1048,139 @@ class _Composite(martist.Artist):
             else:
                 source.artist.draw(renderer)
 
-    def _paint_paths(self, renderer, sources, shown, kinds, numbers, owners, place):
-        """Areas and lines of collections and patches."""
-        paths, face, edge, widths, dashes, smooth = [], [], [], [], [], []
-        starts = np.flatnonzero(np.append(True, (kinds[1:] != kinds[:-1]) | ((kinds[1:] == 1) & (owners[1:] != owners[:-1]))))
-        for start, end in zip(starts, np.append(starts[1:], len(kinds))):
-            if kinds[start] == 0:
-                areas = numbers[start:end]
-                polygon = shown.polygon[areas]
-                look = self.looks
-                is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
-                fills = [shown.fills[i] for i in areas.tolist()]
-                colors, strokes = look.face[polygon], look.edge[polygon]
-                lengths = np.where(is_apart, 0.0, look.widths[polygon])
-                strokes[is_apart] = 0
-                if is_apart.any():
-                    # A fill without a stroke, and then the stroke without a fill.
-                    twice = np.repeat(np.arange(len(areas)), 1 + is_apart)
-                    second = np.flatnonzero(np.append(False, twice[1:] == twice[:-1]))
-                    fills = [fills[i] for i in twice.tolist()]
-                    for i in second.tolist():
-                        fills[i] = shown.stroke(int(areas[twice[i]]))
-                    polygon, colors, strokes, lengths = polygon[twice], colors[twice], strokes[twice], lengths[twice]
-                    colors[second], strokes[second] = 0, look.edge[polygon[second]]
-                    lengths[second] = look.widths[polygon[second]]
-                paths += fills
-                face.append(colors)
-                edge.append(strokes)
-                widths.append(lengths)
-                smooth.append(look.smooth[polygon])
-                dashes += look.dashes_of(polygon)
-                continue
-            source = sources[owners[start]]
-            for line, segment, corners in _chains(shown, numbers[start:end], len(source.edge) == 1):
-                row = self.line_row[line]
-                look = source.widths[row % len(source.widths)], source.edge[row % len(source.edge), 3]
-                if source.dashes[row % len(source.dashes)][1] is None and source.artist.get_capstyle() in (None, "butt"):
-                    corners = self._overlapping(line, corners, *look, place)
-                paths.append(Path(corners))
-                face.append(np.zeros((1, 4)))
-                edge.append(source.edge[[row % len(source.edge)]])
-                widths.append(source.widths[[row % len(source.widths)]])
-                smooth.append(source.smooth[[row % len(source.smooth)]])
-                dashes.append(self._dash(line, segment, corners, source.dashes[row % len(source.dashes)], place))
-        if not paths:
-            return
+    def _paths(self, sources, shown, kinds, numbers, owners, place):
+        """A collection of areas and of the lines of collections and patches."""
+        is_area = kinds == 0
+        batches = [self._areas(shown, numbers[is_area], np.flatnonzero(is_area))]
+        if not is_area.all():
+            # Parts of lines that no area is between.
+            run = np.cumsum(np.append(True, is_area[1:] | is_area[:-1] | (owners[1:] != owners[:-1])))
+            for owner in np.unique(owners[~is_area]).tolist():
+                chosen = np.flatnonzero(~is_area & (owners == owner))
+                batches.append(self._lines(sources[owner], shown, numbers[chosen], chosen, run[chosen], place))
+        position, paths, face, edge, widths, smooth, dashes = (list(part) for part in zip(*batches))
+        order = np.argsort(np.concatenate(position), kind="stable")
+        paths = np.concatenate(paths)[order].tolist()
+        is_dashed = any(part is not None for part in dashes)
+        if is_dashed:
+            dashes = [part or [(0, None)] * len(at) for part, at in zip(dashes, position)]
+            dashes = [dash for part in dashes for dash in part]
+            dashes = [dashes[i] for i in order.tolist()]
+        face, edge, widths, smooth = (np.concatenate(part)[order] for part in (face, edge, widths, smooth))
         template = sources[owners[0]].artist
         batch = mcoll.Collection()
         batch._paths = paths
         _take_style(batch, template)
-        batch.set_facecolor(np.concatenate(face))
-        batch.set_edgecolor(np.concatenate(edge))
-        batch._linewidths, batch._antialiaseds = np.concatenate(widths), np.concatenate(smooth)
-        batch._linestyles = dashes if any(pattern is not None for _, pattern in dashes) else [(0, None)]
-        if template.get_hatch():
-            batch.set_hatch(template.get_hatch())
+        batch.set_facecolor(face)
+        batch.set_edgecolor(edge if widths.any() else "none")
+        batch._linewidths, batch._antialiaseds = widths, smooth
+        batch._linestyles = dashes if is_dashed else [(0, None)]
         cap, join = template.get_capstyle(), template.get_joinstyle()
         if cap:
             batch.set_capstyle(cap)
         if join:
             batch.set_joinstyle(join)
-        batch.draw(renderer)
+        return batch
 
-    def _dash(self, line, segment, corners, dash, place):
+    def _areas(self, shown, areas, position):
+        """Areas: their positions in the order, paths, colours of faces and edges, widths, antialiasing, and dashes."""
+        look, polygon = self.looks, shown.polygon[areas]
+        is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
+        fills = shown.fills[areas]
+        face, edge, widths = look.face[polygon], look.edge[polygon], look.widths[polygon]
+        if is_apart.any():
+            # A fill without a stroke, and then the stroke without a fill.
+            edge[is_apart], widths[is_apart] = 0, 0
+            second = np.flatnonzero(is_apart)
+            strokes = shown.strokes(areas[second])
+            fills = np.concatenate([fills, np.fromiter(strokes, object, len(strokes))])
+            polygon = np.concatenate([polygon, polygon[second]])
+            face = np.concatenate([face, np.zeros((len(second), 4))])
+            edge, widths = (np.concatenate([a, b[polygon[len(a) :]]]) for a, b in ((edge, look.edge), (widths, look.widths)))
+            position = np.concatenate([position, position[second]])
+        dashes = None if look.dashes is None else [look.dashes[i] for i in polygon.tolist()]
+        return position, fills, face, edge, widths, look.smooth[polygon], dashes
+
+    def _lines(self, source, shown, numbers, position, run, place):
+        """Lines of a collection or a patch, as `_areas`."""
+        first, line, segment, corners, offsets = _chains(shown, numbers, run, len(source.edge) == 1)
+        row = self.line_row[line]
+        edge, widths = source.edge[row % len(source.edge)], source.widths[row % len(source.widths)]
+        patterns = [source.dashes[i] for i in (row % len(source.dashes)).tolist()]
+        is_solid = np.array([pattern is None for _, pattern in patterns], bool)
+        if source.artist.get_capstyle() in (None, "butt"):
+            self._overlap(line, corners, offsets, widths, is_solid & (edge[:, 3] >= 1), place)
+        codes = np.full(len(corners), Path.LINETO, np.uint8)
+        codes[offsets[:-1]] = Path.MOVETO
+        paths = _paths(corners, codes, offsets)
+        dashes = None
+        if not is_solid.all():
+            starts = corners[offsets[:-1]]
+            dashes = [self._dash(*part, place) for part in zip(line.tolist(), segment.tolist(), starts, patterns)]
+        smooth = source.smooth[row % len(source.smooth)]
+        paths = np.fromiter(paths, object, len(paths))
+        return position[first], paths, np.zeros((len(row), 4)), edge, widths, smooth, dashes
+
+    def _dash(self, line, segment, start, dash, place):
         """The pattern of dashes at a part of a line, as if the line were drawn at once."""
         offset, pattern = dash
         if pattern is None:
             return dash
         places = place(self.lines[line])
         before = np.hypot(*np.diff(places[: segment + 1], axis=0).T)
-        length = np.nansum(before) + np.hypot(*(corners[0] - places[segment]))
+        length = np.nansum(before) + np.hypot(*(start - places[segment]))
         return offset + length * 72 / self.axes.figure.dpi, pattern
 
-    def _overlapping(self, line, corners, width, alpha, place):
-        """A part of a line with ends that reach half its width into the parts before and after it, so that there is no notch
-        between them. Where one shines through the other, they only touch."""
-        if alpha < 1 or len(corners) < 2:
-            return corners
-        ends = place(self.lines[line][[0, -1]])
-        reach = 0.5 * width * self.axes.figure.dpi / 72
-        corners = corners.copy()
-        for end, inner, own in ((0, 1, ends[0]), (-1, -2, ends[1])):
+    def _overlap(self, line, corners, offsets, widths, chosen, place):
+        """Extends the ends of parts of lines by half their width into the parts before and after them, so that there is no
+        notch between them. Where one shines through the other, they may only touch."""
+        lines = [self.lines[i] for i in line.tolist()]
+        for end, inner, own in (
+            (offsets[:-1], offsets[:-1] + 1, [points[0] for points in lines]),
+            (offsets[1:] - 1, offsets[1:] - 2, [points[-1] for points in lines]),
+        ):
             step = corners[end] - corners[inner]
-            length = np.hypot(*step)
-            if length > 0 and np.abs(corners[end] - own).max() > _JOINED:
-                corners[end] += step / length * reach
-        return corners
+            length = np.hypot(*step.T)
+            own = place(np.array(own).reshape(-1, 3))
+            moved = chosen & (length > 0) & ~(np.abs(corners[end] - own).max(1, initial=0) <= _JOINED)
+            reach = 0.5 * widths * self.axes.figure.dpi / 72
+            corners[end[moved]] += (step * (reach / np.maximum(length, 1e-300))[:, None])[moved]
 
     def _paint_line(self, renderer, source, shown, numbers, place):
         artist = source.artist
-        for line, segment, corners in _chains(shown, numbers, True):
-            copy = mlines.Line2D(*corners.T)
+        _, line, segment, corners, offsets = _chains(shown, numbers, np.zeros(len(numbers), int), True)
+        starts = corners[offsets[:-1]]
+        if not artist.is_dashed() and artist.get_solid_capstyle() == "butt":
+            is_opaque = np.full(len(line), source.edge[0, 3] >= 1)
+            self._overlap(line, corners, offsets, np.full(len(line), source.widths[0]), is_opaque, place)
+        for i in range(len(line)):
+            copy = mlines.Line2D(*corners[offsets[i] : offsets[i + 1]].T)
             _take_style(copy, artist, mlines.Line2D)
             copy.set_marker("None")
-            copy._dash_pattern = self._dash(line, segment, corners, artist._dash_pattern, place)
-            if not artist.is_dashed() and artist.get_solid_capstyle() == "butt":
-                copy.set_data(*self._overlapping(line, corners, source.widths[0], source.edge[0, 3], place).T)
+            copy._dash_pattern = self._dash(line[i], segment[i], starts[i], artist._dash_pattern, place)
             copy.draw(renderer)
 
 
-def _chains(shown, numbers, may_sort):
-    """Parts of lines that follow one another, joined: the line, the segment that each begins in, and its corners."""
+def _chains(shown, numbers, run, may_sort):
+    """Parts of lines of one run that follow one another, joined: for each, the number of a part in it, its line, the
+    segment that it begins in; the corners of all, and where each begins."""
     line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
+    order = np.arange(len(numbers))
     if may_sort and len(numbers) > 1:
         # How far each part is along its segment: parts of one segment have one direction.
-        along = np.einsum("ij,ij->i", ends[:, 0], ends[:, 1] - ends[:, 0])
-        along = along / np.maximum(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1e-300)
-        order = np.lexsort([along, segment, line])
-        line, segment, ends = line[order], segment[order], ends[order]
-    follows = (line[1:] == line[:-1]) & (segment[1:] - segment[:-1] <= 1) & (segment[1:] >= segment[:-1])
+        step = ends[:, 1] - ends[:, 0]
+        along = (ends[:, 0] * step).sum(-1) / np.maximum(np.hypot(*step.T), 1e-300)
+        order = np.lexsort([along, segment, line, run])
+        line, segment, ends, run = line[order], segment[order], ends[order], run[order]
+    follows = (run[1:] == run[:-1]) & (line[1:] == line[:-1])
+    follows &= (segment[1:] - segment[:-1] <= 1) & (segment[1:] >= segment[:-1])
     follows &= np.abs(ends[1:, 0] - ends[:-1, 1]).max(1, initial=0) <= _JOINED
-    breaks = np.flatnonzero(~follows) + 1
-    for start, end in zip(np.append(0, breaks), np.append(breaks, len(line))):
-        corners = np.concatenate([ends[start, :1], ends[start:end, 1]])
-        yield int(line[start]), int(segment[start]), corners
+    begins = np.append(True, ~follows)[: len(line)]
+    # The first corner of each part that begins a chain, and the second of all.
+    corners = ends[np.stack([begins, np.ones(len(begins), bool)], -1)]
+    first = np.flatnonzero(begins)
+    offsets = np.append(first, len(line)) + np.arange(len(first) + 1)
+    return order[first], line[first].astype(np.int64), segment[first].astype(np.int64), corners, offsets
 
 
 def _group(artist):
@@ -1056,6 +1259,12 @@ class _Exact:
     """The differences of exact axes from those of mplot3d."""
 
     _exact_composite = None
+    # A function that is called with the finished and the total work while a tree is built; an exception in it cancels.
+    exact_progress = None
+
+    def __getstate__(self):
+        # A tree is built again from what is drawn.
+        return {name: value for name, value in super().__getstate__().items() if name != "_exact_built"}
 
     def get_children(self):
         children = super().get_children()
@@ -1074,9 +1283,19 @@ class _Exact:
         zorders = [artist.zorder for artist in taken]
         taken.sort(key=lambda artist: artist.zorder)
         self._exact_composite = _Composite(self, taken)
+        late = []
+        # mplot3d asks all for a depth, and compares it with that of others.
+        others = [child for child in self._children if isinstance(child, (mcoll.Collection, mpatches.Patch))]
+        if all(_kind(child) for child in others if child.get_visible()):
+            late = [artist for artist in taken if _may_be_late(artist)]
+        for artist in late:
+            artist.do_3d_projection = float
         try:
             super().draw(renderer)
         finally:
+            for artist in late:
+                del artist.do_3d_projection
+                _project_late(artist)
             self._exact_composite = None
             in_order = [child for child in self._children if any(child is artist for artist in taken)]
             for artist, zorder in zip(in_order, zorders):
@@ -1085,7 +1304,11 @@ class _Exact:
 
 
 class ExactAxes3D(_Exact, Axes3D):
-    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``."""
+    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``.
+
+    Set the attribute `exact_progress` to a function that is called with the finished and the total work while a tree of many
+    polygons is built. An exception in it, or Ctrl-C, cancels the drawing.
+    """
 
     name = "exact3d"
 
@@ -1110,9 +1333,27 @@ def exact(axes):
     if not isinstance(axes, Axes3D):
         raise TypeError(f"3D axes are needed, not {type(axes).__name__}")
     if not isinstance(axes, _Exact):
-        own = type(axes)
-        axes.__class__ = ExactAxes3D if own is Axes3D else type("Exact" + own.__name__, (_Exact, own), {})
+        axes.__class__ = _exact_class(type(axes))
     return axes
+
+
+@functools.cache
+def _exact_class(own):
+    """The exact axes of a class of axes."""
+    if own is Axes3D:
+        return ExactAxes3D
+
+    def reduce(self, protocol):
+        # Pickles name the given class: this one has no name in a module.
+        make, arguments, *state = super(exact_class, self).__reduce_ex__(protocol)
+        return _unpickled, (own, make, arguments[1:]), *state
+
+    exact_class = type("Exact" + own.__name__, (_Exact, own), {"__reduce_ex__": reduce})
+    return exact_class
+
+
+def _unpickled(own, make, arguments):
+    return make(_exact_class(own), *arguments)
 
 
 def install():

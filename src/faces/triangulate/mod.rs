@@ -37,7 +37,9 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
 }
 
 /// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
-/// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon.
+/// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon. A polygon that is
+/// far from planar may cross or touch itself in that projection, and lose corners, but not along another
+/// axis, which then is used.
 ///
 /// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
 /// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas
@@ -49,11 +51,16 @@ pub(super) fn any(
     watch: &Watch<'_>,
 ) -> Result<Triangulation, Error> {
     let area = vector_area(corners);
-    let (axis, facing) = facing(&area, plane);
-    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-    let flat: Vec<Point> =
-        corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]).collect();
-    let mut found = in_plane(&flat, watch)?;
+    let (main, mut facing) = facing(&area, plane);
+    let mut found = along(main, corners, watch)?;
+    for axis in (0..3).filter(|&axis| axis != main && area[axis].sign().is_ne()) {
+        if found.triangles.len() + 2 < corners.len() {
+            let other = along(axis, corners, watch)?;
+            if !other.crosses_itself && other.triangles.len() > found.triangles.len() {
+                (found, facing) = (other, area[axis].sign());
+            }
+        }
+    }
     let has_area = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|k| corners[k as usize]);
         cross(a, b, c) != [0; 3]
@@ -67,6 +74,14 @@ pub(super) fn any(
         found.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
     }
     Ok(found)
+}
+
+/// Triangles of a polygon in the projection along an axis.
+fn along(axis: usize, corners: &[[f64; 3]], watch: &Watch<'_>) -> Result<Triangulation, Error> {
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let flat: Vec<Point> =
+        corners.iter().map(|corner| [corner[x] as i64, corner[y] as i64]).collect();
+    in_plane(&flat, watch)
 }
 
 /// Twice the vector area of a polygon (Newell's normal).

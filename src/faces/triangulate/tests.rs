@@ -352,3 +352,17 @@ fn an_outline_through_one_point_again_and_again_ends_as_fast() {
         assert!(steps < 4 * corners.len() * 17, "{steps}");
     });
 }
+
+/// The outline crosses itself in the projection along its main axis, but not along z.
+#[test]
+fn bent_polygons_keep_their_edges_if_any_projection_is_simple() {
+    let polygon = [[0, 0, 0], [1, 0, 0], [2, 0, 3], [2, 1, 6], [1, 1, -6], [0, 1, -5]];
+    let polygon = polygon.map(|corner: [i32; 3]| corner.map(f64::from));
+    let tree = crate::BuildOptions::DEFAULT.build([polygon]).expect("valid");
+    let mut edges: Vec<i32> = tree.arrays().expect("memory").edges;
+    edges.retain(|&edge| edge >= 0);
+    edges.sort_unstable();
+    edges.dedup();
+    assert_eq!(edges, [0, 1, 2, 3, 4, 5]);
+    assert_eq!(tree.preparation().crossing, 0);
+}

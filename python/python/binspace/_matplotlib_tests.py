@@ -1,0 +1,104 @@
+"""matplotlib's own tests of 3D axes, with and without exact ones: ``python -m binspace.compare --matplotlib-tests FOLDER``."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+SEAMS = "no seams between faces"
+ROUNDING = "places are rounded otherwise: some pixels differ by at most 5 of 255"
+ORDER = "mplot3d's order is wrong, or ignores z-orders"
+BENT = "faces of 20 corners that are not flat are divided into triangles"
+SLIVERS = "areas thinner than a pixel, without antialiasing"
+SNAPPED = "matplotlib moves the path of a collection with one path to whole pixels"
+CURVE = "a curve itself is projected, not its control points"
+NAME = "the test wants the name of the class"
+
+# Why the pictures of matplotlib 3.11 differ.
+REASONS = {
+    "test_arc_pathpatch": CURVE,
+    "test_axes3d_repr": NAME,
+    "test_bar3d": ROUNDING,
+    "test_bar3d_notshaded": SEAMS,
+    "test_bar3d_shaded": SEAMS,
+    "test_computed_zorder": ORDER,
+    "test_contour3d": ROUNDING,
+    "test_contour3d_extend3d": SEAMS,
+    "test_contourf3d": SLIVERS,
+    "test_contourf3d_fill": SLIVERS,
+    "test_equal_box_aspect": ORDER,
+    "test_errorbar3d": ORDER,
+    "test_errorbar3d_errorevery": ROUNDING,
+    "test_fancy": ORDER,
+    "test_fill_between_polygon": ROUNDING,
+    "test_fill_between_quad": SEAMS,
+    "test_legend_bar": ROUNDING,
+    "test_mixedsubplots": SEAMS,
+    "test_poly3dcollection_alpha": SNAPPED,
+    "test_poly3dcollection_closed": SNAPPED,
+    "test_quiver3d": ROUNDING,
+    "test_scale3d_artists_log": SLIVERS,
+    "test_stem3d": ORDER,
+    "test_surface3d": SEAMS,
+    "test_surface3d_label_offset_tick_position": BENT,
+    "test_surface3d_masked": SEAMS,
+    "test_surface3d_masked_strides": SEAMS,
+    "test_surface3d_shaded": BENT,
+    "test_surface3d_zsort_inf": SEAMS,
+    "test_tricontour": SLIVERS,
+    "test_trisurf3d": SEAMS,
+    "test_trisurf3d_shaded": SEAMS,
+    "TestVoxels::test_alpha": SEAMS,
+    "TestVoxels::test_edge_style": SEAMS,
+    "TestVoxels::test_named_colors": SEAMS,
+    "TestVoxels::test_rgb_data": SEAMS,
+    "TestVoxels::test_simple": SEAMS,
+    "TestVoxels::test_xyz": SEAMS,
+}
+
+RUN = """
+import sys, pytest
+if sys.argv.pop(1) == "exact":
+    import binspace.mpl
+    binspace.mpl.install()
+sys.exit(pytest.main(sys.argv[1:]))
+"""
+
+
+def results(folder, axes):
+    """The failures of all tests, by name; None of those that pass."""
+    report = os.path.join(folder, axes + ".xml")
+    arguments = [axes, "-q", "-p", "no:cacheprovider", f"--junitxml={report}", "tests"]
+    subprocess.run([sys.executable, "-c", RUN, *arguments], cwd=folder, stdout=subprocess.DEVNULL, check=False)
+    found = {}
+    for case in ElementTree.parse(report).iter("testcase"):
+        owner = case.get("classname", "").rpartition(".")[2]
+        name = case.get("name").partition("[")[0]
+        if owner.startswith("Test"):
+            name = f"{owner}::{name}"
+        failure = next((part for part in case if part.tag in ("failure", "error")), None)
+        if failure is not None or name not in found:
+            found[name] = None if failure is None else failure.get("message", "")
+    return found
+
+
+def main(tests):
+    """Prints the tests that fail with exact axes only. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
+    sources, which has the expected pictures."""
+    with tempfile.TemporaryDirectory() as folder:
+        # Outside of the sources, which are not built.
+        shutil.copytree(tests, os.path.join(folder, "tests"))
+        before, ours = (results(folder, axes) for axes in ("mplot3d", "exact"))
+    own = sorted(name for name, failure in ours.items() if failure is not None and before.get(name) is None)
+    failed = sum(failure is not None for failure in before.values())
+    print(f"{len(ours)} tests; {failed} fail with mplot3d's axes, {len(own)} only with exact ones:\n")
+    print("| test | RMS | reason |\n|---|---|---|")
+    for name in own:
+        rms = re.search(r"RMS ([\d.]+)", ours[name])
+        print(f"| {name} | {rms.group(1) if rms else ''} | {REASONS.get(name, '**unknown**')} |")
+    return int(not set(own) <= REASONS.keys())
