@@ -38,8 +38,8 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
 
 /// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
 /// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon. A polygon that is
-/// far from planar may cross or touch itself in that projection, and lose corners, but not along another
-/// axis, which then is used.
+/// far from planar may cross or touch itself in that projection, and lose corners. If it does not in the
+/// projection along another axis, that axis is used.
 ///
 /// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
 /// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas
