@@ -17,8 +17,8 @@ use crate::tree::parts::Stored;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
-/// The fragments that rays may meet: a tree's, and the pieces of an overlay, which are numbered after the
-/// tree's.
+/// The fragments that rays may meet: a tree's fragments, and the pieces of an overlay, which are numbered
+/// after them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tree: &'t BspTree,
@@ -92,7 +92,7 @@ impl<'t> Targets<'t> {
     }
 }
 
-/// The hits of a ray, the nearest first: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
+/// The hits of a ray, nearest first: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
 #[derive(Clone, Debug)]
 pub(crate) struct Hits<'t> {
     targets: Targets<'t>,
