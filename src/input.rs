@@ -42,7 +42,7 @@ impl_point! {
 
 /// An input polygon: its corners in order. The first corner is not repeated at the end.
 ///
-/// The front of a polygon is the side from which its corners run counter-clockwise. Implement the trait for
+/// The front of a polygon is the side from which its corners are counter-clockwise. Implement the trait for
 /// your own type to build a tree without copying your mesh first:
 ///
 /// ```

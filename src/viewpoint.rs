@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 /// The point from which a picture is seen, or the direction of view of a parallel projection.
 ///
-/// Every value of the coordinates gives an order; no call fails or panics:
+/// Every value of a coordinate has a meaning; no call fails or panics:
 ///
 /// | coordinates | count as |
 /// |---|---|
@@ -43,11 +43,11 @@ impl Viewpoint {
 /// The visible side of a polygon or plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Facing {
-    /// The front: corners run counter-clockwise, and the normal points to the eye.
+    /// The front: corners are counter-clockwise, and the normal points to the eye.
     Front,
     /// The back.
     Back,
-    /// Neither: the eye lies in the plane, or the direction runs along it.
+    /// Neither: the eye lies in the plane, or the direction is parallel to it.
     EdgeOn,
 }
 
@@ -122,9 +122,9 @@ impl Ray {
 
 /// A convex region: the points in front of several planes, such as the four sides of a camera's view.
 ///
-/// A plane is a normal, of any length, and an offset: the region contains only points p with
-/// `normal.dot(p) >= offset`, the front as of a [`Node`](crate::Node). Without planes, the region is the whole
-/// space. A plane with an infinite or NaN number excludes no point.
+/// A plane is a normal, of any length, and an offset. As for a [`Node`](crate::Node), its front contains the
+/// points p with `normal.dot(p) >= offset`; the other points are not in the region. Without planes, the
+/// region is the whole space. A plane with an infinite or NaN number excludes no point.
 ///
 /// ```
 /// use binspace::Frustum;

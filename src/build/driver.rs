@@ -201,10 +201,9 @@ pub(super) fn divide_all(
 }
 
 impl BspTree {
-    /// Adds polygons permanently, with the default options. Their numbers follow those of the tree's
-    /// polygons.
+    /// Adds polygons permanently, with the default options. They are numbered after the tree's polygons.
     ///
-    /// Builds the tree again from its own polygons and the new ones, on its grid and with its tolerance.
+    /// Builds the tree again from its own polygons and the new polygons, on its grid and with its tolerance.
     /// The numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
     /// [meshes](crate::mesh::Mesh) have to be made again. It takes as long as a build; put moving polygons
     /// into an overlay.
@@ -223,9 +222,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid:
-    /// [`BuildOptions::with_bounds`] makes it larger. The error names the polygon by its index among the
-    /// new ones, and the tree is not changed.
+    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid: [`BuildOptions::with_bounds`]
+    /// makes it larger. The error names the polygon by its index among the new polygons, and the tree is not
+    /// changed.
     pub fn extend<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -249,8 +248,8 @@ impl BuildOptions {
         extend(self, tree, polygons, &Watch::default())
     }
 
-    /// Like [`extend`](Self::extend), with progress reported to a callback that can cancel, as in
-    /// [`build_with_progress`](Self::build_with_progress).
+    /// Extends a tree like [`extend`](Self::extend), and reports progress to a callback that can cancel, as
+    /// in [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///
@@ -285,8 +284,8 @@ impl BuildOptions {
     /// Divides a scene into cells, each with about the same number of the given samples, such as one corner
     /// of every polygon, or of some polygons. It takes O(n log cells) time for n samples.
     ///
-    /// Each plane goes through a sample, and divides the samples on the axis of their largest extent. The
-    /// same samples, in any order, give the same cells. Every cell exists, but some may be empty: with fewer
+    /// Each plane contains a sample, and divides the samples on the axis of their largest extent. The cells
+    /// do not depend on the order of the samples. Every cell exists, but some may be empty: with fewer
     /// samples than cells, or most samples in one place, planes lie where there is room for them. 0 cells
     /// count as 1.
     ///
@@ -318,7 +317,7 @@ impl BuildOptions {
     /// polygons keep their order, so pass the polygons in the same order for all cells. The tree's polygon
     /// numbers are indices among these polygons.
     ///
-    /// The partition's tolerance and bounds replace those of the options.
+    /// The partition's tolerance and bounds replace the options' tolerance and bounds.
     ///
     /// # Errors
     ///
@@ -336,8 +335,8 @@ impl BuildOptions {
         tree_of_cell(self, partition, cell, polygons, &Watch::default())
     }
 
-    /// Like [`build_cell`](Self::build_cell), with progress reported to a callback that can cancel, as in
-    /// [`build_with_progress`](Self::build_with_progress).
+    /// Builds the tree of a cell like [`build_cell`](Self::build_cell), and reports progress to a callback
+    /// that can cancel, as in [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///

@@ -84,7 +84,7 @@ fn run_in_parallel(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Resu
     let outputs = outputs.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut finished = Vec::new();
     let mut cancelled = None;
-    // The scope has waited for every job, so none is missing.
+    // The scope has waited for every job, so no output is missing.
     for output in outputs.into_iter().flatten() {
         match output {
             Ok(output) => finished.push(output),

@@ -159,30 +159,30 @@ impl Default for BuildOptions {
 /// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///
 /// Every heuristic is deterministic. A heuristic that compares the planes of all polygons of a set tries at
-/// most 96 of them, spread evenly over the set.
+/// most 96 planes, spread evenly over the set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
     /// 1980). It compares no planes, and makes up to 14 times as many fragments as a scored heuristic.
     First,
-    /// The plane of a random polygon; the same seed gives the same tree. The expected number of
-    /// fragments is O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient
-    /// binary space partitions for hidden-surface removal and solid modeling”, 1990).
+    /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
+    /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space
+    /// partitions for hidden-surface removal and solid modeling”, 1990).
     Random {
         /// Seed of the pseudo-random sequence.
         seed: u64,
     },
-    /// The plane of a polygon that cuts the fewest polygons (Fuchs, Abram and Grant, “Near real-time shaded
-    /// display of rigid objects”, 1983).
+    /// Among the polygons' planes, the plane that cuts the fewest polygons (Fuchs, Abram and Grant, “Near
+    /// real-time shaded display of rigid objects”, 1983).
     FewestSplits,
-    /// The plane of a polygon with the smallest difference between the numbers of polygons in front and
-    /// behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone makes no good
-    /// tree.
+    /// Among the polygons' planes, the plane with the smallest difference between the numbers of polygons in
+    /// front and behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone
+    /// makes no good tree.
     Balanced,
-    /// The plane of a polygon with the lowest weighted sum of splits and imbalance, minus a bonus: the
-    /// trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning trees”,
-    /// 1987).
+    /// Among the polygons' planes, the plane with the lowest weighted sum of splits and imbalance, minus a
+    /// bonus: the trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space
+    /// partitioning trees”, 1987).
     Weighted {
         /// Cost of each polygon that the plane cuts. Default 8.
         splits: f64,
@@ -201,7 +201,7 @@ pub enum Heuristic {
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
     /// searching”, 1975), by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On fast
     /// construction of SAH-based bounding volume hierarchies”, 2007). The plane of a polygon splits the set
-    /// if all its polygons lie in one plane, or if no free plane separates any of them.
+    /// if all its polygons lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
     /// The best plane of both kinds by one cost. The default: the fewest fragments on most scenes. The cost
     /// is the library's own. Polygons' planes are compared by successive halving (Karnin, Koren and Somekh,

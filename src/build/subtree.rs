@@ -192,7 +192,7 @@ impl Builder {
         if self.arena.len() > 1 << 31 { Err(Kind::Fragments(limit).error()) } else { Ok(()) }
     }
 
-    /// Removes the set on top of the stack and gives it a separate arena.
+    /// Moves the set on top of the stack into a job with a separate arena.
     fn take(&mut self, start: usize, depth: usize) -> Result<Job, Error> {
         let mut arena = Vec::new();
         let mut pieces =
@@ -293,7 +293,7 @@ impl Builder {
             |is_leaf, len: usize| if is_leaf { RawChild::Leaf(len as u32) } else { RawChild::Node };
         let (back_child, front_child) = (child(back_is_leaf, back), child(front_is_leaf, front));
         self.output.push_node(RawNode { plane, own, front: front_child, back: back_child })?;
-        // The back goes below the front on the stack, so that the front is built first, because nodes are
+        // The back is below the front on the stack, so that the front is built first, because nodes are
         // stored depth first.
         if !back_is_leaf {
             // The back is handed over because it is on top of the stack now; this thread continues with the
@@ -320,8 +320,8 @@ impl Builder {
         Ok(())
     }
 
-    /// Writes one node for each layer of pieces that is peeled off a set, and puts the rest of the set on
-    /// the stack. Each layer's node is the only child of the one before.
+    /// Writes one node for each layer of pieces that is peeled off a set, and pushes the remaining pieces
+    /// onto the stack. Each layer's node is the only child of the previous node.
     fn emit_peeled(
         &mut self,
         shared: &Shared<'_>,
@@ -381,7 +381,7 @@ type Tried = SmallVec<[u32; 4]>;
 /// other.
 ///
 /// The corners of small and large polygons are rounded by the same amount, so the plane of a small polygon is
-/// less certain: extended across a large polygon in the same plane, it can leave the tolerance on both sides.
+/// less certain. Extended across a large polygon in the same plane, it can leave the tolerance on both sides.
 /// The small polygon is within the tolerance of the large polygon's plane, which divides the set instead. In
 /// frames this is also done if the small polygon's plane passes beside the large polygon and cuts nothing: it
 /// would separate the large polygon from others in its plane.

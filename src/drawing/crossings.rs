@@ -137,9 +137,9 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made the sides: several
-    /// planes may have cut along one line, and cells beyond a border of a tile or a third polygon's edge were
-    /// not cut again.
+    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made the sides. Several
+    /// planes may have cut along one line. Cells beyond a border of a tile or a third polygon's edge were not
+    /// cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -510,7 +510,7 @@ pub(super) type FaceEdge = (u32, u32);
 /// edge twice, some edges of their outlines may be included.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
-/// The crossing of two polygons along an edge inside one of them.
+/// The crossing of two polygons along an edge inside one polygon.
 pub(super) struct Bend {
     pub(super) edge: FaceEdge,
     /// A face of the other polygon, and its edge there if the other polygon is bent, too.
@@ -555,7 +555,7 @@ impl InnerEdges {
         self.0.get(&edge).copied()
     }
 
-    /// The crossing of two polygons along an edge inside one of them, given a face of each: the faces on the
+    /// The crossing of two polygons along an edge inside one polygon, given a face of each: the faces on the
     /// two sides of the edge lie on opposite sides of the other polygon.
     pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
         if self.0.is_empty() {

@@ -22,10 +22,10 @@ impl VisibilityMap<'_> {
     /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
     /// not hide it (though another part of a polygon that is not planar may). Polygons share an edge if both
     /// its corners are the same. Edges that triangulation made inside a polygon are left out, except
-    /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge, and
-    /// from behind on the other side. Also left out are edges at which all polygons are seen exactly edge-on,
-    /// and edges along a border of the picture with all polygons outside it. [`crossings`](Self::crossings)
-    /// returns the lines in which polygons intersect.
+    /// silhouettes. (A polygon that is not planar may be seen from its front on one side of such an edge, and
+    /// from behind on the other side.) Also left out are edges at which all polygons are seen exactly
+    /// edge-on, and edges along a border of the picture with all polygons outside it.
+    /// [`crossings`](Self::crossings) returns the lines in which polygons intersect.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
     ///

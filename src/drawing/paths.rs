@@ -102,7 +102,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// The picture's width and height in pixels.
+    /// Returns the picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
@@ -335,8 +335,8 @@ impl Area {
                 let from_here =
                     std::iter::successors(some(begin[point as usize]), |&i| some(others[i]));
                 let left = from_here.filter(|&i| !is_used[i]);
-                // Of several pieces, continue with the one that turns furthest to the left, so that outlines
-                // that touch in a point stay separate.
+                // If several pieces begin here, continue with the piece that turns furthest to the left, so
+                // that outlines that touch in a point stay separate.
                 let turn = |i: usize| sides.turn(piece.half, pieces[i].half);
                 next = left.max_by(|&a, &b| turn(a).total_cmp(&turn(b)));
                 debug_assert!(next.is_some(), "an outline is open");
@@ -417,7 +417,7 @@ impl<'a> Sides<'a> {
         if b.is_ahead { side } else { side.reverse() }
     }
 
-    /// Adds the pieces that remain of the sides on a line after opposite ones have cancelled. `ends` are the
+    /// Adds the pieces that remain of the sides on a line after opposite sides have cancelled. `ends` are the
     /// ends of these sides in order along the line; ends in one place become one point.
     fn add_pieces(
         &self,

@@ -347,7 +347,7 @@ impl Grid {
     fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
         let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
-        // Steps to the side for each downwards; along rows all of them at once.
+        // Steps to the side for each downwards; along rows all at once.
         let slope = (high[0] - low[0]) / (high[1] - low[1]).max(f64::MIN_POSITIVE);
         let mut passed = Vec::new();
         for row in place(low[1] - reach, self.rows)..=place(high[1] + reach, self.rows) {

@@ -130,8 +130,8 @@ impl<'t> Primitives<'t> {
             watch.work(LINES)?;
             // All edges of the face, because an edge that does not meet the box of a piece beside the picture
             // may still be the only edge that excludes the piece. A face of n corners in m pieces takes 8 nm
-            // bytes here, and twice as much more in lists of candidates: with a floor of 10 000 corners in 1
-            // 396 pieces, a process peaks at 346 MB.
+            // bytes here, and twice as much in lists of candidates. With a floor of 10 000 corners in 1 396
+            // pieces, a process peaks at 346 MB.
             let start = place(self.halves.len())?;
             self.halves.extend_from_within(halves[0] as usize..halves[1] as usize);
             for line in fragment.lines() {
@@ -296,9 +296,9 @@ fn shared<T: Send>(
 const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {
-    /// Whether a face whose corners were moved can be drawn with its given corners: they certainly form a
-    /// convex polygon in the picture that shows the same side as the face's plane, rays through them meet
-    /// that plane ahead, and no corner was moved by more than [`FURTHEST_MOVE`].
+    /// Whether a face whose corners were moved can be drawn with its given corners. These must certainly form
+    /// a convex polygon in the picture that shows the same side as the face's plane. Rays through them must
+    /// meet that plane ahead. No corner may have been moved by more than [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let ViewFrame { rays, faces } = self;
         let n = given.len();

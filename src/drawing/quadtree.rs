@@ -607,7 +607,8 @@ struct OpenArea {
     boxes: Vec<Rect>,
     /// The visible parts so far.
     cells: Vec<Visible>,
-    // Working space: the rest of one open cell, and of all open cells that one piece was subtracted from.
+    // Working space: the remaining parts of one open cell, and of all open cells that one piece was
+    // subtracted from.
     outside: Vec<Cell>,
     left: Vec<Cell>,
 }

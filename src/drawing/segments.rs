@@ -248,8 +248,8 @@ impl ProjectedSegment {
             return Some(if after { [place, ALL[1]] } else { [ALL[0], place] })
                 .filter(|_| after || is_behind(rise.reverse()));
         }
-        // The cut is constant along the line: subtract the multiple of the line that has the cut's slope; the
-        // rest has the sign.
+        // The cut is constant along the line: subtract the multiple of the line that has the cut's slope. The
+        // difference has the sign.
         let axis = if line[1].sign().is_ne() { 1 } else { 2 };
         let sign = if line[axis].sign().is_gt() { minor(0, axis) } else { minor(axis, 0) };
         is_behind(sign).then_some(ALL)

@@ -55,13 +55,13 @@ impl VectorPicture {
 /// The attributes that shapes may have in common: their paint, and the size of their font.
 pub(super) type Look = (Paint, Option<f64>);
 
-/// A part of a file, in the order to write it. Looks are absent where a group around it has them.
+/// A part of a file, in the order of writing. A look is absent if an enclosing group has it.
 pub(super) enum Written<'a> {
     /// The beginning of a group.
     Begin { attributes: &'a str, look: Option<Look> },
-    /// A shape, with the attributes of a group of it alone.
+    /// A shape, with the attributes of a group that contains only this shape.
     Item { item: &'a PaintedShape, attributes: &'a str, look: Option<Look> },
-    /// The end of the last group that is open.
+    /// The end of the last open group.
     End,
 }
 
@@ -71,7 +71,7 @@ struct Open {
     look: Option<Look>,
 }
 
-/// Writes nodes. Shapes of one look that follow one another are grouped.
+/// Writes nodes. Consecutive shapes of one look are grouped.
 pub(super) fn write_nodes(
     nodes: &[Node],
     mut write: impl FnMut(Written<'_>) -> fmt::Result,

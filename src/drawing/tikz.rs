@@ -5,10 +5,10 @@ use std::fmt::{self, Write};
 use super::picture::{Line, Paint, PaintedShape, Shape, Steps, Stroke, VectorPicture, units};
 use super::svg::{Look, Written, write_nodes};
 
-/// TeX has no length beyond 16 383.99 of its points; a coordinate beyond this, in big points, is an error.
+/// The largest coordinate, in big points: TeX has no length beyond 16 383.99 of its points.
 const FURTHEST: f64 = 16_000.0;
 
-/// Of a file that is compiled alone, the beginning.
+/// The beginning of a file that is compiled alone.
 const HEAD: &str = "\
 % By itself: pdflatex FILE. In a document that has \\usepackage{tikz}: \\input{FILE}.
 % Styles change it: \\tikzset{binspace/CLASS/.style={...}} before it, for the CLASS of a scope below.
@@ -23,7 +23,7 @@ const HEAD: &str = "\
 ";
 
 impl VectorPicture {
-    /// The picture as TikZ, in a LaTeX file that compiles by itself. `\input` puts the picture into a document
+    /// Returns the picture as TikZ, in a complete LaTeX file. `\input` includes the picture in a document
     /// that uses the package `tikz`.
     ///
     /// ```
@@ -38,10 +38,10 @@ impl VectorPicture {
     ///
     /// A pixel is a big point, 1/72 inch. Each word of the `class` of a [group](Self::group) is a style that
     /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`; it overrides the
-    /// colours and lines of the group. Words of other characters than letters, digits and hyphens, and other
-    /// attributes, are left out. Labels are in the document's font, which must have their characters, and
-    /// strokes of labels are left out. So is a shape that reaches further than 16 000 pixels, as TeX has no
-    /// such length.
+    /// colours and lines of the group. Words with characters other than letters, digits and hyphens, and
+    /// other attributes, are left out. Labels are in the document's font, which must have their characters.
+    /// Strokes of labels are left out. Shapes that reach further than 16 000 pixels are left out, because TeX
+    /// has no such length.
     pub fn to_tikz(&self) -> String {
         let mut out = HEAD.to_owned();
         // Writing to a string does not fail.
@@ -123,7 +123,7 @@ fn write_item(
     writeln!(out, ";")
 }
 
-/// Whether TeX has all lengths of a shape.
+/// Whether all lengths of a shape are within TeX's range.
 fn fits(shape: &Shape, units: u32) -> bool {
     let is_near = |point: &[i64; 2], decimals: u32| {
         let most = FURTHEST * f64::from(units) * 10f64.powi(decimals as i32);
@@ -163,7 +163,7 @@ fn write_options(out: &mut String, look: Option<Look>, attributes: &str) -> fmt:
     if options.is_empty() { Ok(()) } else { write!(out, "[{}]", options.join(",")) }
 }
 
-/// A length in big points, without decimals that TeX does not have.
+/// A length in big points, without decimals that TeX does not use.
 fn short(length: f64) -> f64 {
     (length * 1e4).round() / 1e4 + 0.0
 }

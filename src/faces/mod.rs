@@ -47,11 +47,10 @@ pub struct Preparation {
     pub triangulated: usize,
     /// The number of triangulated polygons that cross themselves, or whose winding number is not the same
     /// everywhere inside, in a projection along the main axis of their vector area; decided exactly. If the
-    /// polygon's edges meet only at corners, the triangles cover every point with a winding number other than
-    /// 0. Otherwise each two edges that cross are first replaced by two edges between the same four ends that
-    /// do not cross. Of the two possible replacements, the one that changes less area is used. Then the
-    /// triangles cover the inside by the even-odd rule. If that takes too long, or nothing remains, the
-    /// triangles fan out from the first corner.
+    /// polygon's edges meet only at corners, the triangles cover every point with a nonzero winding number.
+    /// Otherwise each two edges that cross are first replaced by two edges between the same four ends that do
+    /// not cross. The replacement that changes less area is used. Then the triangles cover the inside by the
+    /// even-odd rule. If that takes too long, or nothing remains, the triangles fan out from the first corner.
     pub crossing: usize,
     /// The number of polygons with a corner off the plane of the others, but within the tolerance. They stay
     /// whole, and such corners count as on the plane.

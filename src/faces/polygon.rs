@@ -136,8 +136,8 @@ impl FaceBuilder<'_> {
         Ok(true)
     }
 
-    /// Adds triangles in place of a polygon: no triangle if none has area. Returns whether the polygon
-    /// crosses itself.
+    /// Adds triangles in place of a polygon, if any triangle has area. Returns whether the polygon crosses
+    /// itself.
     fn triangulate(&mut self, polygon: usize, convex: bool, plane: &Plane) -> Result<bool, Error> {
         let corners: Vec<_> = self.corners.kept.iter().map(|&(point, _)| point).collect();
         let found = if convex {
@@ -222,7 +222,7 @@ pub(super) struct Corners {
 }
 
 impl Corners {
-    /// Replaces the corners by those of another polygon.
+    /// Replaces the corners by the corners of another polygon.
     fn keep_distinct(&mut self, points: &[DVec3], lattice: &Lattice) {
         self.runs.clear();
         self.given = points.len();

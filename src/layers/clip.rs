@@ -30,7 +30,7 @@ type Points = SmallVec<[Point; MOST_CORNERS]>;
 /// visible.
 ///
 /// Rounding may put a corner slightly outside the box. The corner is moved onto the sides that lie in
-/// `viewport`, but not onto sides that are a million sizes of the viewport away: there the last bit of its
+/// `viewport`, but not onto sides that are a million sizes of the viewport away. There the last bit of its
 /// place in the layer is a tenth of a pixel on the screen, so the move would put it off its plane by as much.
 ///
 /// The layer is clipped in its own plane, where every side of the box is a half-plane. So all corners lie in

@@ -152,9 +152,9 @@
 //! In an unclipped page, a layer that reaches behind the eye has corners so far away that single pages
 //! violate the second row: fewer than one in a thousand of the hard pages in the tests.
 //!
-//! The first three rows have the same exception as the [tree](crate::BspTree#exactness): two layers may be
-//! painted in either order if they overlap only within twice the tolerance of the plane of a third layer that
-//! is in another plane.
+//! The first three rows have the same exception as the [tree](crate::BspTree#exactness). Two layers may be
+//! painted in either order if they overlap only within twice the tolerance of the plane of a third layer in
+//! another plane.
 
 mod clip;
 mod page;

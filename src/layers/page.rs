@@ -15,7 +15,7 @@ use crate::viewpoint::Viewpoint;
 /// viewport. Too large: coordinates are rounded to more than the least tolerance. Too small: layers that
 /// pass near the eye lose a visible part.
 const REACH: f64 = (1 << 20) as f64;
-/// The least and the largest tolerance, as shares of the viewport's size, like those of
+/// The least and the largest tolerance, as shares of the viewport's size, like the limits of
 /// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
 /// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers are
 /// merged, or, because of one layer with few digits, all thin layers of the page.

@@ -148,7 +148,7 @@ pub struct Layer {
     rows: [DVec3; 4],
     /// The distance from 1 to the next number of the matrix's number type.
     step: f64,
-    /// Half planes that cut the rectangle: where their products with (u, v, 1) are not negative.
+    /// Half-planes that cut the rectangle: the points whose products with (u, v, 1) are not negative.
     clips: Vec<DVec3>,
 }
 
@@ -248,7 +248,7 @@ impl Layer {
         self
     }
 
-    /// Half planes that cut the rectangle: where their products with (u, v, 1) are not negative.
+    /// Half-planes that cut the rectangle: the points whose products with (u, v, 1) are not negative.
     pub(super) fn clips(&self) -> &[DVec3] {
         &self.clips
     }
@@ -283,7 +283,7 @@ impl Layer {
         self.rows == other.rows
     }
 
-    /// The corners (u, v) of the rectangle; edge k runs from corner k to the next.
+    /// The corners (u, v) of the rectangle; edge k leads from corner k to the next.
     pub(super) fn corners(&self) -> [DVec2; 4] {
         let Self { low, high, .. } = *self;
         [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]

@@ -104,9 +104,9 @@ use crate::viewpoint::Ray;
 ///
 /// # Order
 ///
-/// The order is as exact as the tree's: the rules on the page of [`BspTree`](BspTree#order) hold for the
-/// polygons of both. Coplanar polygons are in input order, the overlay's after the tree's. The tree's
-/// fragments keep their own order, with pieces between them.
+/// The order is as exact as the tree's order: the rules on the page of [`BspTree`](BspTree#order) apply to
+/// the polygons of the tree and of the overlay. Coplanar polygons are in input order, the overlay's after the
+/// tree's. The tree's fragments keep their own order, with pieces between them.
 ///
 /// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
 /// nearer shape is painted later. There is one exception: if both shapes lie, within the tolerance, in one
@@ -115,9 +115,9 @@ use crate::viewpoint::Ray;
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
-///   point, and planes through segments. A segment's plane goes through the next corner of the line, or
-///   otherwise through the corner before, if it is not collinear with the segment. If both are collinear, the
-///   plane is parallel to the z axis, or for a segment along z to the x axis.
+///   point, and planes through segments. A segment's plane contains the next corner of the line, or otherwise
+///   the corner before, if it is not collinear with the segment. If both are collinear, the plane is parallel
+///   to the z axis, or for a segment along z to the x axis.
 ///
 /// The exception never occurs for an eye that lies in no plane of a polygon or segment and shares no x, y or
 /// z coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
@@ -135,7 +135,7 @@ use crate::viewpoint::Ray;
 /// The tolerance applies as for polygons:
 ///
 /// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
-/// - a segment that reaches further on one side only lies entirely on that side.
+/// - a segment that reaches further on only one side lies entirely on that side.
 ///
 /// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. If a wide line
 /// extends over a polygon that the line itself only touches, such as one of two walls that meet at the line,
@@ -145,7 +145,7 @@ use crate::viewpoint::Ray;
 /// |---|---|
 /// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where they meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
-/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus that of the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
 /// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these
@@ -259,7 +259,7 @@ impl Overlay {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The rules of [`BspTree::hits`] hold for all polygons: hits are exact, and at one point the tree's
+    /// The rules of [`BspTree::hits`] apply to all polygons: hits are exact, and at one point the tree's
     /// polygons precede the overlay's. All hits of the overlay are found first, in time proportional to the
     /// number of its boxes that the ray crosses. The first call after a [`replace`](Self::replace) computes
     /// these boxes, in time proportional to the number of pieces. The first call for a tree also computes the

@@ -212,7 +212,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    /// If the tree is neither the tree that the overlay was made for nor a clone of it.
     pub fn order<'a>(
         &'a self,
         tree: &'a BspTree,
@@ -230,7 +230,7 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    /// If the tree is neither the tree that the overlay was made for nor a clone of it.
     pub fn same_order(
         &self,
         tree: &BspTree,

@@ -57,7 +57,7 @@ fn cheapest(
         if best.is_none_or(|(least, _)| cost < least) {
             best = Some((cost, plane));
         }
-        // Cheap enough: both sides have few pieces of the sample.
+        // Cheap enough: each side has few pieces of the sample.
         if cost <= sample.len() / 2 {
             break;
         }

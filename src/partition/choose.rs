@@ -69,7 +69,7 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
     planes
 }
 
-/// The plane that divides a box into two parts, for `count` cells in total. It goes through a sample, because
+/// The plane that divides a box into two parts, for `count` cells in total. It contains a sample, because
 /// that often is a corner, and planes through corners cut fewer polygons. It is independent of the order of
 /// the samples.
 fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {

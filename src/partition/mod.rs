@@ -69,7 +69,7 @@ use crate::viewpoint::Viewpoint;
 /// All cells have one tolerance, a length: the tolerance of the [options](crate::BuildOptions::partition)
 /// with which the partition was made. By default it depends on the extent and the precision of all polygons,
 /// as in one tree of the scene. The options with which a cell is built do not affect it. Across the planes
-/// between cells, orders are right up to the tolerance, as across the planes of a tree: polygons that are
+/// between cells, orders are right up to the tolerance, as across the planes of a tree. Polygons that are
 /// closer to one another than the tolerance, and not coplanar, may be exchanged, as in another tree of the
 /// scene.
 ///

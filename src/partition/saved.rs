@@ -10,8 +10,7 @@ use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
-/// The largest number of planes. Too small: large partitions cannot be read. Too large: a forged file takes
-/// more memory.
+/// The largest number of planes: far more cells than anyone builds trees for.
 const MOST: usize = 1 << 28;
 
 impl Partition {

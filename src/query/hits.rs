@@ -17,8 +17,8 @@ use crate::tree::parts::Stored;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
-/// The fragments that rays may meet: a tree's, and the pieces of an overlay, which are numbered after the
-/// tree's.
+/// The fragments that rays may meet: a tree's fragments, and the pieces of an overlay, which are numbered
+/// after them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tree: &'t BspTree,
@@ -92,7 +92,7 @@ impl<'t> Targets<'t> {
     }
 }
 
-/// The hits of a ray, the nearest first: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
+/// The hits of a ray, nearest first: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
 #[derive(Clone, Debug)]
 pub(crate) struct Hits<'t> {
     targets: Targets<'t>,
@@ -232,7 +232,7 @@ pub struct Hit<'t> {
 
 impl<'t> Hit<'t> {
     /// Returns the fragment that is hit, for instance for its [normal](Fragment::normal). If several
-    /// fragments of the polygon meet at the point, it is one of them.
+    /// fragments of the polygon meet at the point, the result is one of these.
     #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment
@@ -263,8 +263,8 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the point of the hit, rounded like a fragment's vertices: the error of each coordinate is at
-    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`, however far away the ray begins and however
-    /// small its angle to the polygon.
+    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`. This holds however far away the ray begins and
+    /// however small its angle to the polygon.
     ///
     /// Each call computes the point, in about 0.2 µs.
     pub fn point(&self) -> DVec3 {

@@ -41,7 +41,7 @@ const SPEED_BITS: i32 = 52;
 ///
 /// The origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is 2⁻⁵³ of the
 /// reach, which is at least 2⁵¹, and no lattice is further than 2¹¹⁰ from the world's origin. So the loss is
-/// below a thousandth of the rounding, however far out the origin is.
+/// below a thousandth of the rounding, however far away the origin is.
 ///
 /// Too small: floats decide wrongly. Too large: integers decide more cases.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;

@@ -126,7 +126,7 @@ impl Bounds {
             .map(|face| rounded(&tree.faces, PlaneId::face(face)))
             .collect();
         let planes = Planes::of(tree.records.iter().map(|record| faces[record.face as usize]));
-        // Children come after their parents, so going backwards they are summed up first.
+        // Children are stored after their parents, so they are summed up first in reverse order.
         for node in tree.nodes().rev() {
             let index = node.index();
             let parts = [node.front(), Child::Leaf(node.on()), node.back()];
@@ -303,10 +303,10 @@ pub(crate) struct HalfSpace {
     near: [usize; 3],
 }
 
-/// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's magnitudes:
-/// coordinates are at most 1.014, and the normal, products and sums are rounded, by 4 · 1.014 · 2⁻²⁴ in
-/// total. The rest is more than a step of the scene's grid, by which the eye may be off. Too small: boxes
-/// that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
+/// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's magnitudes.
+/// Coordinates are at most 1.014, and the normal, products and sums are rounded, by 4 · 1.014 · 2⁻²⁴ in
+/// total. The difference is more than a step of the scene's grid, by which the eye may be off. Too small:
+/// boxes that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
 const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
 /// Roundings of the plane's position, in `f64`.
@@ -326,7 +326,7 @@ impl HalfSpace {
         let offset = scaled(offset, up);
         let size = normal.abs().max_element().max(f64::MIN_POSITIVE);
         let normal = normal / size;
-        // An eighth of all lengths, so that none overflows.
+        // An eighth of all lengths, so that no length overflows.
         let middle = lattice.to_world([0.0; 3]) / 8.0;
         let unit = lattice.length_to_world(LATTICE_LIMIT / 8.0);
         let offset = offset / 8.0 / size;

@@ -42,10 +42,10 @@ use crate::faces::Preparation;
 /// [`face_count`](Self::face_count). Polygons without area are dropped ([`dropped`](Self::dropped) lists
 /// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
-/// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, its vertices with their
-/// weights over the polygon's corners, those of its edges that are edges of the polygon, and the side that
-/// [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from 0 to [`len`](Self::len) − 1. A
-/// number is valid for its own tree only.
+/// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, and its vertices with
+/// their weights over the polygon's corners. It also returns which of its edges are edges of the polygon, and
+/// the side that [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from 0 to
+/// [`len`](Self::len) − 1. A number is valid for its own tree only.
 ///
 /// # Order
 ///
@@ -69,7 +69,7 @@ use crate::faces::Preparation;
 ///
 /// # Drawing a frame
 ///
-/// A [`Mesh`](crate::mesh::Mesh) holds the fragments as vertices and triangles. Upload its vertices once.
+/// A [`Mesh`](crate::mesh::Mesh) contains the fragments as vertices and triangles. Upload its vertices once.
 /// Every frame, write the indices back to front into a reused buffer or mapped memory:
 ///
 /// ```
@@ -222,7 +222,7 @@ use crate::faces::Preparation;
 /// quarter to a half of the build time.
 ///
 /// Nothing recurses over the data: a chain of a million polygons needs no more stack than one polygon. The
-/// same input and options give bit for bit the same tree with any number of threads.
+/// same input and options make bit for bit the same tree with any number of threads.
 ///
 /// [`BuildOptions`](crate::BuildOptions) sets the heuristic, the tolerance and budgets, reports
 /// progress, and can cancel.
@@ -251,7 +251,7 @@ pub struct BspTree {
     pub(super) positions: Vec<[f64; 3]>,
     /// The number of times that the builder cut a piece in two.
     pub(super) cuts: usize,
-    /// Identifies the tree, so that overlays and meshes of other trees are refused. Clones share it.
+    /// Identifies the tree, so that overlays and meshes of other trees are rejected. Clones share it.
     pub(crate) generation: u64,
     /// Computed by the first query that needs them.
     pub(super) bounds: OnceLock<Bounds>,
@@ -351,7 +351,7 @@ impl BspTree {
         self.faces.len()
     }
 
-    /// The faces of which the fragments are pieces, for `raster`.
+    /// Returns the faces that the fragments are pieces of, for `raster`.
     #[cfg_attr(not(feature = "raster"), doc(hidden))]
     pub fn faces(&self) -> &Faces {
         &self.faces

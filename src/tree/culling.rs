@@ -179,7 +179,7 @@ impl<'t> Cull<'t> {
         self.view.is_in_front_of(faces, plane, rounded)
     }
 
-    /// Writes the furthest fragments of a part, and puts the rest on the stack.
+    /// Writes the furthest fragments of a part, and pushes the other parts onto the stack.
     fn descend(&self, part: Listed, pending: &mut Vec<Listed>, order: &mut Vec<u32>) {
         let Listed { mut subtree, mut is_mixed } = part;
         while self.marks.any(&subtree.fragments) {

@@ -63,13 +63,14 @@ impl<'t> Fragment<'t> {
         self.faces.polygon(self.face)
     }
 
-    /// The face of which this is a piece, one of [`BspTree::faces`]: the polygon, or one of its triangles.
+    /// Returns the face that this is a piece of, one of [`BspTree::faces`]: the polygon, or one of its
+    /// triangles.
     #[doc(hidden)]
     pub fn face(&self) -> u32 {
         self.face
     }
 
-    /// Returns the unit normal of the plane. It points to the front, the side from which vertices run
+    /// Returns the unit normal of the plane. It points to the front, the side from which vertices are
     /// counter-clockwise. It is bit for bit the same for all fragments of a polygon, or of a triangle if the
     /// polygon was triangulated.
     ///
@@ -122,7 +123,7 @@ impl<'t> Fragment<'t> {
         self.lattice_vertices().map(move |position| lattice.to_world(position))
     }
 
-    /// The vertices in lattice units, rounded.
+    /// Returns the vertices in lattice units, rounded.
     #[doc(hidden)]
     pub fn lattice_vertices(
         &self,
@@ -151,7 +152,7 @@ impl<'t> Fragment<'t> {
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
-    /// For each edge, from a vertex to the next, the line that bounds the fragment there.
+    /// Returns, for each edge from a vertex to the next, the line that bounds the fragment there.
     #[doc(hidden)]
     pub fn lines(
         &self,
@@ -163,7 +164,7 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// For each vertex, its exact definition on its face.
+    /// Returns, for each vertex, its exact definition on its face.
     #[doc(hidden)]
     pub fn vertex_ids(
         &self,
@@ -191,9 +192,9 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices run
-    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view runs
-    /// along it.
+    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices are
+    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view is
+    /// parallel to the plane.
     ///
     /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so it is the same for
     /// all fragments of a face. The triangles of a non-planar polygon are faces with separate planes. O(1).
@@ -274,7 +275,7 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 /// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: there
 /// `base` cannot store all digits.
 ///
-/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions: the
+/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions. The
 /// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
 /// positive.
 ///

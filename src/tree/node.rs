@@ -86,7 +86,7 @@ impl<'t> Node<'t> {
         }
     }
 
-    /// The plane's exact name, by a face or corner of [`BspTree::faces`].
+    /// Returns the plane's exact name, by a face or corner of [`BspTree::faces`].
     #[doc(hidden)]
     pub fn plane(&self) -> PlaneId {
         self.tree.nodes[self.index()].plane
@@ -119,13 +119,13 @@ impl<'t> Node<'t> {
         self.ranges().back
     }
 
-    /// The front side.
+    /// Returns the front side.
     pub fn front(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.front_node(self.index()), self.in_front())
     }
 
-    /// The back side.
+    /// Returns the back side.
     pub fn back(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.back_node(self.index()), self.behind())
@@ -301,7 +301,7 @@ impl NodeRecord {
     #[inline]
     pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
         let own = all.start..all.start + self.own();
-        // A leaf is numbered before a subtree, so only in this case the back comes first.
+        // A leaf is numbered before a subtree, so only in this case the back is first.
         if self.front_nodes > 0 && !self.back_is_node() {
             let middle = all.end - self.front_len;
             return Ranges { front: middle..all.end, back: own.end..middle, own };
@@ -345,7 +345,7 @@ pub(crate) fn finish(
     sizes: &mut Vec<Sizes>,
     nodes: &mut Vec<NodeRecord>,
 ) {
-    // Nodes are read from last to first, so children come before their parents. Subtrees without a parent
+    // Nodes are read from last to first, so children are read before their parents. Subtrees without a parent
     // yet are on a stack, the front above the back.
     sizes.clear();
     nodes.clear();

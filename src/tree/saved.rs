@@ -111,8 +111,7 @@ impl BspTree {
     /// # Errors
     ///
     /// If the data cannot be read; if they are not a tree, have another version, are truncated or damaged, or
-    /// contain a tree that the library could not have built; or if memory runs out. The message says which of
-    /// these.
+    /// contain a tree that the library could not have built; or if memory runs out. The message says which.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;

@@ -170,7 +170,7 @@ impl BspTree {
             let prepared = PreparedPlane::new(&self.faces, plane);
             // Otherwise the classification below, which uses the builder's code, proves nothing.
             if !prepared.has_length_of(&self.faces) {
-                let what = "at its plane the tolerance is not the length that it should be";
+                let what = "the tolerance at its plane has the wrong length";
                 return Err(fault(what.to_owned()));
             }
             path.push((prepared, Side::Coplanar));
@@ -188,7 +188,7 @@ impl BspTree {
             }
             let face = |fragment: u32| self.records[fragment as usize].face;
             if let Some(late) = visit.own.clone().skip(1).find(|&id| face(id) < face(id - 1)) {
-                let what = "on its plane comes before one of an earlier polygon";
+                let what = "on its plane precedes a fragment of an earlier polygon";
                 return Err(fault(format!("fragment {} {what}", late - 1)));
             }
         }

@@ -130,9 +130,9 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle, aspect, size })
     }
 
-    /// Returns the view-projection matrix: from the world to clip coordinates, with x to the right, y
-    /// upwards, and depths from 0 at the distance `near` to 1 at `far`, as in WebGPU, Vulkan (except for y),
-    /// Metal and Direct3D. Distances are measured along [`forward`](Self::forward) from the eye; for a
+    /// Returns the view-projection matrix, from the world to clip coordinates. In these, x points right, y
+    /// upwards, and depths are from 0 at the distance `near` to 1 at `far`, as in WebGPU, Vulkan (except for
+    /// y), Metal and Direct3D. Distances are measured along [`forward`](Self::forward) from the eye; for a
     /// parallel camera from its centre, and then they may be negative. The two distances must be finite and
     /// different.
     ///
@@ -171,8 +171,8 @@ impl Camera {
     }
 }
 
-const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither an eye nor a direction of view: one is \
-                         zero, or they depend on each other";
+const DEPENDENT: &str = "the rows of x, y and w of the matrix determine neither an eye nor a direction of view: a \
+                         row is zero, or the rows are linearly dependent";
 const NOTHING_AHEAD: &str = "w of the matrix is zero or negative for every point: it must be positive ahead of the \
                              camera";
 const MIRRORED: &str = "the matrix mirrors the picture: negate its first row and mirror the drawing; or, if its y \
@@ -379,7 +379,7 @@ mod tests {
             let mirrored = message(scaled(-1.0, 1.0, 1.0) * matrix);
             assert!(mirrored.contains("mirror") && mirrored.contains("first row"), "{mirrored}");
             assert!(message(scaled(1.0, -1.0, 1.0) * matrix).contains("second row"));
-            // As the documentation says.
+            // As in the documentation of `from_matrix`.
             assert!(Camera::from_matrix(scaled(-1.0, -1.0, 1.0) * matrix, SIZE).is_ok());
             let mut sheared = DMat4::IDENTITY;
             sheared.y_axis.x = 1e4;

@@ -138,7 +138,7 @@ impl Camera {
         let (origin, span, too_small) = match projection {
             Projection::Perspective { eye, half_height } => (eye, half_height, FIELD_OF_VIEW),
             Projection::Parallel { centre, height, .. } => {
-                (centre, height, "the height that a parallel camera shows must be positive")
+                (centre, height, "the height of a parallel camera's picture must be positive")
             }
         };
         if !(origin.is_finite() && view.is_finite() && up.is_finite() && span.is_finite()) {
@@ -150,7 +150,7 @@ impl Camera {
         let size = checked(size)?;
         let Some(forward) = unit(view) else {
             return refused(
-                "the camera looks nowhere: its eye and target are the same, or its direction is zero",
+                "the camera has no direction of view: its eye and target are equal, or its direction is zero",
             );
         };
         let side = forward.cross(unit(up).unwrap_or(forward));
@@ -334,7 +334,7 @@ fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], Error> {
     let pixels = u64::from(width) * u64::from(height);
     if !sides.contains(&width) || !sides.contains(&height) || pixels > Camera::MAX_PIXELS {
         return refused(format!(
-            "a picture must have 1 to {} pixels each way and at most {} in all, not {width}x{height}",
+            "a picture must be 1 to {} pixels wide and high, with at most {} pixels in total, not {width}x{height}",
             Camera::MAX_SIDE,
             Camera::MAX_PIXELS
         ));
@@ -402,7 +402,7 @@ mod tests {
         let (o, x, z) = (DVec3::ZERO, DVec3::X, DVec3::Z);
         let perspective = |eye, up, fov, size| Camera::perspective(eye, o, up, fov, size);
         let message = |camera: Result<Camera, Error>| camera.unwrap_err().to_string();
-        assert!(message(perspective(o, z, 1.0, SIZE)).contains("looks nowhere"));
+        assert!(message(perspective(o, z, 1.0, SIZE)).contains("no direction of view"));
         assert!(message(perspective(x, x, 1.0, SIZE)).contains("up vector"));
         assert!(message(perspective(x, o, 1.0, SIZE)).contains("up vector"));
         assert!(message(perspective(x, z, 0.0, SIZE)).contains("field of view"));
@@ -411,7 +411,7 @@ mod tests {
         assert!(message(perspective(x, z, f64::NAN, SIZE)).contains("infinite"));
         assert!(message(perspective(x, z, 1.0, [0, 5])).contains("0x5"));
         assert!(message(perspective(x, z, 1.0, [1 << 14, 1 << 14])).contains("16384x16384"));
-        assert!(message(Camera::parallel(o, z, o, 1.0, SIZE)).contains("looks nowhere"));
+        assert!(message(Camera::parallel(o, z, o, 1.0, SIZE)).contains("no direction of view"));
         assert!(message(Camera::parallel(x, z, o, 0.0, SIZE)).contains("height"));
     }
 

@@ -412,5 +412,5 @@ fn a_drawing_of_a_cell_is_an_error() {
     let tree = &scene.cells[0].tree;
     assert!(tree.is_of_cell() && !BspTree::build(&scene.polygons).unwrap().is_of_cell());
     let error = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap_err();
-    assert!(error.to_string().contains("of one cell"), "{error}");
+    assert!(error.to_string().contains("belongs to one cell"), "{error}");
 }

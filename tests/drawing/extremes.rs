@@ -58,7 +58,7 @@ fn opacities_are_numbers_from_0_to_1() {
     let error = tree.visibility(&camera, &options).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "there are 1 opacities, but 2 polygons: give one for each polygon"
+        "there are 1 opacities, but 2 polygons: pass one for each polygon"
     );
     let shown = |opacities: [f64; 2]| -> Vec<usize> {
         let opacity = |polygon: usize| opacities[polygon];

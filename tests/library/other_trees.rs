@@ -65,7 +65,7 @@ fn an_overlay_of_another_frame_is_refused() {
         let mut order = Vec::new();
         assert!(overlay.order(other, ABOVE).is_err());
         let error = overlay.replace(other, [square(2.5)]).expect_err("another frame");
-        assert!(error.to_string().contains("make an overlay for it"), "{error}");
+        assert!(error.to_string().contains("make an overlay for this tree"), "{error}");
         overlay.replace(&one.clone(), [square(2.5)]).expect("a copy is the same");
         overlay.order(one, ABOVE).expect("its own").write_into(&mut order);
         assert_eq!(order.len(), CARDS + 1);

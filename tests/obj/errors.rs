@@ -45,9 +45,9 @@ fn bad_coordinates_are_refused_with_their_line() {
         ("v 1e999 0 0", "not finite"),
         ("v 0 3.1+e2 0", "not a number"),
         ("v 0 0,5 0", "not a number"),
-        ("v 0 0", "must give x, y and z"),
-        ("v", "must give x, y and z"),
-        ("v 0 0 # 0", "must give x, y and z"),
+        ("v 0 0", "needs x, y and z"),
+        ("v", "needs x, y and z"),
+        ("v 0 0 # 0", "needs x, y and z"),
     ] {
         let (line, face, message) = refused(format!("{CORNERS}\n{vertex}\nf 1 2 3\n"));
         assert_eq!((line, face), (Some(7), None), "{vertex}");
@@ -71,7 +71,7 @@ fn bad_corners_are_refused_with_line_and_face() {
     for (corner, reason) in [
         ("6", "vertex 6 does not exist; there are 5"),
         ("-6", "vertex -6 does not exist"),
-        ("0", "the first is 1"),
+        ("0", "the first vertex is 1"),
         ("4294967296", "does not exist"),
         ("4294967297", "does not exist"),
         ("99999999999999999999", "does not exist"),

@@ -14,7 +14,7 @@ fn materials_come_from_the_library() {
     let text = with_corners(&format!("mtllib a file.mtl\nmtllib a file.mtl\n{}", faces.concat()));
     let (scene, report) = read_with(&text, &[("a file.mtl", library)]);
     assert_eq!(report.clamped_material_lines, ["a file.mtl:11"]);
-    assert_eq!(report.to_string(), "colours and opacities taken as 0 or 1: a file.mtl:11");
+    assert_eq!(report.to_string(), "colours and opacities clamped to 0 or 1: a file.mtl:11");
     let looks: Vec<_> = scene.materials().iter().map(|m| (m.color, m.opacity)).collect();
     let expected = [
         ([0.9, 0.1, 0.0], 0.5),

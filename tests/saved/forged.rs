@@ -60,7 +60,7 @@ fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
         if faces == [0, 1, 2] {
             assert_eq!(file.message(), "");
         } else {
-            file.refused("is of another face than its plane's");
+            file.refused("is listed with another face than its planes make");
         }
     }
 }

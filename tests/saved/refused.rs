@@ -44,7 +44,7 @@ fn each_fault_is_refused_with_its_own_message() {
         ("its tolerance is negative", |file| {
             file.put_bytes(TOLERANCE, &(-1f64).to_le_bytes());
         }),
-        ("comes before one of an earlier polygon", |file| {
+        ("precedes a face of an earlier polygon", |file| {
             file.put(FACES, 1);
             file.put(FACES + 12, 0);
         }),
@@ -70,7 +70,7 @@ fn each_fault_is_refused_with_its_own_message() {
         }),
         ("names corners that it does not have", |file| file.put(FACES + 8, frame(3, 0, 2))),
         ("names corners that it does not have", |file| file.put(FACES + 8, frame(3, 2, 2))),
-        ("is moved along another axis", |file| file.put(FACES + 8, frame(0, 1, 2))),
+        ("is moved along the wrong axis", |file| file.put(FACES + 8, frame(0, 1, 2))),
         // Off by a step, and moved by half a step at most.
         ("is not planar", |file| {
             file.0[corner(3) + 16] ^= 1;
@@ -86,7 +86,9 @@ fn each_fault_is_refused_with_its_own_message() {
         ("node 0 does not have the fragments that its plane makes", |file| {
             file.put(NODES, 2 << 28)
         }),
-        ("fragment 2 is of another face than its plane's", |file| file.put(FRAGMENTS + 8, 0)),
+        ("fragment 2 is listed with another face than its planes make", |file| {
+            file.put(FRAGMENTS + 8, 0)
+        }),
     ];
     assert!(BspTree::read(&file().0[..]).is_ok());
     for (expected, spoil) in faults {

@@ -148,7 +148,7 @@ fn the_box_of_a_cell_is_checked_on_each_side() {
         let mut file = file.clone();
         file.put_step(low, axis, 8);
         file.put_step(high, axis, 7);
-        file.refused("its cell ends before it begins");
+        file.refused("its cell has its lower corner above its upper corner");
         file.put_step(high, axis, 8);
         assert!(!file.message().contains("its cell"), "{}", file.message());
     }

@@ -83,7 +83,7 @@ fn what_cannot_be_drawn_is_said_at_once() {
         ("-o p.svg --min-size", "--min-size"),
         ("-o p.svg --direction=0,0,1 --eye=0,0,1", "cannot be used with"),
         ("-o p.svg --direction=0,0,1 --fov 30", "cannot be used with"),
-        ("-o p.svg --eye=0,0,0 --target=0,0,0", "looks nowhere"),
+        ("-o p.svg --eye=0,0,0 --target=0,0,0", "no direction of view"),
         ("-o p.svg --eye=0,0,9 --target=0,0,0 --up z", "up vector"),
         ("-o p.svg --eye=0,0,1e300 --target=0,0,0", "too far"),
         ("-o p.svg --size 0x5", "such as 640x480"),

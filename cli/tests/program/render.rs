@@ -139,7 +139,7 @@ fn what_cannot_be_written_is_said_at_once() {
         ("-o p.png --samples 2 --difference", "one value a pixel"),
         ("-o p.png --depth --z-buffer", "cannot be used with"),
         ("-o p.png --direction=0,0,1 --eye=0,0,1", "cannot be used with"),
-        ("-o p.png --eye=0,0,0 --target=0,0,0", "looks nowhere"),
+        ("-o p.png --eye=0,0,0 --target=0,0,0", "no direction of view"),
         ("-o p.png --eye=0,0,9 --target=0,0,0 --up z", "up vector"),
         ("-o p.png --eye=0,0,1e300 --target=0,0,0", "too far"),
         ("", "--output"),

@@ -160,8 +160,8 @@ fn through(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
     cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
 }
 
-/// A plane between two pieces, the first of which ends before the other begins: at the end of one of them,
-/// or otherwise through a corner of their faces that was cut off.
+/// A plane between two pieces, the first of which ends before the second begins: at an end of a piece, or
+/// otherwise through a corner of their faces that was cut off.
 fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
     let [low, high] = [first.max[axis], next.min[axis]];
     if next.min_is_corner(axis) {

@@ -36,8 +36,8 @@ pub enum SplitPlane {
     OfPiece(usize),
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
-    /// Every plane of a tree goes through a corner of a polygon. This plane goes through the corner nearest
-    /// the coordinate, of all polygons of the build, after rounding to the grid and the tolerance.
+    /// Every plane of a tree contains a corner of a polygon. This plane contains the corner nearest the
+    /// coordinate, of all polygons of the build, after rounding to the grid and the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,

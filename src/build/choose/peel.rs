@@ -22,7 +22,7 @@ pub(crate) struct Layer {
     pub(crate) plane: PlaneId,
     /// The side on which all remaining pieces are.
     pub(crate) rest: Side,
-    /// The places of its pieces among those of all layers.
+    /// The places of the layer's pieces in the list of all layers.
     range: Range<usize>,
 }
 

@@ -14,7 +14,7 @@ pub(super) const LANES: usize = 4;
 
 /// Pieces of a set, moved to its middle and rounded to `f32`.
 ///
-/// They rank planes, and rounding may change the ranks. Results called certain hold exactly, beyond the
+/// They rank planes, and rounding may change the ranks. Results called certain are exact, beyond the
 /// tolerance.
 #[derive(Debug, Default)]
 pub(super) struct PackedPieces {

@@ -54,7 +54,7 @@ pub(super) fn triangles(random: &mut SplitMix64, count: usize, size: f64) -> Vec
     (0..count).map(|_| triangle()).collect()
 }
 
-/// Squares of a rotated grid; `height` gives the distance of each corner from the plane.
+/// Squares of a rotated grid; `height` returns the distance of each corner from the plane.
 pub(super) fn grid(side: u32, mut height: impl FnMut(DVec3) -> f64) -> Vec<[DVec3; 3]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let mut triangles = vec![];

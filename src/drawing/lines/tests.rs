@@ -101,8 +101,7 @@ fn lines_in_floats_are_as_near_as_they_say() {
 
 #[test]
 fn edges_on_one_line_are_one() {
-    // Walls side by side on the ground, and a beam along all of them, which has no corners in common with the
-    // walls.
+    // Walls side by side on the ground, and a beam along all walls, which shares no corners with the walls.
     let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
     let wall = |x: f64, w: f64, z: f64, h: f64| {
         [corner(x, z), corner(x + w, z), corner(x + w, z + h), corner(x, z + h)]
@@ -147,7 +146,7 @@ fn lines(tree: &BspTree, camera: &Camera) -> usize {
     let lines = &primitives.lines;
     let exact: Vec<_> = lines.keys.iter().map(|key| lines.exact_of(*key)).collect();
     for (i, line) in exact.iter().enumerate() {
-        // Of what the picture shows.
+        // Only lines in the picture.
         let at = lines.rounded[i].at(lines.reach.map(|side| 0.5 * side));
         if at.abs() > lines.reach[0] + lines.reach[1] {
             continue;

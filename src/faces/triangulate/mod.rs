@@ -38,13 +38,13 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
 
 /// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
 /// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon. A polygon that is
-/// far from planar may cross or touch itself in that projection, and lose corners, but not along another
-/// axis, which then is used.
+/// far from planar may cross or touch itself in that projection, and lose corners. If it does not in the
+/// projection along another axis, that axis is used.
 ///
-/// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself
-/// is reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their
-/// areas cancel, `plane`, which must go through three of its corners, replaces the vector area. A polygon
-/// that has area, but none in the projection, becomes a fan from its first corner.
+/// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
+/// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas
+/// cancel, `plane`, which must contain three of its corners, replaces the vector area. A polygon that has
+/// area, but no area in the projection, becomes a fan from its first corner.
 pub(super) fn any(
     corners: &[[f64; 3]],
     plane: &Plane,
@@ -187,10 +187,10 @@ const SWEEPS: usize = 16;
 /// no triangles if the budget runs out.
 ///
 /// Two edges that cross are replaced by two edges between the same four ends that do not cross (a 2-opt
-/// move). Of the two possible moves, the one that changes less of the inside by the even-odd rule is used. So
-/// the result covers somewhat more or less than the outline near a crossing, and exactly the inside
-/// everywhere else. The new edges are shorter than the old edges, so the process ends, but it may take long
-/// (van Leeuwen and Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
+/// move). The move that changes less of the inside by the even-odd rule is used. So the result covers
+/// somewhat more or less than the outline near a crossing, and exactly the inside everywhere else. The new
+/// edges are shorter than the old edges, so the process ends, but it may take long (van Leeuwen and Schoone,
+/// “Untangling a travelling salesman tour in the plane”, 1981).
 fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
     let mut edges = outline.edges.clone();
     let mut budget = PATIENCE.max(SWEEPS * edges.len());

@@ -212,7 +212,7 @@ fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
             continue;
         }
         counts[2] += 1;
-        // The triangles are disjoint, so the covered area is a sum of some of them.
+        // The triangles are disjoint, so the covered area is the sum of the areas of some triangles.
         let windings =
             triangles(&corners, &found).map(|t| winding(&corners, t)).collect::<Vec<_>>();
         assert!(windings.iter().all(|&times| times != 0), "{corners:?}");
@@ -334,7 +334,7 @@ fn a_cancel_is_heard_within_one_polygon() {
 
 #[test]
 fn an_outline_through_one_point_again_and_again_ends_as_fast() {
-    // Petals that meet in the middle, one of them with a triangle in it.
+    // Petals that meet in the middle; one petal contains a triangle.
     let petal = |k: i64| [[0, 0], [1 << 20, 16 * k], [1 << 20, 16 * k + 8]];
     let corners: Vec<Point> = (0..30_000).flat_map(petal).collect();
     in_all_ways(&corners, |corners| {

@@ -298,8 +298,8 @@ pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u
 }
 
 /// Rounded coordinates that differ by more than this share of the larger one, plus [`POSITION_OFF`] for each,
-/// are in their true order: each coordinate is off by at most three roundings of its own size, and the
-/// difference by one. Too small: wrong orders. Too large: integers decide more cases.
+/// are in their true order. Each coordinate is off by at most three roundings of its own size, and the
+/// difference by one rounding. Too small: wrong orders. Too large: integers decide more cases.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The points of all lines.
@@ -330,8 +330,8 @@ impl Points {
         reserve(&mut points.ends, survey.edges.len())?;
         points.ends.resize(survey.edges.len(), [0; 2]);
         reserve(&mut points.on_lines, all.len() / 2)?;
-        // Lines shared by faces come first: if corners were moved onto their planes, an edge as given
-        // decides, not one of its faces.
+        // Lines shared by faces first: if corners were moved onto their planes, the given edge decides, not
+        // one of its faces.
         for shared in [true, false] {
             for (line, range) in starts.windows(2).enumerate() {
                 if survey.carriers[line].face.is_none() == shared {

@@ -90,7 +90,7 @@ impl Triangles {
     ///
     /// # Panics
     ///
-    /// If the number is not that of a fragment.
+    /// If no fragment has this number.
     pub fn range(&self, fragment: u32) -> Range<usize> {
         self.range_at(fragment as usize - self.first)
     }
@@ -240,7 +240,7 @@ impl Triangles {
 
     /// Copies each fragment's indices into a small buffer, always [`CHUNK`] indices; the next fragment
     /// overwrites the excess. That is faster than a branch on their number, which no processor can predict.
-    /// The caller's memory may be written only once, hence the buffer.
+    /// The buffer is necessary because the caller's memory may be written only once.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;

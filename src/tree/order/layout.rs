@@ -331,10 +331,10 @@ pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 /// fragment k. Missing fragments share the place of the first fragment.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
-/// Everything except the signs that decides the places of a block's fragments. For each node: the numbers
-/// of fragments on its plane and in front, the number of nodes in front, and whether the back is a node.
-/// For the block: the numbers of nodes (none for a leaf) and of fragments. Blocks of the same shape share a
-/// row of the table.
+/// Everything except the signs that decides the places of a block's fragments. For each node: the numbers of
+/// fragments on its plane and in front, the number of nodes in front, and whether the back is a node. For the
+/// block: the numbers of nodes (0 for a leaf) and of fragments. Blocks of the same shape share a row of the
+/// table.
 ///
 /// Packed, because each block needs a look-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -244,7 +244,7 @@ impl<'t> Ordered<'t> {
                     let parts = self.open(node);
                     parts.into_iter().rev().for_each(|part| self.parts.push_front(part));
                 }
-                // Only the run that the other end is reading is left: continue with that run.
+                // Only the run that the other end is reading remains: continue with that run.
                 None => {
                     let index = self.near.next()?;
                     return Some(self.take(index));
@@ -411,8 +411,8 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
         let to_own = select_unpredictable(is_in_front, back, front);
         if own <= 1 {
             let place = select_unpredictable(own == 1, (begin + to_own) as usize, nowhere);
-            // Without an own fragment, the write goes to a spare place behind the order. That is
-            // cheaper than a branch that is taken for every other node.
+            // Without an own fragment, this writes to a spare place behind the order. That is cheaper than a
+            // branch that is taken for every other node.
             numbers[place] = inner.own_first;
         } else if let Some(chain) = inner.chain() {
             let to_rest = write_chain(&chain, signs, begin, numbers);

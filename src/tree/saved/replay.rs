@@ -123,7 +123,9 @@ pub(super) fn replay(
     let whole = join(finished.into_iter().flatten().chain([last]).collect())?;
     let faces = whole.records.iter().map(|record| &record.face);
     match faces.zip(listed).position(|(face, listed)| face != listed) {
-        Some(fragment) => Err(invalid("fragment", fragment, "is of another face than its plane's")),
+        Some(fragment) => {
+            Err(invalid("fragment", fragment, "is listed with another face than its planes make"))
+        }
         None => Ok(whole),
     }
 }

@@ -8,8 +8,8 @@
 //! root, each face must result as given.
 //!
 //! This check is complete. Suppose that a convex piece is right, and that two outlines with vertices on their
-//! sides of a plane glue to it. Then they are its two parts: every vertex is a vertex of the piece or the
-//! point where its line crosses the plane, and vertices of both parts lie on the plane, because they are on
+//! sides of a plane glue to it. Then they are its two parts. Every vertex is a vertex of the piece or the
+//! point where its line crosses the plane. Vertices of both parts lie on the plane, because they are on
 //! neither side of it. By induction from the root, the fragments are exactly the pieces that the planes make
 //! of the faces: convex, in the face's orientation, each once.
 
@@ -58,7 +58,7 @@ impl BspTree {
         if counted == splits {
             return Ok(());
         }
-        let what = format_args!("the builder counted {counted} cuts, but the pieces show {splits}");
+        let what = format_args!("the builder counted {counted} cuts, but the pieces have {splits}");
         Err(fault(0, what))
     }
 
@@ -139,7 +139,7 @@ fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
 }
 
 /// The piece that a plane cut into a piece in front and a piece behind; `None` if they were not one convex
-/// piece that the plane crossed, for instance if one of them is the whole face.
+/// piece that the plane crossed, for instance if one piece is the whole face.
 fn glue(
     plane: PlaneId,
     [front, back]: [&[Vertex]; 2],

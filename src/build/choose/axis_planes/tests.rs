@@ -107,7 +107,7 @@ fn planes_go_through_rows_of_vertices() {
     }
 }
 
-/// Most pieces are in two small parts of the whole, so that few bins hold nearly all.
+/// Most pieces are in two small parts of the whole, so that few bins contain nearly all pieces.
 #[test]
 fn crowds_are_searched_like_others() {
     const CROWD: usize = 2000;

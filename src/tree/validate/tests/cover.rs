@@ -255,7 +255,7 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
                         vertices[at] = corner.with_line(EdgeLine::edge(0)).stored();
                         vertices.insert(at + 1, made.with_line(corner.line()).stored());
                     }
-                    // The cut goes to an edge that ends at the corner.
+                    // The cut leads to an edge that ends at the corner.
                     (3, true) => vertices.insert(at, made.with_line(EdgeLine::edge(3)).stored()),
                     _ => vertices[at] = made.stored(),
                 }
@@ -340,7 +340,7 @@ fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
 fn cuts_that_are_counted_wrongly_are_found() {
     let tree = build(&tilted(&decals()), Heuristic::default());
     for cuts in [0, tree.cuts - 1, tree.cuts + 1] {
-        let fault = format!("the builder counted {cuts} cuts, but the pieces show {}", tree.cuts);
+        let fault = format!("the builder counted {cuts} cuts, but the pieces have {}", tree.cuts);
         assert_fault(&tree, |parts| parts.cuts = cuts, &fault);
     }
 }

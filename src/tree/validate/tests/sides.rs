@@ -89,11 +89,11 @@ fn coplanar_fragments_out_of_input_order_are_found() {
                 let edit = |parts: &mut Dismantled| {
                     parts.pieces.swap(on.start as usize, on.start as usize + 1)
                 };
-                let fault = format!("fragment {} on its plane comes before one", on.start);
+                let fault = format!("fragment {} on its plane precedes a fragment", on.start);
                 assert_fault(&tree, edit, &fault);
                 let last = on.end as usize - 1;
                 let edit = |parts: &mut Dismantled| parts.pieces.swap(last - 1, last);
-                assert_fault(&tree, edit, "on its plane comes before one of an earlier polygon");
+                assert_fault(&tree, edit, "on its plane precedes a fragment of an earlier polygon");
                 swapped += 1;
             }
         }
