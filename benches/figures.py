@@ -30,7 +30,7 @@ PEERS = [
      "our wrong", "its wrong"),
     ("SVG of a mesh", "`gl2ps`, sorted depths", "SVG of a mesh", "its time ÷ ours", ("gl2ps sorts by", "simple"),
      "our wrong", "its wrong"),
-    ("build", "our builder, `f64` with an epsilon", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
+    ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
     ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
     ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),
     ("nearest hit of a ray", "fastest of `bvh`, `parry3d`", "Rays", "hit: fastest ÷ ours", None, None, None),

@@ -18,14 +18,13 @@ use support::{Table, check, print_head, scene, triangulated, viewpoints};
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
 
-const SCENES: [&str; 12] = [
+const SCENES: [&str; 11] = [
     "random:1000",
     "city:10000",
     "sphere:10000",
     "city:100000",
     "sphere:100000",
     "terrain:100000",
-    "terrain:1000000",
     "bunny.obj",
     "spider.obj",
     "dragon_large.obj",

@@ -11,14 +11,12 @@ use nalgebra::Point3;
 use std::time::Duration;
 use support::{Table, best, check, ratio, scene, threads, time, triangulated};
 
-const SCENES: [&str; 15] = [
+const SCENES: [&str; 13] = [
     "random:1000",
     "terrain:100000",
     "sphere:100000",
     "city:100000",
     "terrain:1000000",
-    "sphere:1000000",
-    "city:1000000",
     "bunny.obj",
     "spider.obj",
     "person.obj",

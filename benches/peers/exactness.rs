@@ -1,5 +1,6 @@
 //! The cost of exactness: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
-//! candidates by `f64` and an epsilon.
+//! candidates by `f64` and an epsilon. The textbook tree is not tuned: a ratio above 1 does not mean that exact
+//! decisions take no time.
 
 use binspace::internals::Faces;
 use binspace::{BuildOptions, Heuristic, Tolerance};
@@ -11,13 +12,12 @@ use support::{Table, check, ratio, rulings, scene, threads, time};
 const EPSILON: f64 = 1e-9;
 
 /// In rulings many planes hold one line, so that most decisions are ties.
-const SCENES: [&str; 11] = [
+const SCENES: [&str; 10] = [
     "rulings:60",
     "rulings:600",
     "random:1000",
     "city:2000",
     "terrain:10000",
-    "sphere:10000",
     "bunny.obj",
     "spider.obj",
     "person.obj",

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 use support::{Table, best, check, ratio, scene, threads, time, viewpoints};
 
 const SCENES: [&str; 7] = [
-    "terrain:1000000",
-    "sphere:1000000",
-    "city:1000000",
-    "random:5000",
+    "terrain:100000",
+    "sphere:100000",
+    "city:100000",
+    "random:1000",
     "dragon_large.obj",
     "engine.obj",
     "level_large.obj",

@@ -83,9 +83,9 @@ pub(crate) fn run() {
     }
 }
 
-/// Half opaque, in the polygon's colour.
+/// A quarter opaque, in the polygon's colour.
 fn look(polygon: usize) -> Look {
-    Look { colour: colour_of(polygon).map(|c| f32::from(c) / 255.0), opacity: 0.5 }
+    Look { colour: colour_of(polygon).map(|c| f32::from(c) / 255.0), opacity: 0.25 }
 }
 
 /// The differences from the true picture in the judged pixels.
