@@ -21,7 +21,8 @@ DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted
 BENCHES = ["peers", "memory", "heuristics", "ablation"]
 UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 
-# Work, peer, its table, the column of its time ÷ ours and perhaps the value of another column, our errors, its errors.
+# Work, peer, its table, the column of its time ÷ ours or the columns of both, perhaps the value of another column, our
+# errors, its errors.
 PEERS = [
     ("order of a frame", "`radsort`: one depth a polygon", "Order of a frame", "sort ÷ order", None,
      "wrong", "wrong by sort"),
@@ -33,7 +34,7 @@ PEERS = [
     ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
     ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
     ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),
-    ("nearest hit of a ray", "fastest of `bvh`, `parry3d`", "Rays", "hit: fastest ÷ ours", None, None, None),
+    ("memory", "`bvh`, no order", "Memory", ("bvh, a polygon", "bytes a polygon"), None, None, None),
 ]
 # Work, its table, the column of its time, and the pattern of the rows.
 SPEEDS = [
@@ -42,7 +43,7 @@ SPEEDS = [
     ("200 polygons that move ÷ a new tree", "Moving polygons", "replace ÷ rebuild", ".*", ""),
     ("page of 30 layers, stacked to crossing", "Page of layers", "our frame", ".*:30", ""),
     ("saved tree: read ÷ build", "Saved trees", "read ÷ build", ".*", ""),
-    ("bytes a fragment", "Memory", "bytes a fragment", ".*", ""),
+    ("memory, bytes a fragment", "Memory", "bytes a fragment", ".*", ""),
 ]
 
 
@@ -60,7 +61,7 @@ def read_tables(text):
     for title, body in re.findall(r"^## (.+)\n\n((?:\|.*\n)+)", text, re.MULTILINE):
         head, _, *rows = body.splitlines()
         tables[title] = [cells(head), *map(cells, rows)]
-    tables["Peers"] = [["work", "peer", "its time ÷ ours", "our errors", "its errors"],
+    tables["Peers"] = [["work", "peer", "its ÷ ours", "our errors", "its errors"],
                        *(peer(tables, *row) for row in PEERS)]
     tables["Speeds"] = [["work", "measured"], *(speed(tables, *row) for row in SPEEDS)]
     return tables
@@ -98,8 +99,13 @@ def peer(tables, work, name, title, ratio, only, ours, theirs):
     rows = table[1:]
     if only:
         rows = [row for row, cell in zip(rows, column(table, only[0])) if cell == only[1]]
-    errors = [span(column(table, name, rows)) if name else "–" for name in (ours, theirs)]
-    return [work, name, span(column(table, ratio, rows)), *errors]
+    errors = [span(column(table, errors, rows)) if errors else "–" for errors in (ours, theirs)]
+    if isinstance(ratio, tuple):
+        both = zip(*(map(value, column(table, one, rows)) for one in ratio))
+        ratios = [f"{theirs / ours:.2f}" for theirs, ours in both]
+    else:
+        ratios = column(table, ratio, rows)
+    return [work, name, span(ratios), *errors]
 
 
 def speed(tables, work, title, name, pattern, unit):

@@ -227,7 +227,8 @@ impl Table {
 
 /// A ratio of times.
 pub fn ratio(a: Duration, b: Duration) -> String {
-    format!("{:.2}", a.as_secs_f64() / b.as_secs_f64())
+    let ratio = a.as_secs_f64() / b.as_secs_f64();
+    if ratio < 0.1 { format!("{ratio:.3}") } else { format!("{ratio:.2}") }
 }
 
 /// A pool of threads to measure in.
