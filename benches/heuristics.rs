@@ -142,11 +142,13 @@ const COLUMNS: [&str; 10] = [
     "             longest",
 ];
 
+/// The number of decimals of a figure, and the figure of a row.
+type Figure = (usize, fn(&Row) -> f64);
+
 /// Prints the figures of each heuristic, divided by the figures of `auto`: geometric means, and the scenes with
 /// the smallest and the largest ratio. Scenes whose builds were given up are left out.
 fn summary(title: &str, measured: &[&(&str, Vec<Row>)]) {
-    // With the number of decimals.
-    let figures: [(usize, fn(&Row) -> f64); 3] = [
+    let figures: [Figure; 3] = [
         (2, |row| row.fragments as f64),
         (2, |row| row.build.as_secs_f64()),
         (1, |row| row.order.as_secs_f64()),

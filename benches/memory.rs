@@ -102,7 +102,10 @@ fn bytes_of_splitter(scene: &Scene) -> usize {
                 let points = corners.points();
                 let point = |k: usize| Point3D::from(points[k % points.len()].to_array());
                 let points = [0, 1, 2, 3].map(point);
-                splitter.add(plane_split::Polygon::from_points(points, number).expect("an area"));
+                // Polygons without an area have no plane.
+                if let Some(polygon) = plane_split::Polygon::from_points(points, number) {
+                    splitter.add(polygon);
+                }
             }
             splitter
         })
