@@ -327,7 +327,7 @@ fn a_vector_picture_has_the_visible_markers() {
     for marker in &markers {
         let place = plot.marks[marker.point].at;
         let at = project(place);
-        assert!((DVec2::from(marker.at) - at).length() < 2e-3, "{marker:?} {at}");
+        assert!((DVec2::from(marker.position) - at).length() < 2e-3, "{marker:?} {at}");
         // Labels lie beyond the surfaces.
         let is_dot = plot.marks[marker.point].text.is_empty();
         let Some(hidden) = is_dot.then(|| is_hidden(place)).flatten() else { continue };

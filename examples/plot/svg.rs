@@ -48,8 +48,8 @@ pub(crate) fn picture(plot: &Plot) -> Result<VectorPicture, Box<dyn Error>> {
     let label = Paint::from(rgb(INK)).with_stroke(Stroke::new(3.0, [255; 3]).with_opacity(0.6));
     for marker in map.markers(&plot.overlay)?.into_iter().filter(|marker| marker.is_visible) {
         match &*plot.marks[marker.point].text {
-            "" => picture.add_marker(marker.at, 5.7, dot),
-            text => picture.add_label(marker.at, text, 16.0, label),
+            "" => picture.add_marker(marker.position, 5.7, dot),
+            text => picture.add_label(marker.position, text, 16.0, label),
         }
     }
     Ok(picture)

@@ -42,7 +42,7 @@ pub struct MarkerView {
     /// The point, by its number in the overlay.
     pub point: usize,
     /// Where it is in the picture, in pixels.
-    pub at: [f64; 2],
+    pub position: [f64; 2],
     /// Whether it is visible.
     pub is_visible: bool,
 }
@@ -164,7 +164,7 @@ fn points(
     for numbered in each(watch, CUT, overlay.given_points().enumerate()) {
         let (point, given) = numbered?;
         if let Some(shown) = ProjectedPoint::new(lines, given) {
-            views.push(MarkerView { point, at: shown.at, is_visible: true });
+            views.push(MarkerView { point, position: shown.at, is_visible: true });
             projected.push(shown);
         }
     }

@@ -119,7 +119,7 @@ fn check(
                 runs.push(run);
             }
             DisplayItem::Marker(marker) => {
-                let judged = judge(&snap(points[marker.point]), marker.at, below)?;
+                let judged = judge(&snap(points[marker.point]), marker.position, below)?;
                 score.marker_below += judged[0];
                 score.marker_above += judged[1];
                 markers += 1;

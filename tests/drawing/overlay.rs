@@ -76,7 +76,7 @@ fn check(
     }
     score.runs += runs.len();
     check_tiling(&runs)?;
-    for MarkerView { point, at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
+    for MarkerView { point, position: at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
         let exact = snap(points[point]);
         let projected = sightlines.project(&exact).expect("ahead of the eye");
         if (0..2).any(|i| (projected[i] - at[i]).abs() > 1.1e-3) {

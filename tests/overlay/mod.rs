@@ -13,6 +13,7 @@ mod lines;
 mod marks;
 mod mesh;
 mod oracle;
+mod same;
 mod sight;
 mod slivers;
 mod tiling;

@@ -113,7 +113,7 @@ fn positions_of_other_vertices_or_of_more_or_fewer_are_found() {
         assert_all(POSITIONS, |tree| {
             keep_positions(tree)?;
             tree.positions.pop();
-            // Without any, none are stored.
+            // A tree without cut vertices stores no positions.
             (!tree.positions.is_empty()).then_some(())
         }),
         assert_all(POSITIONS, |tree| {

@@ -20,7 +20,7 @@ fn sides_that_are_exchanged_are_found() {
         let edit = |parts: &mut Dismantled| match parts.nodes.iter_mut().rfind(has_one_leaf) {
             Some(node) => std::mem::swap(&mut node.front, &mut node.back),
             None => {
-                // The last node has one on each side.
+                // The last node has one fragment on each side.
                 let last = parts.pieces.len() - 1;
                 parts.pieces.swap(last - 1, last);
             }
@@ -112,5 +112,5 @@ fn a_face_beside_its_own_plane_is_found_and_counts_as_misplaced() {
         }
         (root.own, root.front, root.back) = (0, RawChild::Leaf(1), RawChild::Leaf(1));
     };
-    assert_fault(&tree, edit, "is Coplanar, not");
+    assert_fault(&tree, edit, "is Coplanar, but");
 }
