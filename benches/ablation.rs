@@ -33,15 +33,8 @@ const BUILTIN: [&str; 13] = [
 ];
 const TURNED: [&str; 6] =
     ["teapot:8", "terrain:2000", "sphere:1000", "sphere:20000", "city:2000", "layers:200"];
-const FILES: [&str; 7] = [
-    "bunny.obj",
-    "spider.obj",
-    "person.obj",
-    "dragon.obj",
-    "engine.obj",
-    "level.obj",
-    "level_large.obj",
-];
+const FILES: [&str; 6] =
+    ["bunny.obj", "spider.obj", "person.obj", "dragon.obj", "level.obj", "level_large.obj"];
 
 /// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`] times.
 const ENOUGH: Duration = Duration::from_millis(12);
