@@ -33,7 +33,7 @@ pub(crate) fn run() {
     let one = threads(1);
     for name in SCENES {
         let scene = match name.strip_prefix("rulings:") {
-            Some(strips) => rulings(strips.parse().expect("a number"), 1),
+            Some(strips) => rulings(strips.parse().expect("a number")),
             None => scene(name),
         };
         // The same tolerance for both trees, on scenes from files too.

@@ -34,7 +34,8 @@ pub(crate) fn run() {
         if count == 100 {
             measure(&table, &scene("random quads:100"));
         }
-        for name in NAMES {
+        // Of 10 000 random triangles there are 2 million fragments, and 8 million of its pieces.
+        for name in NAMES.into_iter().filter(|&name| name != "random" || count < 10_000) {
             measure(&table, &scene(&format!("{name}:{count}")));
         }
     }

@@ -91,26 +91,19 @@ pub fn boxes(count: u32) -> Scene {
     scene
 }
 
-/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes hold one
-/// line, and many lines meet in one point. `strips`: number per patch, a multiple of 4.
-pub fn rulings(strips: i32, patches: i32) -> Scene {
+/// Strips along both families of lines of z = x y: many planes hold one line, and many lines meet in one point.
+/// `strips`: a multiple of 4.
+pub fn rulings(strips: i32) -> Scene {
     let half = strips / 4;
-    let name = match patches {
-        1 => format!("rulings:{strips}"),
-        _ => format!("rulings:{strips}, {patches} times"),
-    };
-    let mut scene = Scene::new(name, DVec3::Z);
-    for patch in 0..patches {
-        let place = [patch % 4, patch / 4 % 4, 8 * (patch / 16)].map(|k| f64::from(200 * k));
-        for i in -half..half {
-            let along_x = [[i, -half, -half * i], [i, half, half * i]];
-            let along_y = along_x.map(|[x, y, z]| [y, x, z]);
-            let (flat, upright) = ((7 * i + patch).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
-            for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {
-                let [a, b] = line.map(|p| DVec3::from(place) + DVec3::from(p.map(f64::from)));
-                let arm = DVec3::from(arm.map(f64::from));
-                scene.push([a, b, b + arm, a + arm], 0);
-            }
+    let mut scene = Scene::new(format!("rulings:{strips}"), DVec3::Z);
+    for i in -half..half {
+        let along_x = [[i, -half, -half * i], [i, half, half * i]];
+        let along_y = along_x.map(|[x, y, z]| [y, x, z]);
+        let (flat, upright) = ((7 * i).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
+        for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {
+            let [a, b] = line.map(|p| DVec3::from(p.map(f64::from)));
+            let arm = DVec3::from(arm.map(f64::from));
+            scene.push([a, b, b + arm, a + arm], 0);
         }
     }
     scene
