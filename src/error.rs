@@ -42,13 +42,13 @@ impl Error {
         Kind::Cancelled.error()
     }
 
-    /// The same error, where the cause is a shape of another kind.
+    /// The same error, with a shape of another kind as the cause.
     pub(crate) fn of(mut self, shape: Shape) -> Self {
         self.blamed = self.blamed.map(|(_, number)| (shape, number));
         self
     }
 
-    /// The index of the polygon (or layer) that caused the error, in input order.
+    /// Returns the index of the polygon (or layer) that caused the error, in input order.
     pub const fn polygon(&self) -> Option<usize> {
         match self.number_of(Shape::Layer) {
             Some(layer) => Some(layer),
@@ -56,8 +56,8 @@ impl Error {
         }
     }
 
-    /// Renumbers the polygon that caused the error, if any: for callers that pass on a part of their
-    /// polygons, such as those of a cell.
+    /// Renumbers the polygon that caused the error, if any. For callers that pass on only some of their
+    /// polygons, such as the polygons of a cell.
     ///
     /// ```
     /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
@@ -72,12 +72,12 @@ impl Error {
         self
     }
 
-    /// The index of the overlay's line that caused the error, in input order.
+    /// Returns the index of the overlay's line that caused the error, in input order.
     pub const fn line(&self) -> Option<usize> {
         self.number_of(Shape::Line)
     }
 
-    /// The index of the overlay's point that caused the error, in input order.
+    /// Returns the index of the overlay's point that caused the error, in input order.
     pub const fn point(&self) -> Option<usize> {
         self.number_of(Shape::Point)
     }
@@ -90,7 +90,7 @@ impl Error {
         }
     }
 
-    /// The kind of the error, to decide how to handle it.
+    /// Returns the kind of the error, to decide how to handle it.
     pub const fn kind(&self) -> ErrorKind {
         match self.kind {
             Kind::OffGrid => ErrorKind::OutOfBounds,
@@ -118,7 +118,7 @@ impl Error {
         }
     }
 
-    /// The line of the text file that caused the error, counted from 1.
+    /// Returns the line of the text file that caused the error, counted from 1.
     pub const fn line_of_file(&self) -> Option<usize> {
         match &self.kind {
             Kind::File(fault) => fault.line,
@@ -137,17 +137,17 @@ pub enum ErrorKind {
     OutOfBounds,
     /// A body has an open edge, so it has no inside.
     OpenBody,
-    /// The input is larger than the numbers of a tree can count.
+    /// The input is too large for the integers of a tree.
     TooLarge,
     /// A budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another heuristic
     /// may succeed.
     OverBudget,
     /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
-    /// Other lists, such as those of drawings, overlays and boxes, are not checked: if memory runs out, the
-    /// program aborts, like other Rust programs. A system that overcommits memory may end it earlier.
-    /// Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)) limit the memory of a
-    /// build.
+    /// Allocations of other lists, such as the lists of drawings, overlays and boxes, are not checked: if
+    /// memory runs out, the program aborts, like other Rust programs. A system that overcommits memory may
+    /// end the program earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments))
+    /// limit the memory of a build.
     OutOfMemory,
     /// The caller's callback cancelled the call, as in
     /// [`build_with_progress`](crate::BuildOptions::build_with_progress).
@@ -181,7 +181,7 @@ impl std::error::Error for Error {
 /// The reason why a file could not be read. The polygon that caused the error is a face of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FileFault {
-    /// Empty if the caller knows it.
+    /// Empty if the caller knows the name.
     pub(crate) name: String,
     /// Counted from 1.
     pub(crate) line: Option<usize>,
@@ -249,11 +249,11 @@ pub(crate) enum Kind {
         given: usize,
         expected: usize,
     },
-    /// Of a camera, or of a text that names something.
+    /// Of a camera, or of a text to parse.
     Argument(String),
     File(FileFault),
     Layer,
-    // Limits that the input, or a tree of it, exceeds.
+    // Limits that the input or its tree exceeds.
     Polygons(usize),
     /// All polygons together.
     CornersInAll(usize),
@@ -270,7 +270,7 @@ pub(crate) enum Kind {
     Bounds,
     Viewport,
     OfCell,
-    /// The number of the corner where it begins.
+    /// The number of the corner where the edge begins.
     OpenEdge(usize),
     OverlaidTree,
     MeshOfOtherTree,

@@ -3,8 +3,8 @@
 //!
 //! This module has no code. Its pages are the files in `docs/guide/`.
 
-/// The targets of links between pages in rustdoc; in the files they lead to files. (The first definition of
-/// a link wins.)
+/// The targets of links between pages in rustdoc; in the files, the links lead to files. (The first
+/// definition of a link wins.)
 macro_rules! links {
     () => {
         "[building]: crate::guide::building
@@ -24,7 +24,7 @@ macro_rules! links {
     };
 }
 
-/// Makes the pages: each has its own lines, the links, and its file.
+/// Makes the pages: each consists of the links, its own lines, and its file.
 macro_rules! pages {
     ($($(#[$doc:meta])* $page:ident)*) => {
         $(

@@ -9,9 +9,9 @@
 //! |---|---|---|
 //! | paint polygons back to front | [`BspTree::back_to_front`], [`Fragment`] | |
 //! | draw translucent triangles on a GPU | [`BspTree::welded_mesh`], [`mesh::Triangles::write_back_to_front`] | `gpu_transparency` |
-//! | leave out fragments out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
+//! | leave out fragments that are out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
 //! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
-//! | order, hit or draw doors, characters, lines and labels with a tree that stays | [`overlay::Overlay`] | `level`, `plot` |
+//! | order, hit or draw doors, characters, lines and labels together with a static tree | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
@@ -33,16 +33,16 @@
 //!
 //! | | orders, culled too | rays, regions | meshes, arrays | drawings | files |
 //! |---|---|---|---|---|---|
-//! | a tree, also that of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
-//! | the tree of a cell of a [`partition`] | yes | yes | yes | an error; so are winding numbers | yes |
-//! | polygons of an [`overlay`] | yes | rays: yes; regions: not seen | meshes: yes, one of their own; arrays: no | an error | no |
-//! | lines and points of an overlay | yes | not seen | not in them | yes | no |
+//! | a tree, also the tree of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
+//! | the tree of a cell of a [`partition`] | yes | yes, but winding numbers are an error | yes | an error | yes |
+//! | polygons of an [`overlay`] | yes | rays: yes; regions: ignored | meshes: yes, a separate mesh; arrays: no | an error | no |
+//! | lines and points of an overlay | yes | ignored | no | yes | no |
 //!
 //! # Conventions
 //!
 //! - Coordinates are right-handed, in any unit; results are in the same unit.
-//! - A polygon's corners run counter-clockwise seen from its **front**; the front of a plane is the
-//!   side that its normal points to.
+//! - A polygon's corners are counter-clockwise seen from its **front**; the front of a plane is the side that
+//!   its normal points to.
 //! - Order: *back to front* is the painting order, furthest first.
 //! - Pixels: x to the right, y down, rows from the top; a pixel is judged at its centre.
 //!

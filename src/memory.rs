@@ -5,8 +5,8 @@ use std::collections::HashMap;
 
 use crate::Error;
 
-/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles, which would leave the
-/// largest lists half empty.)
+/// Makes room for `more` items, plus an eighth of the list. (`Vec` itself doubles its capacity, which would
+/// leave the largest lists half empty.)
 ///
 /// # Errors
 ///
@@ -32,7 +32,7 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
 ///
 /// # Errors
 ///
-/// If it is more than `u32::MAX`: such a list takes more memory than there is.
+/// If the length is more than `u32::MAX`: this counts as out of memory.
 #[cfg(feature = "drawing")]
 pub(crate) fn place(len: usize) -> Result<u32, Error> {
     u32::try_from(len).map_err(|_| Error::out_of_memory())
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(list, [0; 3]);
     }
 
-    /// Sets of every size, and one that is far larger than all others.
+    /// Sets of every size, and a set that is far larger than all others.
     #[test]
     fn a_table_is_emptied_in_time_proportional_to_its_entries() {
         let mut table = HashMap::new();

@@ -10,13 +10,13 @@ use crate::tree::{BspTree, Fragment};
 
 /// The pixels covered so far on a front-to-back walk: occlusion culling.
 ///
-/// Cover it with each visited fragment, and skip the subtrees that it hides: they own no pixel of the
-/// picture that the rays define. This is exact, except that a subtree is tested by its box, so a subtree
+/// Cover the mask with each visited fragment, and skip the subtrees that it hides: these own no pixel of the
+/// picture that the rays define. The test is exact, except that it uses the box of a subtree, so a subtree
 /// may be visited although all its fragments are hidden.
 ///
-/// The mask may be coarser than the picture: cells of several pixels each way, which are covered only by a
-/// fragment that covers all of their pixels. Then it is smaller and faster, and hides less: along the edge
-/// between two walls, neither wall covers a cell.
+/// The mask may be coarser than the picture. Then its cells are several pixels wide and high, and only a
+/// fragment that covers all pixels of a cell covers the cell. A coarse mask is smaller and faster, and hides
+/// less: along the edge between two walls, neither wall covers a cell.
 ///
 /// ```
 /// use binspace::raster::Rays;
@@ -65,8 +65,8 @@ pub struct CoverageMask<'t> {
 const WORD: u32 = u64::BITS;
 
 impl<'t> CoverageMask<'t> {
-    /// An empty mask for the picture of some rays through a tree's faces, with cells of `cell` pixels each
-    /// way; 0 counts as 1.
+    /// Creates an empty mask for the picture of some rays through a tree's faces, with cells `cell` pixels
+    /// wide and high; 0 counts as 1.
     ///
     /// # Panics
     ///
@@ -89,11 +89,11 @@ impl<'t> CoverageMask<'t> {
         }
     }
 
-    /// Whether nothing in a box owns a pixel: every pixel that it may cover is covered, or it is outside
-    /// the picture.
+    /// Returns whether nothing in a box owns a pixel: every pixel that the box may cover is covered, or the
+    /// box is outside the picture.
     ///
-    /// Tests the rows of cells that the box may cover, up to the first open cell: at most a word of 64
-    /// cells at a time, and nothing in a full row.
+    /// It tests the rows of cells that the box may cover, up to the first open cell: a word of up to 64 cells
+    /// at a time, and nothing in a full row.
     pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
         let lattice = self.tree.faces().lattice();
         let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
@@ -109,22 +109,22 @@ impl<'t> CoverageMask<'t> {
         rows.all(|row| self.open[row as usize] == 0 || !self.has_open(row, &columns))
     }
 
-    /// Covers the pixels of a fragment, and returns whether it owns some: whether it covers a pixel of a
+    /// Covers the pixels of a fragment, and returns whether it owns a pixel: whether it covers a pixel of a
     /// cell that was not covered before.
     ///
-    /// Takes the time to find the fragment's pixels, O(edges) per row of pixels, plus the time for all
+    /// It takes the time to find the fragment's pixels, O(edges) per row of pixels, plus the time for all
     /// cells in its rows, over the mask's whole width, covered or not. If you have a box, call
     /// [`hides`](Self::hides) first.
     ///
     /// # Panics
     ///
-    /// If the fragment is of a tree with another grid.
+    /// If the fragment belongs to a tree with another grid.
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
-        // The fragment's own faces, not those of the mask's tree: it may be a piece of an overlay.
+        // The fragment's own faces, not the faces of the mask's tree: it may be a piece of an overlay.
         let faces = fragment.faces;
         let mut runs: Vec<(u32, Range<u32>)> = Vec::new();
         for_each_run(&self.rays, faces, self.pieces.of(fragment), |y, run| match runs.last_mut() {
-            // Runs of a row of pixels may touch: they are parts of one run.
+            // Adjacent runs of a row of pixels are parts of one run.
             Some((last_y, last)) if *last_y == y && last.end == run.start => last.end = run.end,
             _ => runs.push((y, run)),
         });
@@ -140,12 +140,12 @@ impl<'t> CoverageMask<'t> {
         owns
     }
 
-    /// Whether the whole picture is covered.
+    /// Returns whether the whole picture is covered.
     pub fn is_full(&self) -> bool {
         self.open_rows == 0
     }
 
-    /// Covers the cells of a row that the runs cover in all of its rows of pixels.
+    /// Covers the cells of a row that the runs cover in all its rows of pixels.
     fn close(&mut self, row: u32, runs: &[(u32, Range<u32>)]) {
         let [width, height] = self.rays.size();
         let height = (height - row * self.cell).min(self.cell);

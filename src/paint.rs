@@ -5,7 +5,8 @@ use crate::raster::{Image, Layers, Outline, Painter, Piece, Rays, blend, for_eac
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
-/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be that of the rays.
+/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be the viewpoint of the
+/// rays.
 ///
 /// Fragments are bounded by the exact lines that cut them, not by their rounded vertices.
 ///
@@ -18,7 +19,7 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints the fragments of a list, the first at the bottom, such as a culled order. Numbers that name no
+/// Paints the fragments of a list, such as a culled order, the first at the bottom. Numbers that name no
 /// fragment are skipped.
 ///
 /// # Panics
@@ -108,7 +109,7 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// A fragment as a piece bounded by its exact lines.
+    /// Returns a fragment as a piece bounded by its exact lines.
     pub fn of(&mut self, fragment: &Fragment<'_>) -> Piece<'_> {
         let face = fragment.face();
         if fragment.is_whole() {

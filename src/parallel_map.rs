@@ -5,19 +5,19 @@
 ///
 /// # Errors
 ///
-/// The error of the first item that has one, whichever fails first. Items after a failed one are no longer
-/// started.
+/// The error of the first failing item in the list, whichever item fails first in time. After a failure,
+/// later items are not started.
 pub(crate) fn map<T: Send, U: Send, E: Send>(
     items: Vec<T>,
     function: impl Fn(T) -> Result<U, E> + Sync,
 ) -> Result<Vec<U>, E> {
-    // A single item needs no other thread, and waking one takes time.
+    // A single item needs no other thread, and waking a thread takes time.
     #[cfg(feature = "parallel")]
     if items.len() >= 2 && are_running() {
         use rayon::prelude::*;
         use std::sync::atomic::{AtomicUsize, Ordering};
 
-        // All items before this one are completed, whatever their results: so the first error is among the
+        // All items before this item are completed, whatever their results, so the first error is among the
         // results.
         let failed = AtomicUsize::new(usize::MAX);
         let result = |(number, item)| {
@@ -36,8 +36,8 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
     items.into_iter().map(function).collect()
 }
 
-/// Calls a function here and another one on a second thread, if that is worth waking one; otherwise before
-/// it.
+/// Calls a function on this thread and another function on a second thread, if waking a thread is worth it;
+/// otherwise the other function is called first.
 #[cfg(feature = "save")]
 #[cfg_attr(not(feature = "parallel"), expect(unused_variables, reason = "there is one thread"))]
 pub(crate) fn beside<T>(
@@ -63,7 +63,7 @@ pub(crate) fn beside<T>(
 #[cfg(feature = "parallel")]
 pub(crate) fn are_running() -> bool {
     static ARE_RUNNING: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
-    // On targets without threads rayon uses the calling one.
+    // On targets without threads rayon uses the calling thread.
     cfg!(target_family = "wasm")
         || rayon::current_thread_index().is_some()
         || *ARE_RUNNING.get_or_init(|| {
@@ -91,7 +91,7 @@ mod tests {
             calls.fetch_add(1, Ordering::Relaxed);
             if item == 10 { Err(item) } else { Ok(item) }
         };
-        // A single thread goes from the first to the last.
+        // A single thread processes items from the first to the last.
         let found = with_threads(1, || map((0..1000).collect(), function));
         assert_eq!((found, calls.into_inner()), (Err(10), 11));
     }

@@ -8,12 +8,12 @@ use glam::DVec3;
 pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// The stream of a seed.
+    /// Creates the stream of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next number.
+    /// Returns the next number.
     #[expect(clippy::should_implement_trait, reason = "a stream without an end needs no `Option`")]
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -23,19 +23,19 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// A uniform number in `low..high`, from 53 random bits.
+    /// Returns a uniform number in `low..high`, from 53 random bits.
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)
     }
 
-    /// A point with each coordinate uniform in `low..high`.
+    /// Returns a point with each coordinate uniform in `low..high`.
     pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
         DVec3::new(self.range(low, high), self.range(low, high), self.range(low, high))
     }
 }
 
-/// A hash of a number: the first number of the stream with that seed.
+/// Returns a hash of a number: the first number of the stream with that seed.
 pub fn mix(value: u64) -> u64 {
     SplitMix64::new(value).next()
 }

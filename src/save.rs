@@ -1,9 +1,9 @@
 //! Files: writes and reads numbers and lists of any content.
 //!
 //! A file is little-endian. It begins with the eight bytes `binspace`, four bytes for its kind, such as
-//! `tree`, and the version as `u32`. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of all bytes
-//! before. In between are numbers, and lists: their length as `u64`, then the items. Another file may
-//! follow directly.
+//! `tree`, and the version as `u32`. Then it contains numbers, and lists: their length as `u64`, then the
+//! items. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of all bytes before. Another file may follow
+//! directly.
 
 use std::io::{self, Read, Write};
 
@@ -22,8 +22,8 @@ pub(crate) struct Kind {
     pub(crate) version: u32,
 }
 
-/// The number of bytes read or written at once. Too small: more calls. Too large: it leaves the processor's
-/// cache.
+/// The number of bytes read or written at once. Too small: more calls. Too large: the buffer leaves the
+/// processor's cache.
 const CHUNK: usize = 1 << 16;
 
 /// Reads a file.
@@ -78,13 +78,13 @@ impl<R: Read> Reader<R> {
         self.bytes(what).map(f64::from_le_bytes)
     }
 
-    /// Reads a number of things, which must not be above a limit.
+    /// Reads a number of items, which must not be above a limit.
     pub(crate) fn count(&mut self, what: &'static str, limit: usize) -> Result<usize, Error> {
         let (found, limit) = (self.u64(what)?, limit as u64);
         if found > limit {
             return Err(too_many(what, found, limit));
         }
-        // It fits, because the limit did.
+        // The number fits, because it is at most the limit.
         Ok(found as usize)
     }
 
@@ -227,12 +227,12 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// The error of one of several things, given its number, that is invalid.
+/// The error of an invalid item, given its number.
 pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: {what} {number} {fault}"))
 }
 
-/// The error of a single thing that is invalid.
+/// The error of a single invalid part.
 pub(crate) fn damaged(what: &'static str, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: its {what} {fault}"))
 }

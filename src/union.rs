@@ -5,14 +5,14 @@ use std::cell::Cell;
 use crate::Error;
 use crate::memory::reserve;
 
-/// Disjoint sets of numbers, each named by its least (Galler and Fischer 1964).
+/// Disjoint sets of numbers, each named by its least number (Galler and Fischer 1964).
 pub(crate) struct Union {
-    /// For each number, a smaller one of the same set. The least refers to itself.
+    /// For each number, a smaller number of the same set. The least number refers to itself.
     up: Vec<Cell<u32>>,
 }
 
 impl Union {
-    /// The numbers below `len`, each a set of its own.
+    /// Creates a set for each number below `len`.
     ///
     /// # Errors
     ///
@@ -26,8 +26,8 @@ impl Union {
 
     /// The least number of a number's set.
     ///
-    /// Path halving: every number on the way is linked to the one after the next, so that a long chain is
-    /// walked once and not by every number: O(log n) on average (Tarjan and van Leeuwen 1984).
+    /// Path halving: every number on the path is linked to the next number but one, so a long chain is walked
+    /// once and not by every number. O(log n) on average (Tarjan and van Leeuwen 1984).
     pub(crate) fn root(&self, mut node: u32) -> u32 {
         loop {
             let up = self.up[node as usize].get();

@@ -249,8 +249,8 @@ impl BuildOptions {
         extend(self, tree, polygons, &Watch::default())
     }
 
-    /// Like [`extend`](Self::extend), with progress reported to a callback that can cancel, as in
-    /// [`build_with_progress`](Self::build_with_progress).
+    /// Extends a tree like [`extend`](Self::extend), and reports progress to a callback that can cancel, as
+    /// in [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///
@@ -336,8 +336,8 @@ impl BuildOptions {
         tree_of_cell(self, partition, cell, polygons, &Watch::default())
     }
 
-    /// Like [`build_cell`](Self::build_cell), with progress reported to a callback that can cancel, as in
-    /// [`build_with_progress`](Self::build_with_progress).
+    /// Builds the tree of a cell like [`build_cell`](Self::build_cell), and reports progress to a callback
+    /// that can cancel, as in [`build_with_progress`](Self::build_with_progress).
     ///
     /// # Errors
     ///

@@ -30,8 +30,8 @@ pub(super) struct Corner {
 /// corners. Too large: integers decide more sides.
 const FINE: f64 = 1e-6;
 
-/// A convex polygon with area, by its sides. Each side begins at the end of the previous side, and the cell
-/// is on its left if the x axis is turned to the y axis counter-clockwise.
+/// A convex polygon with area, by its sides. Each side begins at the end of the previous side; they turn in
+/// the direction from the x axis to the y axis, which is clockwise in the picture.
 ///
 /// A corner is defined by the two lines that meet there, and rounded only to be read. So a cell is as exact
 /// as its lines, however often it is cut.
@@ -213,15 +213,15 @@ pub(super) fn side_on_line(signs: &[Ordering]) -> Option<usize> {
 impl Corner {
     /// Computes the corner where two lines meet.
     ///
-    /// With a and b the lines' slopes and e the way from there to the point that is computed, a·e and b·e are
-    /// the exact values at that point: at most the rounded ones and the lines' errors, α and β. So e = (β a⊥
-    /// − α b⊥) / (a × b), and
+    /// Let a and b be the lines' slopes, and e the vector from the exact corner to the computed point. Then a·e
+    /// and b·e are the exact values of the lines at that point: at most α and β, the rounded values plus the
+    /// lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and
     /// |e| ≤ (|α| |b| + |β| |a|) / |a × b|.
     ///
-    /// The products of a × b are off by a rounding each, and so is their difference: by 2 roundings of their
-    /// sizes, where 8 are taken away. If parts of the slopes are off by s and t, a × b is off by s (|b₁| +
-    /// |b₂|) + t (|a₁| + |a₂|) + 2 s t, of which a sum of two parts is at most 1.4 of a line's `slope`; 2 are
-    /// taken away. A hundredth is added for the roundings of the bound itself.
+    /// The products of a × b and their difference are rounded: by 2 roundings of their sizes, where 8 are
+    /// subtracted. If parts of the slopes are off by s and t, a × b is off by s (|b₁| + |b₂|) + t (|a₁| + |a₂|)
+    /// + 2 s t. A sum of two parts is at most 1.4 times a line's `slope`; twice the `slope` is subtracted. A
+    /// hundredth is added for the roundings of the bound itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);

@@ -27,7 +27,7 @@ struct CutSide {
     inner: Option<FaceEdge>,
     /// Whether the cell is where the line is negative.
     is_negative: bool,
-    /// Where it begins and ends along the line, and in the picture.
+    /// The ends, as places along the line and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }
@@ -39,7 +39,7 @@ struct CommonSide {
     /// The faces, the lower number first. Of two faces of one polygon that meet at the line, this is the
     /// lower number, even if the other face is visible.
     faces: [u32; 2],
-    /// Where it begins and ends along the line, and in the picture.
+    /// The ends, as places along the line and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }

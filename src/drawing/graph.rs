@@ -526,7 +526,8 @@ pub(super) struct Groups {
     leader: Vec<u32>,
     /// The place of each group in the order.
     place: Vec<u32>,
-    /// For each group, the nodes of other groups that have to follow it; some are repeated.
+    /// For each group, the nodes of other groups that have to follow it (`after`) or precede it (`before`);
+    /// some are repeated.
     after: Vec<Vec<u32>>,
     before: Vec<Vec<u32>>,
     /// For each group, the last search that visited it.

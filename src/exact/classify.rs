@@ -1,16 +1,16 @@
-//! The side of a plane on which a piece of a face lies: by rounded distances where their sign is certain (a
+//! The side of a plane on which a piece of a face lies. Rounded distances decide if their sign is certain (a
 //! floating-point filter: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-//! predicates", 1997), and by integers elsewhere.
+//! predicates", 1997); otherwise integers decide.
 //!
-//! These rules classify a piece against a plane. τ is the coplanar tolerance, and *corners* are those of
-//! the whole face:
+//! These rules classify a piece against a plane. τ is the coplanar tolerance, and *corners* are the corners
+//! of the whole face:
 //!
 //! - if no corner is further than τ from the plane, the piece is coplanar;
-//! - if corners are further than τ in front, but none behind, the piece is in front, and likewise behind:
-//!   it is not cut for less than τ;
-//! - otherwise the exact signs of the piece's own vertices decide, and it is cut where they differ.
+//! - if corners are further than τ in front, but no corner is further behind, the piece is in front, and vice
+//!   versa: it is not cut for less than τ;
+//! - otherwise the exact signs of the piece's own vertices decide, and the piece is cut if they differ.
 //!
-//! With τ = 0 every decision is that of real arithmetic.
+//! With τ = 0 every decision equals the decision of real arithmetic.
 
 use std::cmp::Ordering;
 
@@ -23,18 +23,18 @@ use super::{Faces, Int};
 /// The side of a plane on which a piece of a face lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// No part of it is behind the plane.
+    /// No part of the piece is behind the plane.
     Front,
-    /// No part of it is in front of the plane.
+    /// No part of the piece is in front of the plane.
     Back,
-    /// It lies entirely on the plane.
+    /// The piece lies entirely on the plane.
     Coplanar,
-    /// It must be cut.
+    /// The piece must be cut.
     Spanning,
 }
 
 impl Side {
-    /// The side of something that has a part in front of a plane, and one behind.
+    /// The side, given whether a part is in front of a plane, and whether a part is behind it.
     fn of(in_front: bool, behind: bool) -> Self {
         match (in_front, behind) {
             (true, true) => Self::Spanning,
@@ -86,21 +86,20 @@ impl PreparedPlane {
         self.plane
     }
 
-    /// The signed distance of a position, times the length of the normal, rounded; in front it is
-    /// positive.
+    /// Returns the signed distance of a position, times the length of the normal, rounded; positive in front.
     #[inline]
     pub fn distance(&self, p: [f64; 3]) -> f64 {
         let n = self.normal;
         n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - self.offset
     }
 
-    /// The side of the plane of every piece whose rounded vertices lie in a box; `None` if the box does not
-    /// decide.
+    /// The side of the plane on which every piece with rounded vertices in a box lies; `None` if the box does
+    /// not decide.
     pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
         let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
         let highest = std::array::from_fn(|i| if self.normal[i] > 0.0 { high[i] } else { low[i] });
-        // The bound is for a vertex at the corner of the box. Others have larger coordinates and so are
-        // rounded by more: by three roundings of the largest, a third of another bound.
+        // The bound is for a vertex at the corner of the box. Other vertices have larger coordinates, so they
+        // are rounded by more: by three roundings of the largest, a third of another bound.
         let far = self.band + 2.0 * self.bound;
         if self.distance(lowest) > far {
             Some(Side::Front)
@@ -111,7 +110,7 @@ impl PreparedPlane {
         }
     }
 
-    /// The side of the plane on which a lattice point lies further off than the tolerance.
+    /// The side of the plane on which a lattice point lies, further from it than the tolerance.
     #[cfg(feature = "drawing")]
     pub(crate) fn side_beyond(&self, faces: &Faces, point: &[f64; 3]) -> Ordering {
         let (distance, far) = (self.distance(*point), self.band + 2.0 * self.bound);
@@ -129,21 +128,21 @@ impl PreparedPlane {
     /// Whether the tolerance is a length here, within a share of 10⁻⁹: by the exact normal.
     #[cfg(feature = "validate")]
     pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
-        /// More than the normal is off by, and far more than its length is rounded.
+        /// More than the error of the normal, and far more than the rounding error of its length.
         const SHARE: f64 = 1e-9;
         let exact = faces.tolerance() * faces.plane(self.plane).normal_f64().length();
         self.band <= exact * (1.0 + SHARE) && self.band + 1.0 >= exact * (1.0 - SHARE)
     }
 
-    /// The largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
-    /// vertex rounded to a position further than this from the plane certainly lies on the side
-    /// that the distance says.
+    /// Returns the largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
+    /// vertex rounded to a position further than this from the plane certainly lies on the side given by the
+    /// sign of the distance.
     pub fn slack(&self) -> f64 {
         self.bound + self.band
     }
 
-    /// The side of the plane on which a piece of a face lies, by the rules at the head of this file. `cut`
-    /// has the vertices of a piece that was cut, in order; it is `None` for the whole face.
+    /// Returns the side of the plane on which a piece of a face lies, by the rules at the head of this file.
+    /// `cut` contains the vertices of a piece that was cut, in order; it is `None` for the whole face.
     #[inline]
     pub fn classify(&self, faces: &Faces, face: u32, cut: Option<&[Vertex]>) -> Side {
         if self.plane == PlaneId::face(face) {
@@ -158,8 +157,8 @@ impl PreparedPlane {
         };
         // Certainly off the plane, and certainly further than the tolerance from it.
         let (near, far) = (self.bound, self.band + self.bound);
-        // The tolerance applies to the corners of the whole face. So a whole face may reach behind by
-        // the tolerance and still be in front. For a piece, its face's corners would have to be tested:
+        // The tolerance applies to the corners of the whole face. So a whole face may reach behind by the
+        // tolerance and still be in front. For a piece, the corners of its face would have to be tested, as
         // `classify_exactly` does.
         let allowed = if cut.is_none() { near - self.band } else { near };
         if high > far && low >= allowed {
@@ -195,8 +194,8 @@ impl PreparedPlane {
         // The third corner of a segment does not belong to it.
         let count = faces.reach(face);
         let band = self.band;
-        // First the whole face decides, so that all of its pieces are treated alike: tested one by one,
-        // some would be coplanar and others spanning.
+        // First the whole face decides, so that all its pieces are treated alike: tested one by one, some
+        // would be coplanar and others spanning.
         let in_front = (0..count).any(|k| corner(k, band).is_gt());
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
         let of_face = Side::of(in_front, behind);
@@ -212,7 +211,7 @@ impl PreparedPlane {
         Side::of(in_front, behind)
     }
 
-    /// The side of the plane on which a vertex of a face's piece lies, exactly.
+    /// Returns the side of the plane on which a vertex of a face's piece lies, exactly.
     #[inline]
     pub fn side(&self, faces: &Faces, face: u32, vertex: &Vertex) -> Ordering {
         compare(faces, self, face, vertex.vertex_id, vertex.position, 0.0)
@@ -228,45 +227,43 @@ fn floor(value: f64) -> f64 {
     if value < WHOLE { value as i64 as f64 } else { value }
 }
 
-/// The largest error of a face's plane at a rounded vertex, among those where the sign is wrong,
-/// per unit of π = Σ over components of |u_j w_k| + |u_k w_j|.
+/// The largest error of a face's plane at a rounded vertex where the sign is wrong, per unit of π = Σ over
+/// components of |u_j w_k| + |u_k w_j|.
 ///
-/// Let ε = 2⁻⁵³, m the largest coordinate, u and w the exact edges of the triangle, n their
-/// product with components at most πᵢ, v the vertex, p the point on the plane, d = v − p, and
-/// P = n₀p₀ + n₁p₁, V = n₀v₀ + n₁v₁, N = n·p. The sign can only be wrong if n·v and N differ by no
-/// more than a few επm, so n·v counts as N here. The parts, each a multiple of ε:
+/// Let ε = 2⁻⁵³, m the largest coordinate, u and w the exact edges of the triangle, n their product with
+/// components at most πᵢ, v the vertex, p the point on the plane, d = v − p, and P = n₀p₀ + n₁p₁, V = n₀v₀ +
+/// n₁v₁, N = n·p. The sign can only be wrong if n·v and N differ by no more than a few επm, so n·v counts as
+/// N here. The parts of the error, each a multiple of ε:
 ///
 /// - the rounded normal: Σ (πᵢ + |nᵢ|)|dᵢ|;
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
-/// - the vertex, three roundings of each coordinate (see [`Faces::position`]), of which that of
-///   the common denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (What cutting off its weights adds,
-///   [`OFF`](super::vertex::OFF), is less than a thirtieth of a rounding of m.)
+/// - the vertex, three roundings of each coordinate (see [`Faces::position`]); the rounding of the common
+///   denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (Truncating its weights adds
+///   [`OFF`](super::vertex::OFF), less than a thirtieth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
 /// the excess of π over |n₀| + |n₁| + |n₂| counts twice, and in units in which |n₀| + |n₁| + |n₂|
 /// and m are 1, the rest is 2 Σ |nᵢ||dᵢ| + 3|N| + |P| + |V|. As |dᵢ| + |pᵢ + vᵢ| ≤ 2,
 /// Σ |nᵢ||dᵢ| ≤ 2 − 2|N|.
 ///
-/// - Where P and V have the same sign, Σ |nᵢ||dᵢ| + |P| + |V| ≤ 2 as well: 4 + |N|.
-/// - Otherwise let x be |n₂|. One of P and V has the sign of N: b is its magnitude, a that of the
-///   other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
-///   |N| ≤ x − a, so the sum is at most
+/// - If P and V have the same sign, Σ |nᵢ||dᵢ| + |P| + |V| ≤ 2 as well: 4 + |N|.
+/// - Otherwise let x be |n₂|. Of P and V, one has the sign of N: let b be its magnitude, and a the magnitude
+///   of the other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
+///   |N| ≤ x − a. So the sum is at most
 ///   4 − x − 2|b − a| + 3b, with a and b at most 1 − x. That is at most 4 + 2x and 7 − 4x.
 ///
-/// Together they make 9 επm. A corner moved onto its face's plane has another error instead of the
-/// vertex's: half a step along one axis, which is 2ε of m. A tolerance of m/128 adds at most 1/32, and
-/// moves vertices out to 1.014 m. Too small: wrong decisions pass. Too large: integers decide cases that
-/// floats could have decided.
+/// The total is 9 επm. For a corner moved onto its face's plane, the error of the vertex is replaced by half
+/// a step along one axis, which is 2ε of m. A tolerance of m/128 adds at most 1/32, and moves vertices out to
+/// 1.014 m. Too small: wrong decisions pass. Too large: integers decide cases that floats could have decided.
 const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// The largest error of an axis-aligned plane at a rounded vertex, among those where the sign is
-/// wrong. It is that of the vertex: three roundings of a coordinate of at most 1.014 m, and less than
-/// a thirtieth of one for what cutting off its weights adds. The
-/// difference of two numbers this close is exact.
+/// The largest error of an axis-aligned plane at a rounded vertex where the sign is wrong. It is the error of
+/// the vertex: three roundings of a coordinate of at most 1.014 m, and less than a thirtieth of a rounding
+/// for truncating its weights. The difference of two numbers this close is exact.
 const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// Compares a vertex's distance from a plane with a threshold: by the filter where it is certain, otherwise
-/// by integers.
+/// Compares a vertex's distance from a plane with a threshold: by the filter if it is certain, otherwise by
+/// integers.
 #[inline]
 pub(super) fn compare(
     faces: &Faces,
@@ -277,8 +274,8 @@ pub(super) fn compare(
     threshold: f64,
 ) -> Ordering {
     let excess = prepared.distance(position) - threshold;
-    // The threshold is an integer, hence exact. The subtraction loses at most one ulp of the larger
-    // number, and the bound has room for it.
+    // The threshold is an integer, hence exact. The subtraction loses at most one ulp of the larger number,
+    // which the bound includes.
     if excess > prepared.bound {
         Ordering::Greater
     } else if excess < -prepared.bound {
@@ -323,7 +320,7 @@ mod tests {
     use super::*;
     use crate::random::SplitMix64;
 
-    /// Boxes of one lattice point, so near a plane that floats get its side wrong.
+    /// Boxes of one lattice point, so near a plane that floats decide its side wrongly.
     #[test]
     fn a_box_is_on_a_side_only_if_it_is_so_exactly() {
         let (mut random, mut wrong, mut told) = (SplitMix64::new(6), 0, 0);
@@ -354,7 +351,7 @@ mod tests {
         assert!(wrong > 20, "{wrong} {told}");
     }
 
-    /// In the plane z = 0. Twice its area is 1 in lattice steps, and in floats 2⁴⁸.
+    /// The sliver is in the plane z = 0. Twice its area is 1 in lattice steps, and 2⁴⁸ in floats.
     fn with_sliver(tolerance: Option<f64>) -> Faces {
         let sliver = [
             [-1.0, -1.0, 0.0],

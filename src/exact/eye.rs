@@ -10,11 +10,10 @@ use crate::viewpoint::{Ray, Viewpoint};
 /// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
 /// the direction in which the eye is infinitely far away.
 ///
-/// Within about 500 extents of the scene the rounding is that of the lattice itself, 2⁻⁵² of the
-/// extent; beyond, it is one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵²
-/// of their largest component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the
-/// direction runs along a plane, the eye is on the side on which the lattice's origin lies. A NaN
-/// coordinate counts as 0.
+/// Within about 500 extents of the scene, the eye is rounded to the lattice itself, 2⁻⁵² of the extent;
+/// beyond, to one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵² of their largest
+/// component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the direction is parallel to a
+/// plane, the eye is on the side on which the lattice's origin lies. A NaN coordinate counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     integer: [i64; 3],
@@ -25,14 +24,14 @@ pub struct Eye {
 /// The largest magnitude of an eye's integers is two to this power: eyes this near need no shift.
 const NEAR_BITS: i32 = 61;
 const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
-/// The largest shift. For eyes further away the planes' offsets no longer matter: only the direction does.
+/// The largest shift. For eyes further away, the planes' offsets do not matter: only the direction does.
 const LARGEST_SHIFT: u32 = 360;
 
-/// The largest component of a direction is from two to this power to the next one.
+/// The largest component of a direction is from two to this power to the next power.
 const DIRECTION_BITS: i32 = 52;
 
 impl Eye {
-    /// A viewpoint on a scene's lattice.
+    /// Creates a viewpoint on a scene's lattice.
     pub fn new(viewpoint: Viewpoint, lattice: &Lattice) -> Self {
         match viewpoint {
             Viewpoint::Eye(point) => Self::at(lattice.exactly(point)),
@@ -45,7 +44,7 @@ impl Eye {
 
     /// The eye at a point in lattice units, each coordinate a number and its rounding error.
     fn at(point: [[f64; 2]; 3]) -> Self {
-        // Not less than the exact size, and beyond the same powers of two.
+        // Not less than the exact size, and beyond the same powers of two as the exact size.
         let size = largest(point.map(|[c, lost]| {
             let is_outwards = if c > 0.0 { lost > 0.0 } else { lost < 0.0 };
             if is_outwards { c.abs().next_up() } else { c }
@@ -67,33 +66,33 @@ impl Eye {
         };
         let size = largest(finite);
         let direction = if size > 0.0 { finite } else { [0.0, 0.0, 1.0] };
-        // By a power of two: a direction of short numbers stays exactly along the same planes.
+        // By a power of two: a direction of short numbers stays exactly parallel to the same planes.
         let exponent = DIRECTION_BITS - exponent_of(largest(direction));
         let integer = direction.map(|c| scaled(c, exponent).round() as i64);
         let unit = (1i64 << DIRECTION_BITS) as f64;
         Self { integer, shift: None, float: integer.map(|c| c as f64 / unit) }
     }
 
-    /// The integer part: lattice units over 2^shift, or a direction.
+    /// Returns the integer part: lattice units over 2^shift, or a direction.
     pub fn integer(&self) -> [i64; 3] {
         self.integer
     }
 
-    /// The exponent of the power of two to multiply the integer part by; `None` for an eye at
+    /// Returns the exponent of the power of two to multiply the integer part by; `None` for an eye at
     /// infinity.
     pub fn shift(&self) -> Option<u32> {
         self.shift
     }
 
-    /// The eye in homogeneous coordinates: the point in lattice units, rounded again to `f64`, and 1, or the
-    /// direction towards it and 0.
+    /// Returns the eye in homogeneous coordinates: the point in lattice units, rounded again to `f64`, and 1;
+    /// or the direction towards it, and 0.
     pub fn homogeneous(&self) -> ([f64; 3], f64) {
         (self.float, if self.shift.is_some() { 1.0 } else { 0.0 })
     }
 }
 
 impl Faces {
-    /// The side of a plane on which an eye lies.
+    /// Returns the side of a plane on which an eye lies.
     pub fn eye_side(&self, plane: PlaneId, eye: &Eye) -> Ordering {
         self.plane(plane).at_eye(eye)
     }
@@ -121,8 +120,8 @@ impl Plane {
         }
     }
 
-    /// The side of the plane that an eye sees: `Greater` is the front, and `Equal` is neither. It is the
-    /// side on which the eye lies, but an eye at infinity along the plane sees it edge-on.
+    /// The side of the plane that an eye sees: `Greater` is the front, and `Equal` is neither. It is the side
+    /// on which the eye lies, but an eye at infinity along the plane sees the plane edge-on.
     pub(crate) fn facing(&self, eye: &Eye) -> Ordering {
         match eye.shift() {
             Some(_) => self.at_eye(eye),
@@ -131,14 +130,14 @@ impl Plane {
     }
 }
 
-/// The least power of two by which to divide a size, so that it is [`NEAR`] at most; `None` if it is larger
-/// than [`LARGEST_SHIFT`].
+/// The exponent of the least power of two by which to divide a size, so that it is at most [`NEAR`]; `None`
+/// if the exponent is larger than [`LARGEST_SHIFT`].
 fn shift_of(size: f64) -> Option<u32> {
     if size <= NEAR {
         return Some(0);
     }
     let exponent = exponent_of(size / NEAR);
-    // A power of two itself reaches the limit, and nothing above it does.
+    // A power of two itself is within the limit, and no larger size is.
     let shift = exponent as u32 + u32::from(scaled(NEAR, exponent) < size);
     (shift <= LARGEST_SHIFT).then_some(shift)
 }
@@ -162,11 +161,12 @@ fn nearest_integer(rounded: f64, lost: f64) -> i64 {
 
 /// A ray on the finest grid that its coordinates allow.
 ///
-/// Its points are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is that of
-/// [`Ray`]; the direction of an endless ray has a separate scale.
+/// Its points are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is the
+/// parameter of [`Ray`]; the direction of an endless ray has a separate scale.
 ///
 /// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so a
-/// plane at a point of the ray, and along its direction, takes 236 bits, and a product of two such 472.
+/// plane at a point of the ray, and along its direction, takes 236 bits, and a product of two such numbers
+/// 472.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExactRay {
     origin: [i128; 3],
@@ -177,7 +177,7 @@ pub(crate) struct ExactRay {
     exponent: i32,
 }
 
-/// Bits of the largest coordinate of an endless ray's direction.
+/// The number of bits of the largest coordinate of an endless ray's direction.
 const RAY_BITS: i32 = 123;
 
 impl ExactRay {
@@ -206,7 +206,7 @@ impl ExactRay {
         }
     }
 
-    /// Its origin, its direction, and the exponent of their unit, negated.
+    /// The origin, the direction, and the exponent of their unit, negated.
     #[cfg(test)]
     pub(crate) fn parts(&self) -> ([i128; 3], [i128; 3], u32) {
         (self.origin, self.direction, self.bits)
@@ -218,17 +218,17 @@ impl ExactRay {
             && (self.is_endless || !(t.denominator - t.numerator).is_negative())
     }
 
-    /// The last parameter; `None` if there is none.
+    /// The last parameter; `None` for an endless ray.
     pub(crate) fn end(&self) -> Option<Parameter> {
         (!self.is_endless).then_some(Parameter::ONE)
     }
 
-    /// Whether it has no length.
+    /// Whether the ray has no length.
     pub(crate) fn is_point(&self) -> bool {
         self.direction == [0; 3]
     }
 
-    /// A plane along the ray.
+    /// A plane, as a function of the parameter along the ray.
     pub(crate) fn at(&self, plane: &Plane) -> AtRay {
         let (normal, point) = (plane.normal(), plane.point());
         let along = |v: [i128; 3]| {
@@ -275,12 +275,12 @@ impl AtRay {
         self.start.sign()
     }
 
-    /// The side of the plane to which the ray runs; `Equal` if it runs along the plane.
+    /// The side of the plane to which the ray leads; `Equal` if it is parallel to the plane.
     pub(crate) fn slope(&self) -> Ordering {
         self.slope.sign()
     }
 
-    /// The parameter where the line of the ray meets the plane; it must not run along it.
+    /// The parameter where the line of the ray meets the plane; they must not be parallel.
     pub(crate) fn zero(&self) -> Parameter {
         if self.slope.is_negative() {
             Parameter { numerator: self.start, denominator: -self.slope }
@@ -323,7 +323,7 @@ impl Parameter {
 }
 
 /// A quotient, of at most 2¹³⁰ and a denominator above 0, rounded almost as if once: the quotient of the
-/// rounded numbers, plus that of the remainder. So fractions of one value have one result.
+/// rounded numbers, plus the quotient of the remainder. So fractions of one value have one result.
 fn quotient(numerator: Int<6>, denominator: Int<4>) -> f64 {
     let below = denominator.to_f64();
     let first = numerator.to_f64() / below;
@@ -350,7 +350,8 @@ mod tests {
     #[test]
     fn directions_are_rounded_to_the_nearest() {
         let unit = (1_i64 << 52) as f64;
-        // The largest component is a power of two, so these are the others in units of the last bit.
+        // The largest component is a power of two, so these are the other components in units of the last
+        // bit.
         for (part, nearest) in [(0.25, 0), (0.75, 1), (-0.75, -1), (6.75, 7), (-6.25, -6)] {
             let eye = Eye::towards([1.0, part / unit, -part / unit]);
             assert_eq!(eye.integer(), [1 << 52, nearest, -nearest], "{part}");

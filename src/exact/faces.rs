@@ -21,9 +21,9 @@ use crate::memory::{collect, push, reserve};
 /// polygon.
 ///
 /// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane becomes
-/// one face; any other becomes triangles. A corner that does not lie exactly on the plane of its face's
-/// reference triangle is *defined* to lie on it, moved along the axis in which the plane is least steep.
-/// The lattice point nearest to the moved corner is stored.
+/// one face; any other polygon becomes triangles. A corner that does not lie exactly on the plane of its
+/// face's reference triangle is *defined* to lie on it, moved along the axis in which the plane is least
+/// steep. The lattice point nearest to the moved corner is stored.
 #[derive(Clone, Default)]
 pub struct Faces {
     pub(crate) lattice: Lattice,
@@ -33,14 +33,14 @@ pub struct Faces {
     /// set if the edge to the next corner is not an edge of the polygon. The corners of all other
     /// faces are numbered 0, 1, 2, ….
     pub(crate) numbers: Vec<u32>,
-    /// Faces with explicit corner numbers, and the first of these in `numbers`.
+    /// Faces with explicit corner numbers, and the index of each face's first number in `numbers`.
     pub(crate) numbered: Vec<(u32, u32)>,
     pub(crate) faces: Vec<Face>,
     /// The corners, counted over all faces, that were moved onto their face's plane, with their positions
-    /// before. In ascending order.
+    /// before the move. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
     /// For each face, the three corners that define its plane, if some belong to other faces; empty if each
-    /// face's plane is that of its own reference triangle.
+    /// face's own reference triangle defines its plane.
     pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
 }
@@ -58,8 +58,8 @@ impl fmt::Debug for Faces {
 
 /// The number of faces at the end that have no area: first segments, then points.
 ///
-/// A segment has three corners: its ends, and one that is not collinear with them. The third is never
-/// drawn: it selects one of the planes through the segment. A point has one corner, and no plane.
+/// A segment has three corners: its ends, and a corner that is not collinear with them. The third corner is
+/// never drawn: it selects one of the planes through the segment. A point has one corner, and no plane.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thin {
     pub(crate) segments: usize,
@@ -77,8 +77,8 @@ pub(crate) struct Face {
     pub(crate) frame: Frame,
 }
 
-/// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which
-/// its other corners are moved onto its plane, if any of them is off it.
+/// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which its other
+/// corners are moved onto its plane, if any corner is off the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Frame(pub(super) u32);
 
@@ -108,42 +108,42 @@ impl Frame {
 }
 
 impl Faces {
-    /// The number of faces.
+    /// Returns the number of faces.
     pub fn len(&self) -> usize {
         self.faces.len()
     }
 
-    /// Whether there are no faces.
+    /// Returns whether there are no faces.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
 
-    /// The grid that the corners lie on.
+    /// Returns the grid that the corners lie on.
     #[doc(hidden)]
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The coplanar tolerance in lattice units.
+    /// Returns the coplanar tolerance in lattice units.
     #[doc(hidden)]
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// The index of the polygon that a face belongs to.
+    /// Returns the index of the polygon that a face belongs to.
     #[inline]
     pub fn polygon(&self, face: u32) -> usize {
         self.faces[face as usize].polygon as usize
     }
 
-    /// The lattice points of a face's corners, counter-clockwise seen from its front.
+    /// Returns the lattice points of a face's corners, counter-clockwise seen from its front.
     #[doc(hidden)]
     #[inline]
     pub fn corners(&self, face: u32) -> &[[f64; 3]] {
         &self.corners[self.corner_range(face)]
     }
 
-    /// Whether a plane is that of one of the faces or goes through one of the corners.
+    /// Whether a plane is the plane of a face or goes through a corner.
     #[cfg(any(feature = "save", feature = "validate"))]
     pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
         match plane.kind() {
@@ -152,7 +152,7 @@ impl Faces {
         }
     }
 
-    /// The range of a face's corners in the list of all corners.
+    /// Returns the range of a face's corners in the list of all corners.
     #[doc(hidden)]
     #[inline]
     pub fn corner_range(&self, face: u32) -> Range<usize> {
@@ -166,8 +166,8 @@ impl Faces {
         self.len() - self.thin.segments - self.thin.points
     }
 
-    /// The number of a face's corners, from the first on, that belong to it: all; two of a segment; one of
-    /// a point.
+    /// The number of a face's corners, from the first on, that belong to it: all corners; two for a segment;
+    /// one for a point.
     pub(crate) fn reach(&self, face: u32) -> usize {
         let Thin { segments, points } = self.thin;
         let from_end = self.len() - face as usize;
@@ -180,7 +180,7 @@ impl Faces {
         }
     }
 
-    /// The lattice point of a corner, counted over all faces.
+    /// Returns the lattice point of a corner, counted over all faces.
     #[doc(hidden)]
     #[inline]
     pub fn corner(&self, corner: u32) -> [f64; 3] {
@@ -196,13 +196,13 @@ impl Faces {
         }
     }
 
-    /// The corners of a face before some were moved onto its plane.
+    /// The corners of a face before some corners were moved onto its plane.
     #[cfg(feature = "drawing")]
     pub(crate) fn given_corners(&self, face: u32) -> smallvec::SmallVec<[[f64; 3]; 8]> {
         self.corner_range(face).map(|corner| self.given_corner(corner as u32)).collect()
     }
 
-    /// The three corners, counted over all faces, that define a face's plane.
+    /// Returns the three corners, counted over all faces, that define a face's plane.
     #[doc(hidden)]
     #[inline]
     pub fn reference_triangle(&self, face: u32) -> [u32; 3] {
@@ -234,7 +234,7 @@ impl Faces {
         if start + corners.len() >= MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
-        // Both first: corners without a face would belong to the face before.
+        // Reserve both first: corners without a face would belong to the previous face.
         reserve(&mut self.corners, corners.len())?;
         reserve(&mut self.faces, 1)?;
         self.corners.extend(corners);
@@ -248,7 +248,7 @@ impl Faces {
         self.reference_triangle(face).map(|corner| self.corner(corner))
     }
 
-    /// The numbers of the polygons that have no face, out of `polygons` prepared ones.
+    /// Returns the numbers of the polygons that have no face, out of `polygons` prepared polygons.
     #[doc(hidden)]
     pub fn dropped(&self, polygons: usize) -> impl Iterator<Item = usize> + Clone {
         let mut faces = (0..self.len() as u32).map(|face| self.polygon(face)).peekable();
@@ -259,29 +259,29 @@ impl Faces {
         })
     }
 
-    /// The number of corners of all faces.
+    /// Returns the number of corners of all faces.
     #[doc(hidden)]
     pub fn corner_count(&self) -> usize {
         self.corners.len()
     }
 
-    /// The axis along which the corners of a face are moved onto its plane, or `None` if all of
-    /// them lie exactly on it. An edge of a face with moved corners lies in the plane through its
-    /// two lattice points and along that axis.
+    /// The axis along which the corners of a face are moved onto its plane, or `None` if all corners lie
+    /// exactly on the plane. An edge of a face with moved corners lies in the plane through its two lattice
+    /// points and along that axis.
     #[inline]
     pub(crate) fn moved_axis(&self, face: u32) -> Option<usize> {
         self.faces[face as usize].frame.moved_axis()
     }
 
-    /// The number within its polygon of a face's corner `k`.
+    /// Returns the number, in its polygon, of a face's corner `k`.
     #[doc(hidden)]
     pub fn corner_number(&self, face: u32, k: u32) -> u32 {
         self.number(face, k) & !INNER
     }
 
-    /// The number of the polygon's edge that contains a face's edge `k`: the number of the corner where it
-    /// begins. `None` for an edge made by triangulation. If a polygon touches itself or runs along an edge
-    /// twice, those edges may be `None` as well.
+    /// Returns the number of the polygon's edge that contains a face's edge `k`: the number of the corner
+    /// where it begins. `None` for an edge made by triangulation. If a polygon touches itself or traverses an
+    /// edge twice, those edges may be `None` as well.
     #[doc(hidden)]
     pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
         let number = self.number(face, k);
@@ -377,7 +377,7 @@ impl Faces {
         self.moved.truncate(self.moved.partition_point(|&(corner, _)| corner < corners));
     }
 
-    /// The resident size in bytes.
+    /// Returns the resident size in bytes.
     pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.corners)
             + size_of_val(&*self.numbers)
@@ -388,17 +388,17 @@ impl Faces {
     }
 }
 
-// A cell of a larger scene: a box between lattice planes, to which faces are cut. The box's two corners
-// come before the corners of all faces, and belong to none, so planes through them have names like planes
+// A cell of a larger scene: a box between lattice planes, to which faces are cut. The box's two corners are
+// stored before the corners of all faces and belong to no face, so planes through them have names like planes
 // through corners of faces.
 
 /// A box by its lower and its upper corner, in lattice units.
 pub(crate) type CellBox = [[f64; 3]; 2];
 
-/// The magnitude of the coordinate of a side without a plane. Beyond all lattice points, and within the
+/// The magnitude of the coordinate of a side without a plane: beyond all lattice points, and within the
 /// limits of the predicates.
 const OPEN: f64 = LIMIT + MAX_TOLERANCE;
-/// A cell without planes: all of the lattice.
+/// A cell without planes: the whole lattice.
 pub(crate) const EVERYWHERE: CellBox = [[-OPEN; 3], [OPEN; 3]];
 
 impl Faces {
@@ -407,17 +407,17 @@ impl Faces {
         Self { lattice, tolerance, corners: cell.to_vec(), ..Self::default() }
     }
 
-    /// The number of corners that belong to no face; they come first.
+    /// The number of corners that belong to no face; these corners are first.
     pub(crate) fn corners_of_cell(&self) -> usize {
         self.faces.first().map_or(self.corners.len(), |face| face.start as usize)
     }
 
-    /// The two corners of the cell; none without a cell.
+    /// The two corners of the cell; empty without a cell.
     pub(crate) fn cell(&self) -> &[[f64; 3]] {
         &self.corners[..self.corners_of_cell()]
     }
 
-    /// The planes that bound the cell, and its side of each.
+    /// The planes that bound the cell, and the cell's side of each plane.
     pub(crate) fn planes_of_cell(&self) -> impl Iterator<Item = (PlaneId, Side)> {
         self.cell().iter().zip([(0, Side::Front), (1, Side::Back)]).flat_map(
             |(corner, (k, side))| {
@@ -443,7 +443,7 @@ impl Faces {
     pub(crate) fn keep(&mut self, kept: &[u32]) -> Result<(), Error> {
         let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
         let mut start = self.corners_of_cell();
-        // Faces and corners are moved down in place, so none is overwritten before it is read.
+        // Faces and corners are moved down in place, so no item is overwritten before it is read.
         for (new, &face) in kept.iter().enumerate() {
             let range = self.corner_range(face);
             if let Ok(at) = self.numbered.binary_search_by_key(&face, |&(face, _)| face) {
@@ -470,12 +470,12 @@ impl Faces {
 
 #[cfg(feature = "layers")]
 impl Faces {
-    /// Puts the faces of some polygons into one plane: that of three of their corners, far apart. The other
-    /// corners are moved onto it, like the corners of one polygon onto its own plane.
+    /// Puts the faces of some polygons into one plane: the plane of three of their corners, far apart. The
+    /// other corners are moved onto it, like the corners of one polygon onto its own plane.
     ///
     /// Corners are rounded, so polygons meant for one plane have different planes. Extended to another
-    /// polygon, the plane of a small one is off by the rounding error times the ratio of their sizes.
-    /// Corners that are far apart bound that ratio for all of the polygons.
+    /// polygon, the plane of a small polygon is off by the rounding error times the ratio of their sizes.
+    /// Corners that are far apart bound that ratio for all polygons.
     ///
     /// A face that is not convex in a projection along the plane's main axis keeps its own plane: it is so
     /// thin that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file,
@@ -498,8 +498,8 @@ impl Faces {
         Ok(())
     }
 
-    /// Moves a face onto the plane of three corners. Of the corners that were moved, the first `known`
-    /// are in ascending order.
+    /// Moves a face onto the plane of three corners. The first `known` of the corners that were moved are in
+    /// ascending order.
     fn move_onto(&mut self, triangle: [u32; 3], face: u32, known: usize) {
         let points = triangle.map(|corner| self.corner(corner));
         let flattener = Flattener::new(points);
@@ -524,7 +524,7 @@ impl Faces {
         }
         let [_, second, third] = self.faces[face as usize].frame.triangle().map(|k| k as usize);
         self.faces[face as usize].frame = Frame::new(second, third, Some(axis));
-        // Both have their fronts on the same side.
+        // Both planes have their fronts on the same side.
         let [a, b, c] = triangle;
         let [p, q, r] = own;
         let is_reversed = (cross(p, q, r)[axis] > 0) != (plane.normal()[axis] > 0);

@@ -2,8 +2,8 @@
 //! half-spaces.
 //!
 //! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so a half-space at a lattice point
-//! takes 182 bits. A vertex is a combination of lattice points with weights of up to 320 bits if it is a
-//! vertex of the fragment (see `vertex`), and of up to 364 if the half-spaces made it: then the sum takes
+//! takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits if it is a
+//! vertex of the fragment (see `vertex`), and up to 364 bits if the half-spaces made it: then the sum takes
 //! 548 bits.
 
 use std::cmp::Ordering;
@@ -50,15 +50,15 @@ impl ExactHalfSpace {
             size += (self.normal[axis] * point[axis]).abs();
             slack += self.normal[axis].abs() * off[axis];
         }
-        // Three products and sums of numbers that are rounded once; twice that.
+        // Twice the error of three products and sums of numbers that are rounded once.
         let error = slack * (1.0 + 1e-9) + size * (8.0 * f64::EPSILON);
         [sum - error, sum + error]
     }
 }
 
-/// Whether a fragment of a face, given by its vertices and the lines from each to the next, has a point in
-/// all of some half-spaces. It is cut by one after the other (Sutherland and Hodgman 1974), and every
-/// vertex is named by its definition. Exact.
+/// Whether a fragment of a face, given by its vertices and the lines between them, has a point in the
+/// intersection of some half-spaces, exactly. The half-spaces cut the fragment one after the other
+/// (Sutherland and Hodgman 1974), and every vertex is named by its definition.
 pub(crate) fn meets(
     faces: &Faces,
     face: u32,
@@ -86,7 +86,7 @@ pub(crate) fn meets(
     true
 }
 
-/// A part of a fragment: its vertices, each with the number of the line to the next.
+/// A part of a fragment: its vertices, each with the number of the line to the next vertex.
 type Part = SmallVec<[(Weights<6>, usize); 8]>;
 
 /// The part of an outline that is in front of a line or on it; it may be only a point or an edge.

@@ -12,7 +12,7 @@ pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
 
 /// A signed integer of `64 * N` bits, in two's complement, least significant limb first.
 ///
-/// The predicates know in advance the number of bits of their results (see the table in `vertex.rs`), so
+/// The number of bits of every predicate's result is known in advance (see the table in `vertex.rs`), so
 /// nothing here checks for overflow in release builds: each product states its width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Int<const N: usize>([u64; N]);
@@ -113,8 +113,8 @@ impl<const N: usize> Int<N> {
         let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else {
             return 0.0;
         };
-        // Take the 64 leading bits, and set the last one if any bit below them is set. The
-        // conversion to f64 then rounds once, as if it saw every bit.
+        // Take the 64 leading bits, and set the last of these if any bit below them is set. The conversion to
+        // f64 then rounds once, as if it saw every bit.
         let lead = magnitude[top].leading_zeros();
         let mut bits = magnitude[top] << lead;
         let mut sticky = false;

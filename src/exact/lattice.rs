@@ -1,5 +1,5 @@
-//! The scene lattice: corners are rounded to it once, and everything after that is exact. Points and
-//! half-spaces of queries are rounded more finely.
+//! The scene lattice: corners are rounded to it once, and every later step is exact. Points and half-spaces
+//! of queries are rounded more finely.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -11,35 +11,34 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 
 /// At this many steps from the world's origin, two neighbouring `f64` are further apart than the scene is
 /// wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Too large: coordinates that no longer fit integers are treated as if they did.
-/// Too small: a scene far out loses coordinates that differ.
+/// Too small: a scene far from the origin loses coordinates that differ.
 pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
-/// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger ones are reduced to
-/// it, so that corners moved onto a plane fit the integers of the exact predicates.
+/// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger tolerances are reduced
+/// to it, so that corners moved onto a plane fit the integers of the exact predicates.
 pub(crate) const MAX_TOLERANCE: f64 = LIMIT / 128.0;
-/// More than the largest coordinate of any corner or vertex: the largest tolerance moves a corner by √3 of
-/// it at most, which makes 1.0136 times the limit.
+/// More than the largest coordinate of any corner or vertex: the largest tolerance moves a corner by at most
+/// √3 of the tolerance, to 1.0136 times the limit.
 pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
 
-/// A cubic grid laid over a scene, fine enough that rounding its corners to it moves none by more
-/// than 2⁻⁵² of the scene's extent.
+/// A cubic grid over a scene, so fine that rounding moves no corner by more than 2⁻⁵² of the scene's extent.
 ///
-/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an
-/// `f64`, and so is the difference of two. The grid's spacing is a power of two, so scenes given in
-/// `f32`, on integers, or far from the origin are usually not moved at all.
+/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an `f64`, and
+/// so is the difference of two coordinates. The grid's spacing is a power of two, so scenes in `f32`, on
+/// integers, or far from the origin are usually not moved at all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.
     pub(super) steps: PowerOfTwo,
-    /// In steps; integers.
+    /// The origin, in steps; integers.
     pub(super) origin: [f64; 3],
-    /// For each axis along which the scene lies so far out, for its size, that all corners must have the
-    /// same coordinate: that coordinate; otherwise 0.
+    /// For each axis along which the scene is so far from the origin, for its size, that all corners must
+    /// have the same coordinate: that coordinate; otherwise 0.
     pub(super) far: [f64; 3],
 }
 
 impl Lattice {
-    /// The lattice of a scene with the given bounding box, whose corners must be finite.
+    /// Creates the lattice of a scene with the given bounding box, whose corners must be finite.
     pub fn new(min: DVec3, max: DVec3) -> Self {
         // Halved before they are combined, so that nothing overflows.
         let centre = min * 0.5 + max * 0.5;
@@ -64,17 +63,17 @@ impl Lattice {
         Self { steps, origin, far }
     }
 
-    /// The lattice point nearest to a point of the scene's bounding box.
+    /// Returns the lattice point nearest to a point of the scene's bounding box.
     #[inline]
     pub fn snap(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
-        // The difference of two integers is exact if an f64 can hold it. Adding 0 turns −0 into 0.
+        // The difference of two integers is exact if it fits an f64. Adding 0 turns −0 into 0.
         std::array::from_fn(|axis| {
             nearest(self.steps.times(world[axis] - self.far[axis])) - self.origin[axis] + 0.0
         })
     }
 
-    /// Any point in lattice units, rounded to `f64` once. It may be far out, even infinite.
+    /// Converts any point to lattice units, rounded to `f64` once. It may be far away, even infinite.
     pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
@@ -89,12 +88,13 @@ impl Lattice {
         std::array::from_fn(|axis| match steps[axis] {
             [whole, _] if whole.is_nan() => [0.0; 2],
             [whole, _] if whole.is_infinite() => [whole, 0.0],
-            // If the scene is far out, the origin is 0; otherwise there is no rounding error so far.
+            // If the scene is far from the origin, the lattice's origin is 0; otherwise there is no rounding
+            // error so far.
             [whole, lost] => two_sum(whole, lost - self.origin[axis]).into(),
         })
     }
 
-    /// The world position of a point given in lattice units, rounded to `f64`; may be far out.
+    /// Returns the world position of a point in lattice units, rounded to `f64`; it may be far away.
     #[inline]
     pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|axis| {
@@ -104,8 +104,8 @@ impl Lattice {
         }))
     }
 
-    /// The world coordinates of a box in lattice units, rounded outwards: all of its points are inside,
-    /// also after rounding by [`to_world`](Self::to_world).
+    /// The world coordinates of a box in lattice units, rounded outwards: all its points are inside, also
+    /// after rounding by [`to_world`](Self::to_world).
     pub(crate) fn enclose(&self, low: [f64; 3], high: [f64; 3]) -> [DVec3; 2] {
         let bound = |lattice: [f64; 3], outwards: fn(f64) -> f64, sign: f64| {
             DVec3::from_array(std::array::from_fn(|axis| {
@@ -127,12 +127,12 @@ impl Lattice {
         [bound(low, f64::next_down, -1.0), bound(high, f64::next_up, 1.0)]
     }
 
-    /// A world length in lattice units.
+    /// Converts a world length to lattice units.
     pub fn length_to_lattice(&self, length: f64) -> f64 {
         self.steps.times(length)
     }
 
-    /// A length in lattice units as a world length.
+    /// Converts a length in lattice units to a world length.
     pub fn length_to_world(&self, length: f64) -> f64 {
         self.steps.divides(length)
     }
@@ -177,8 +177,7 @@ pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
     value
 }
 
-/// A power of two that may be beyond the range of `f64`, as two factors within it, and the inverses
-/// of these.
+/// A power of two that may be beyond the range of `f64`, as two factors inside it, and their inverses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PowerOfTwo {
     factors: [f64; 2],
@@ -195,7 +194,7 @@ impl Default for PowerOfTwo {
 impl PowerOfTwo {
     pub(super) fn new(exponent: i32) -> Self {
         let halves = [exponent / 2, exponent - exponent / 2];
-        // Each half is an exponent that `f64` has.
+        // Each half of the exponent is within the range of `f64`.
         let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
         Self { factors: halves.map(power), inverses: halves.map(|e| power(-e)) }
     }
@@ -209,19 +208,19 @@ impl PowerOfTwo {
     }
 }
 
-/// Points in units of 2^−`bits` lattice steps. Coordinates are below 2¹²⁴ in magnitude, and so are
-/// those of all lattice points in this unit.
+/// Points in units of 2^−`bits` lattice steps. Coordinates are below 2¹²⁴ in magnitude, and so are the
+/// coordinates of all lattice points in this unit.
 pub(crate) struct FinePoints<const N: usize> {
     pub(crate) points: [[i128; 3]; N],
     pub(crate) bits: u32,
 }
 
-/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take as
-/// many bits of an `i128`. A difference of two points, and of two such, takes three more.
+/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take as many
+/// bits of an `i128`. Differences of two points, and differences of these, take up to three bits more.
 const FINE_BITS: i32 = 123;
 
 impl Lattice {
-    /// Points in the finest unit in which all of them are below 2¹²⁴, rounded to the nearest. `None` if a
+    /// Points in the finest unit in which all points are below 2¹²⁴, rounded to the nearest. `None` if a
     /// coordinate is NaN, infinite, or 2¹²³ lattice steps or more.
     pub(crate) fn fine_points<const N: usize>(&self, points: [DVec3; N]) -> Option<FinePoints<N>> {
         let largest = self.largest_in_steps(&points)?;
@@ -250,13 +249,13 @@ impl Lattice {
         (exponent_of(largest) < FINE_BITS).then_some(largest)
     }
 
-    /// The exponent of the steps in a unit of length: there are two to the power of this many.
+    /// The exponent of the number of steps in a unit of length: two to this power.
     pub(crate) fn exponent(&self) -> i32 {
         self.steps.factors.map(exponent_of).iter().sum()
     }
 
-    /// A point in lattice steps from the world's origin, or along an axis along which the scene is far out,
-    /// from the scene: each coordinate as a number and its rounding error.
+    /// A point in lattice steps from the world's origin; along an axis along which the scene is far from it,
+    /// in steps from the scene. Each coordinate is a number and its rounding error.
     fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
@@ -271,7 +270,7 @@ fn fixed(value: f64, bits: u32) -> i128 {
     (value * (1u128 << bits) as f64).round() as i128
 }
 
-/// A half-space in integers: it has the lattice points p with normal·p ≥ offset. Components of the
+/// A half-space in integers: it contains the lattice points p with normal·p ≥ offset. Components of the
 /// normal are at most 2¹¹⁷ in magnitude, and the offset is at most 2¹⁸⁰.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpaceNumbers {
@@ -297,8 +296,8 @@ impl Lattice {
         let up = if size > 0.0 { -exponent_of(size) } else { 0 };
         let unit = normal.to_array().map(|c| scaled(c, up));
         let normal = unit.map(|c| scaled(c, NORMAL_BITS).round() as i128);
-        // The offset minus the part of the far coordinates, in a unit in which none of them is beyond 1, so
-        // that no product is beyond the range of `f64`, and none that matters below it.
+        // The offset minus the part of the far coordinates, in a unit in which no term is above 1, so that no
+        // product overflows `f64`, and no product that matters underflows.
         let exponent = |value: f64, up| (value != 0.0).then(|| exponent_of(value.abs()) + up);
         let far = self.far.into_iter().map(|far| exponent(far, 0));
         let most = far.chain([exponent(offset, up)]).flatten().max().unwrap_or(0) + 1;
@@ -312,7 +311,7 @@ impl Lattice {
         }
         let unit = NORMAL_BITS + self.exponent() + most;
         let parts = sum.into_iter().map(|part| scaled(part, unit));
-        // The last that is not 0 is the largest, and nearly the sum.
+        // The last part that is not 0 is the largest, and nearly the sum.
         let largest = parts.clone().rev().find(|&part| part != 0.0).unwrap_or(0.0);
         let steps = if largest.abs() < BEYOND {
             let part = |axis: usize| {
@@ -406,7 +405,7 @@ mod tests {
         }
     }
 
-    /// For boxes whose ends and the lattice's origin have more digits together than a number holds.
+    /// Boxes whose ends and the lattice's origin together have more digits than a number stores.
     #[test]
     fn boxes_are_rounded_outwards() {
         let lattice = Lattice::new(DVec3::splat(2.0), DVec3::splat(4.0));

@@ -14,8 +14,8 @@ pub(crate) const MAX_NAMES: usize = 1 << TAG_SHIFT;
 
 /// A partition plane, defined by input geometry alone.
 ///
-/// In memory and in files: 1 in bits 28 to 30 for the plane of a face, 2, 3, 4 for one perpendicular to
-/// x, y, z through a corner; the number of the face or corner below.
+/// In memory and in files, bits 28 to 30 are 1 for the plane of a face, or 2, 3, 4 for a plane perpendicular
+/// to x, y, z through a corner. The lower bits are the number of the face or corner.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PlaneId(pub(crate) u32);
 
@@ -31,17 +31,17 @@ pub enum PlaneKind {
 }
 
 impl PlaneId {
-    /// The plane of a face.
+    /// Returns the name of the plane of a face.
     pub const fn face(face: u32) -> Self {
         Self(FACE << TAG_SHIFT | face)
     }
 
-    /// The plane perpendicular to `axis` (0, 1, 2) through a corner.
+    /// Returns the name of the plane perpendicular to `axis` (0, 1, 2) through a corner.
     pub const fn axis(axis: usize, corner: u32) -> Self {
         Self((AXIS + axis as u32) << TAG_SHIFT | corner)
     }
 
-    /// The kind of the plane: that of a face, or perpendicular to an axis.
+    /// Returns the kind of the plane: the plane of a face, or perpendicular to an axis.
     #[inline]
     pub const fn kind(self) -> PlaneKind {
         let payload = self.0 & PAYLOAD;
@@ -64,29 +64,29 @@ impl fmt::Debug for PlaneId {
 pub struct EdgeLine(u32);
 
 impl EdgeLine {
-    /// The face's edge from its corner `k` to the next.
+    /// Returns the line of the face's edge from its corner `k` to the next.
     pub const fn edge(k: u32) -> Self {
         Self(EDGE << TAG_SHIFT | k)
     }
 
-    /// The line in which `plane` cuts the face, for a piece in front of that plane or behind it.
+    /// Returns the line in which `plane` cuts the face, for a piece in front of that plane or behind it.
     pub const fn cut(plane: PlaneId, behind: bool) -> Self {
         Self(plane.0 | if behind { BEHIND } else { 0 })
     }
 
-    /// The number of the face's edge, or `None` for a cut.
+    /// Returns the number of the face's edge, or `None` for a cut.
     #[inline]
     pub const fn as_edge(self) -> Option<u32> {
         if self.0 >> TAG_SHIFT == EDGE { Some(self.0) } else { None }
     }
 
-    /// The plane that cut the face here, or `None` for an edge.
+    /// Returns the plane that cut the face here, or `None` for an edge.
     #[inline]
     pub const fn as_cut(self) -> Option<PlaneId> {
         if self.0 >> TAG_SHIFT == EDGE { None } else { Some(PlaneId(self.0 & !BEHIND)) }
     }
 
-    /// Whether the piece lies behind the plane that cut it here.
+    /// Returns whether the piece lies behind the plane that cut it here.
     #[inline]
     pub const fn is_behind(self) -> bool {
         self.0 & BEHIND != 0
@@ -124,12 +124,12 @@ pub enum VertexKind {
 }
 
 impl VertexId {
-    /// Corner `k` of the face.
+    /// Returns the name of corner `k` of the face.
     pub const fn corner(k: u32) -> Self {
         Self { a: EdgeLine::edge(k), b: EdgeLine::edge(k) }
     }
 
-    /// The vertex where `plane` crosses `line`. Two planes give the same value in either order.
+    /// Returns the vertex where `plane` crosses `line`. Two planes have the same value in either order.
     #[inline]
     pub fn crossing(line: EdgeLine, plane: PlaneId) -> Self {
         let cut = EdgeLine::cut(plane, false);
@@ -138,13 +138,13 @@ impl VertexId {
         if line.0 <= cut.0 { Self { a: line, b: cut } } else { Self { a: cut, b: line } }
     }
 
-    /// Whether a plane is one of those that define the vertex; if so, the vertex lies on it.
+    /// Returns whether a plane is one of the planes that define the vertex; if so, the vertex lies on it.
     #[inline]
     pub fn is_on(self, plane: PlaneId) -> bool {
         self.a.as_cut() == Some(plane) || self.b.as_cut() == Some(plane)
     }
 
-    /// The kind of vertex.
+    /// Returns the kind of vertex.
     #[inline]
     pub const fn kind(self) -> VertexKind {
         match (self.a.as_edge(), self.b.as_cut()) {

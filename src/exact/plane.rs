@@ -19,8 +19,8 @@ pub(crate) fn cross(p: [f64; 3], q: [f64; 3], r: [f64; 3]) -> [i128; 3] {
     })
 }
 
-/// Components of a normal are divided into parts of this many bits. Products of these with differences of
-/// coordinates fit 128 bits, three of them added.
+/// Components of a normal are divided into parts of this many bits. The sum of three products of these parts
+/// with differences of coordinates fits 128 bits.
 pub(super) const LOW_BITS: u32 = 56;
 pub(super) const LOW: i128 = (1 << LOW_BITS) - 1;
 
@@ -76,7 +76,7 @@ impl Plane {
         self.normal
     }
 
-    /// The axis along which the normal is longest: the one in which the plane is least steep.
+    /// The axis along which the normal is longest: in this axis the plane is least steep.
     pub(crate) fn dominant_axis(&self) -> usize {
         largest(self.normal.map(i128::unsigned_abs))
     }
@@ -87,7 +87,7 @@ impl Plane {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
-    /// The same in 128 bits: right up to multiples of 2¹²⁸.
+    /// The value of [`at`](Self::at) in 128 bits, right up to multiples of 2¹²⁸.
     #[inline]
     pub(super) fn last_bits_at(&self, x: &[f64; 3]) -> i128 {
         let terms = self.normal.iter().zip(x).zip(self.point);
@@ -97,12 +97,12 @@ impl Plane {
     }
 
     /// Whether the signed distance of a lattice point times the length of the normal is at most `most` in
-    /// magnitude, which is below 2¹¹⁸: exact. `rounded` is the normal in `f64`.
+    /// magnitude, exactly. `most` is below 2¹¹⁸; `rounded` is the normal in `f64`.
     #[cfg(feature = "save")]
     #[inline]
     pub(crate) fn is_within(&self, most: u128, rounded: &[f64; 3], x: &[f64; 3]) -> bool {
-        // The products are below 2¹⁵⁸, and all of their rounding errors together below 2¹¹⁰. So this
-        // decides the cases that do not fit 128 bits.
+        // The products are below 2¹⁵⁸, and the sum of their rounding errors below 2¹¹⁰. So this decides the
+        // cases that do not fit 128 bits.
         let terms = rounded.iter().zip(x).zip(self.point);
         let off: f64 = terms.map(|((n, x), through)| n * (x - through as f64)).sum();
         off.abs() < (1u128 << 120) as f64 && self.last_bits_at(x).unsigned_abs() <= most
@@ -152,8 +152,8 @@ pub(crate) fn relative_to(numerator: Ordering, denominator: Ordering) -> Orderin
 
 /// A rounded normal is used if its `size` is at most this many times its longest component; otherwise too
 /// many bits were cancelled, and integers compute it. Too large: normals are used whose errors exceed the
-/// bounds that their users allow, such as 10⁻⁹ for the coplanar tolerance. Too small: more are computed in
-/// integers.
+/// bounds that their users allow, such as 10⁻⁹ for the coplanar tolerance. Too small: more normals are
+/// computed in integers.
 const CANCELLED: f64 = (1u64 << 18) as f64;
 
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.
@@ -167,7 +167,7 @@ pub(crate) struct RoundedNormal {
 }
 
 impl RoundedNormal {
-    /// Of the plane through three lattice points.
+    /// The rounded normal of the plane through three lattice points.
     #[inline]
     pub(crate) fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
         let (mut normal, mut size) = ([0.0; 3], 0.0);
@@ -181,7 +181,7 @@ impl RoundedNormal {
         Self { normal, size }
     }
 
-    /// The axis along which it is longest.
+    /// The axis along which the normal is longest.
     #[inline]
     pub(crate) fn dominant_axis(&self) -> usize {
         largest(self.normal.map(f64::abs))
@@ -195,7 +195,7 @@ pub(super) fn largest<T: PartialOrd>([x, y, z]: [T; 3]) -> usize {
     if z > size { 2 } else { axis }
 }
 
-/// Whether three lattice points are not collinear: exact.
+/// Whether three lattice points are not collinear, exactly.
 #[inline]
 pub(crate) fn have_area(corners: [[f64; 3]; 3]) -> bool {
     let RoundedNormal { normal, size } = RoundedNormal::through(corners);
@@ -203,7 +203,7 @@ pub(crate) fn have_area(corners: [[f64; 3]; 3]) -> bool {
     normal.iter().any(|c| c.abs() > f64::EPSILON * size) || cross(p, q, r) != [0; 3]
 }
 
-/// Whether an outline of `n` lattice points is convex and winds once, seen along an axis. Exact.
+/// Whether an outline of `n` lattice points is convex and winds once, seen along an axis, exactly.
 pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -> bool {
     if n < 3 {
         return false;
@@ -235,7 +235,7 @@ pub(crate) fn is_convex(n: usize, at: impl Fn(usize) -> [f64; 3], axis: usize) -
         }
         rises += u32::from(!ascending(a) && ascending(b));
     }
-    // It turns only one way. Each time around it changes once from descending to ascending.
+    // The outline turns only one way. In each winding it changes once from descending to ascending.
     rises == 1
 }
 
@@ -276,7 +276,7 @@ fn turn_of(a: [f64; 2], b: [f64; 2]) -> Option<Ordering> {
 }
 
 impl Faces {
-    /// The normal of a face's plane: each component is within 2⁻³⁴ of the longest of them.
+    /// The normal of a face's plane: the error of each component is at most 2⁻³⁴ of the longest component.
     #[inline]
     pub(crate) fn normal(&self, face: u32) -> DVec3 {
         let corners = self.triangle(face);
@@ -303,8 +303,8 @@ impl Faces {
     }
 }
 
-/// A plane's value at a lattice point certainly fits 128 bits if it is below this, rounded. Too large, up
-/// to half the range: values that do not fit are used. Too small: more are computed in full.
+/// A plane's value at a lattice point certainly fits 128 bits if it is below this, rounded. Too large, up to
+/// half the range: values that do not fit are used. Too small: more values are computed in full.
 const FITS: f64 = (1u128 << 124) as f64;
 
 /// Moves lattice points onto a plane, along the plane's dominant axis.
@@ -321,12 +321,12 @@ pub(crate) struct Flattener {
 pub(crate) struct Off {
     /// The distance in lattice units, rounded; 0 only if the point is exactly on the plane.
     pub(crate) distance: f64,
-    /// The number of whole steps along the axis that move it towards the plane.
+    /// The number of whole steps along the axis that move the point towards the plane.
     pub(crate) steps: f64,
 }
 
 impl Flattener {
-    /// Moves onto the plane of three lattice points.
+    /// A flattener onto the plane of three lattice points.
     #[inline]
     pub(crate) fn new(corners: [[f64; 3]; 3]) -> Self {
         let plane = Plane::through(corners);
@@ -340,15 +340,15 @@ impl Flattener {
         let Self { plane, axis, normal, .. } = self;
         let slope = plane.normal()[*axis];
         let last_bits = plane.last_bits_at(point);
-        // Most points are so near the plane that 128 bits hold its value there. This is off by less than
-        // 2¹¹⁰.
+        // Most points are so near the plane that its value there fits 128 bits. This rounded value is off by
+        // less than 2¹¹⁰.
         let near = normal.dot(DVec3::from(*point) - self.through).abs();
         let value = if near < FITS { rounded(last_bits) } else { plane.at(point).to_f64() };
         if value == 0.0 {
             return Off { distance: 0.0, steps: 0.0 };
         }
-        // The plane is value / slope steps away. Both are rounded here, and the quotient, but within the
-        // largest tolerance it is below 2⁴⁵, so the nearest integer is this or the next.
+        // The plane is value / slope steps away. Value, slope and quotient are rounded here, but within the
+        // largest tolerance the quotient is below 2⁴⁵, so the nearest integer is this or the next.
         let mut steps = nearest(value / normal[*axis]);
         // Less than the slope, so no more bits are needed.
         let rest = last_bits.wrapping_sub(slope.wrapping_mul(i128::from(steps as i64)));
@@ -363,7 +363,7 @@ impl Flattener {
 mod tests {
     use super::Plane;
 
-    /// Of every size, and of both signs, including components near 0.
+    /// Normals of every size and sign, including components near 0.
     #[test]
     fn rounded_normals_are_off_by_two_roundings_at_most() {
         let mut random = crate::random::SplitMix64::new(3);
@@ -375,7 +375,7 @@ mod tests {
             });
             let rounded = Plane { normal, point: [0; 3] }.normal_f64().to_array();
             for (exact, rounded) in normal.into_iter().zip(rounded) {
-                // The conversion of the language rounds once.
+                // The language's conversion rounds once.
                 let error = (rounded - exact as f64).abs();
                 assert!(error <= f64::EPSILON * (exact as f64).abs(), "{exact} {rounded}");
             }
@@ -444,8 +444,7 @@ mod normal_tests {
     use crate::exact::{Faces, PlaneId};
     use crate::random::SplitMix64;
 
-    /// Triangles of every thickness: the third corner is near a point of the line through the others, or on
-    /// it.
+    /// Triangles of every thickness: the third corner is near the line through the others, or on it.
     fn thin(random: &mut SplitMix64) -> [[f64; 3]; 3] {
         let p = (random.point(-1.0, 1.0) * (LIMIT / 4.0)).round();
         let arm = (random.point(-1.0, 1.0) * 2f64.powf(random.range(1.0, 48.0))).round();
@@ -479,7 +478,7 @@ mod normal_tests {
             if faces.is_empty() {
                 continue;
             }
-            // On its own lattice.
+            // The triangle on its own lattice.
             let exact = faces.plane(PlaneId::face(0)).normal_f64();
             let off = (faces.normal(0) - exact).abs().max_element();
             let most = exact.abs().max_element();
@@ -552,7 +551,7 @@ mod convex_outline_tests {
         for _ in 0..20_000 {
             let size = 2f64.powf(random.range(1.0, 50.0));
             let points = [(); 4].map(|()| [0, 1].map(|_| random.range(-size, size).round()));
-            // The signs of the four areas by integers: all the same, or not.
+            // The signs of the four areas by integers: all equal or not.
             let area = |[p, q, r]: [[f64; 2]; 3]| {
                 let of = |a: f64, b: f64| (b - a) as i128;
                 (of(p[0], q[0]) * of(p[1], r[1]) - of(p[1], q[1]) * of(p[0], r[0])).signum()
@@ -563,7 +562,7 @@ mod convex_outline_tests {
             assert!(one_way || !found, "{points:?}");
             told[usize::from(found)] += 1;
             let corners = points.map(|[x, y]| [x, y, 0.0]);
-            // A projection without area can be convex although it does not turn one way.
+            // A projection without area can be convex although it does not turn only one way.
             if !turns.contains(&0) {
                 assert_eq!(is_convex(4, |k| corners[k], 2), one_way, "{points:?}");
             }

@@ -11,12 +11,12 @@ use crate::error::Error;
 use crate::parallel_map;
 use crate::save::{Reader, Writer, damaged, invalid, too_many, u32_at, u64_at};
 
-/// Exponents of all lattices are between these: those of the smallest and of the largest numbers.
+/// The range of the exponents of all lattices, from the smallest to the largest numbers.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -1000..=1150;
 
 impl Lattice {
-    /// The exponent of the steps in a unit of length as `u32` in two's complement, the origin and the far
-    /// coordinates as three `f64` each.
+    /// Writes the exponent of the steps in a unit of length as `u32` in two's complement, and the origin and
+    /// the far coordinates as three `f64` each.
     pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
         file.u32(self.exponent() as u32)?;
         file.items(self.origin.into_iter().chain(self.far), |file, number| file.f64(number))
@@ -25,7 +25,7 @@ impl Lattice {
     /// Reads a lattice, which must be checked.
     pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, Error> {
         let exponent = file.u32("grid")? as i32;
-        // Clamped, so that the step is a finite number. `check` refuses exponents outside of the range.
+        // Clamped, so that the step is a finite number. `check` rejects exponents outside the range.
         let steps = PowerOfTwo::new(exponent.clamp(EXPONENTS.start() - 1, EXPONENTS.end() + 1));
         let (mut origin, mut far) = ([0.0; 3], [0.0; 3]);
         for number in origin.iter_mut().chain(&mut far) {
@@ -34,7 +34,7 @@ impl Lattice {
         Ok(Self { steps, origin, far })
     }
 
-    /// An error unless some scene could have the lattice.
+    /// Returns an error unless some scene could have the lattice.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let exponent = self.exponent();
         let is_possible = |axis: usize| {
@@ -86,7 +86,7 @@ impl Faces {
         let tolerance = file.f64("tolerance")?;
         let mut corners = u64::from(of_cell);
         let faces = file.list("faces", MAX_NAMES, |bytes: &[u8; 12]| {
-            // Saturated rather than wrong: too many are refused below.
+            // Saturated rather than wrong: too many corners are rejected below.
             let start = u32::try_from(corners).unwrap_or(u32::MAX);
             corners += u64::from(u32_at(bytes, 4));
             Face { start, polygon: u32_at(bytes, 0), frame: Frame(u32_at(bytes, 8)) }
@@ -116,8 +116,8 @@ impl Faces {
         Ok(read)
     }
 
-    /// An error unless all faces fulfil the requirements of the exact predicates: convex, with area, on
-    /// their planes, within the lattice. O(corners).
+    /// Returns an error unless all faces fulfil the requirements of the exact predicates: convex, with area,
+    /// on their planes, within the lattice. O(corners).
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.lattice.check()?;
         if !(0.0..=MAX_TOLERANCE).contains(&self.tolerance) {
@@ -143,7 +143,7 @@ impl Faces {
     fn check_face(&self, face: usize) -> Result<(), Error> {
         let range = self.corner_range(face as u32);
         let corners = &self.corners[range.clone()];
-        // First, because the integers of the later checks hold only these.
+        // First, because larger coordinates do not fit the integers of the later checks.
         let is_outside = |corner: &[f64; 3]| corner.iter().any(|c| c.abs() > MAX_CORNER);
         if let Some(k) = corners.iter().position(is_outside) {
             return Err(invalid("corner", range.start + k, "is outside the grid"));
@@ -219,7 +219,7 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
     if !is_convex(corners.len(), |k| corners[k], axis) {
         return Err("is not convex");
     }
-    // The nearest lattice points are off the plane by half a step along the axis at most.
+    // The nearest lattice points are off the plane by at most half a step along the axis.
     let most = match frame.moved_axis() {
         Some(moved) if moved != axis => {
             return Err("is moved along another axis than its plane's");
@@ -227,7 +227,7 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
         Some(axis) => plane.normal()[axis].unsigned_abs() / 2,
         None => 0,
     };
-    // The three that span the plane are on it.
+    // The three corners that span the plane are on it.
     let others = [1..second, second + 1..third, third + 1..corners.len()];
     let mut others = others.into_iter().flat_map(|range| &corners[range]);
     let rounded = RoundedNormal::through(triangle);

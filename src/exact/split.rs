@@ -17,19 +17,19 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// Corner `k` of a face.
+    /// Returns corner `k` of a face.
     #[inline]
     pub fn corner(faces: &Faces, face: u32, k: u32) -> Self {
         let position = faces.corners(face)[k as usize];
         Self { position, vertex_id: VertexId::corner(k), line: EdgeLine::edge(k) }
     }
 
-    /// The corners of a face, in order around it.
+    /// Returns the corners of a face, in order around it.
     pub fn corners(faces: &Faces, face: u32) -> impl Iterator<Item = Self> {
         (0..faces.corners(face).len() as u32).map(move |k| Self::corner(faces, face, k))
     }
 
-    /// Its position in lattice units, rounded.
+    /// Returns the position of the vertex in lattice units, rounded.
     #[inline]
     pub fn position(&self) -> [f64; 3] {
         self.position
@@ -41,32 +41,32 @@ impl Vertex {
         self.vertex_id
     }
 
-    /// The line that bounds the piece from this vertex to the next.
+    /// Returns the line that bounds the piece from this vertex to the next.
     #[inline]
     pub fn line(&self) -> EdgeLine {
         self.line
     }
 
-    /// The vertex where a plane cuts the edge that begins here.
+    /// Returns the vertex where a plane cuts the edge that begins here.
     pub fn cut(&self, faces: &Faces, face: u32, plane: &PreparedPlane) -> Self {
         let vertex_id = VertexId::crossing(self.line, plane.plane);
         Self { position: faces.position(face, vertex_id), vertex_id, line: self.line }
     }
 
-    /// The same vertex with another line to the next one.
+    /// The same vertex with another line to the next vertex.
     #[inline]
     pub(crate) fn with_line(self, line: EdgeLine) -> Self {
         Self { line, ..self }
     }
 
-    /// The vertex in the form of a finished tree.
+    /// Returns the vertex in the form of a finished tree.
     #[inline]
     pub fn stored(&self) -> StoredVertex {
         StoredVertex { vertex_id: self.vertex_id, line: self.line }
     }
 }
 
-/// A vertex by its definition alone. Its position is computed when used.
+/// A vertex, given only by its definition. Its position is computed when used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredVertex {
     pub(super) vertex_id: VertexId,
@@ -84,7 +84,7 @@ impl StoredVertex {
         self.line
     }
 
-    /// The vertex with its position.
+    /// Returns the vertex with its position.
     pub fn restored(&self, faces: &Faces, face: u32) -> Vertex {
         let &Self { vertex_id, line } = self;
         Vertex { position: faces.position(face, vertex_id), vertex_id, line }
@@ -94,9 +94,9 @@ impl StoredVertex {
 /// Cuts a piece by a plane that has some of its vertices in front and some behind, and appends
 /// the vertices of the two parts to `front` and `back`, in the piece's orientation.
 ///
-/// Vertices on the plane go to both parts. A new vertex is made only on an edge whose ends lie
-/// strictly on opposite sides. Both parts define it by the same line and plane, so they share it
-/// bit for bit. A convex piece gets at most two new vertices. O(n) for a piece of `n` vertices.
+/// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
+/// strictly on opposite sides. Both parts define it by the same line and plane, so they share it bit for bit.
+/// At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
 ///
 /// A piece of two vertices belongs to a segment, whose ends are on different sides.
 pub fn split(
@@ -110,7 +110,7 @@ pub fn split(
     let cut = |side: Ordering| EdgeLine::cut(plane.plane, side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| plane.side(faces, face, vertex)).collect();
-    // A segment: an outline would come back along it.
+    // A segment: an outline would traverse it in both directions.
     if let [a, b] = vertices {
         let middle = a.cut(faces, face, plane);
         let parts = if sides[0].is_gt() { [front, back] } else { [back, front] };
@@ -137,8 +137,8 @@ pub fn split(
             let crossing = vertex.cut(faces, face, plane);
             let (leaving, entering) =
                 (crossing.with_line(cut(here)), crossing.with_line(vertex.line()));
-            // The outline goes from one part to the other here. The part it leaves follows the cut next;
-            // the part it enters continues along this edge.
+            // The outline passes from one part to the other here. The part that it leaves follows the cut
+            // next; the part that it enters continues along this edge.
             let forward = here.is_gt();
             front.push(if forward { leaving } else { entering });
             back.push(if forward { entering } else { leaving });
@@ -149,9 +149,9 @@ pub fn split(
 /// Cuts faces to their cell.
 ///
 /// Each plane of the cell decides like a partition plane of a tree, by the rules of
-/// [`classify`](super::classify). Parts that are coplanar with it belong to the cell in front. The same
-/// holds for all cells of a scene, so each point of each face is in one cell. Both cells beside a plane
-/// name the vertices that it makes by the same points.
+/// [`classify`](super::classify). Parts that are coplanar with it belong to the cell in front. All cells of a
+/// scene have the same rule, so each point of each face is in one cell. Both cells beside a plane name the
+/// vertices on it by the same points.
 pub(crate) struct Clipper<'f> {
     faces: &'f Faces,
     planes: SmallVec<[(PreparedPlane, Side); 6]>,
@@ -167,7 +167,7 @@ impl<'f> Clipper<'f> {
         Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
     }
 
-    /// The part of a face in the cell, by its vertices: an empty list is the whole face, `None` no part.
+    /// The part of a face in the cell, by its vertices: an empty list for the whole face, `None` for no part.
     pub(crate) fn clip(&mut self, face: u32) -> Option<&[Vertex]> {
         let Self { faces, planes, outline, front, back } = self;
         outline.clear();

@@ -6,14 +6,14 @@
 //!
 //! | vertex | combination of | with weights | plane at the vertex, times the sum of weights |
 //! |---|---|---|---|
-//! | a corner | itself | 1 | 160 bits |
+//! | a corner | the corner | 1 | 160 bits |
 //! | edge `ab` cut by h | a, b | −h(b), h(a): 160 bits | h(a)·g(b) − h(b)·g(a): 320 bits |
 //! | h₁ and h₂ in the face's plane | its reference triangle | h₁ × h₂ over A, B, C: 320 bits | 482 bits |
 //!
 //! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the axis `e` in
 //! which the plane is least steep. Its edges then lie in the planes through their two lattice points and
-//! along `e`, which stand for h above; its own weights over A, B, C are the areas of triangles seen along
-//! `e`.
+//! along `e`; such a plane replaces h in the table. The corner's own weights over A, B, C are the areas of
+//! triangles seen along `e`.
 
 use std::cmp::Ordering;
 
@@ -26,8 +26,8 @@ use super::lattice::{LIMIT, integers};
 use super::names::{PlaneId, PlaneKind, VertexId, VertexKind};
 use super::plane::{LOW, LOW_BITS, Plane, cross, largest, relative_to, rounded};
 
-/// A vertex as a weighted mean of lattice points: one corner; two, between which it lies; or three, whose
-/// plane it lies in. The sum of the weights is not zero; it and the weights may have either sign.
+/// A vertex as a weighted mean of lattice points: one corner; two points between which it lies; or three
+/// points in whose plane it lies. The weights and their sum may have either sign; the sum is not zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights<const W: usize> {
     points: [[f64; 3]; 3],
@@ -43,7 +43,7 @@ impl<const W: usize> Weights<W> {
         Self { points: [a, b, b], weights, len: 2 }
     }
 
-    /// The point where three planes meet: the plane of a triangle, and two with these values at its
+    /// The point where three planes meet: the plane of a triangle, and two planes with these values at its
     /// corners.
     pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
         // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
@@ -55,7 +55,7 @@ impl<const W: usize> Weights<W> {
         Self { points, weights, len: 3 }
     }
 
-    /// The sign of a linear function at the vertex, from its values at lattice points: exact.
+    /// The exact sign of a linear function at the vertex, from its values at lattice points.
     pub(crate) fn sign(&self, value: impl Fn(&[f64; 3]) -> Int<3>) -> Ordering {
         // The value at the vertex is Σ wᵢ · value(pᵢ) / Σ wᵢ. There is no division: only the sign
         // of the quotient is needed, and the numerator and the denominator are exact.
@@ -89,7 +89,7 @@ impl Weights<5> {
         Fraction { numerator, denominator: self.total() }
     }
 
-    /// The position in lattice units, each coordinate within three roundings of the exact one.
+    /// The position in lattice units; each coordinate is off by at most three roundings.
     pub(crate) fn position(&self) -> [f64; 3] {
         std::array::from_fn(|axis| {
             let Fraction { numerator, denominator } = self.along(axis);
@@ -161,7 +161,7 @@ impl Faces {
     }
 
     /// The point where a plane cuts the segment between two lattice points; `None` unless they are strictly
-    /// on its two sides.
+    /// on opposite sides.
     pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
         let plane = self.plane(plane);
         let values = ends.map(|end| plane.at(&end));
@@ -174,8 +174,8 @@ impl Faces {
         self.weights(face, vertex).along(axis)
     }
 
-    /// The weights of a vertex over its face's corners: pairs of a corner's number within the face
-    /// and its weight. The weights sum to 1.
+    /// The weights of a vertex over its face's corners: pairs of a corner's number in the face and its
+    /// weight. The weights sum to 1.
     pub(crate) fn barycentric(&self, face: u32, vertex: VertexId) -> SmallVec<[(u32, f64); 3]> {
         if let VertexKind::Corner(k) = vertex.kind() {
             return smallvec![(k, 1.0)];
@@ -218,7 +218,7 @@ impl Faces {
 
 /// A coordinate of a point, in lattice units. The denominator is not zero, and has either sign.
 ///
-/// Both are sums over the weights of [`Weights`].
+/// Numerator and denominator are sums over the weights of [`Weights`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fraction {
     numerator: Int<6>,
@@ -240,7 +240,7 @@ impl Fraction {
         relative_to((left - right).sign(), denominators)
     }
 
-    /// The rounded share of the way from one lattice coordinate to another.
+    /// The position between two lattice coordinates as a rounded share, 0 at `from` and 1 at `to`.
     pub(crate) fn share(&self, from: f64, to: f64) -> f64 {
         let before = self.denominator.times::<1, 6>(&Int::from(from as i64));
         (self.numerator - before).to_f64() / (self.denominator.to_f64() * (to - from))
@@ -266,11 +266,11 @@ impl Faces {
 struct ExactEdge {
     /// The lattice points of its two corners.
     ends: [[f64; 3]; 2],
-    /// The move of its ends onto the face's plane; `None` if both are on it.
+    /// The move of the edge's ends onto the face's plane; `None` if both are on it.
     moved: Option<Moved>,
 }
 
-/// The move of an edge's ends: along an axis, by half a step at most.
+/// The move of an edge's ends: along an axis, by at most half a step.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     axis: usize,
@@ -294,56 +294,56 @@ impl Faces {
             let own = Plane::through(self.triangle(face));
             let off = |i: usize| if is_on[i] { 0 } else { own.last_bits_at(&ends[i]) };
             let (offs, slope) = ([off(0), off(1)], own.normal()[axis]);
-            // An edge between two corners that are not moved must be treated as an edge, not as a cut
-            // by an upright plane: the neighbour across it may have moved no corner, and both must
-            // get the same bits.
+            // An edge between two corners that are not moved must be treated as an edge, not as a cut by an
+            // upright plane: the neighbour across it may have moved no corner, and both faces must compute
+            // the same bits.
             (offs != [0; 2]).then_some(Moved { axis, offs, slope })
         });
         ExactEdge { ends, moved }
     }
 
-    /// The axis along which a corner is moved onto its face's plane, if it is off it.
+    /// The axis along which a corner is moved onto its face's plane, if it is off the plane.
     fn axis_of_move(&self, face: u32, k: u32) -> Option<usize> {
         let axis = self.moved_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
         let own = Plane::through(self.triangle(face));
         (own.last_bits_at(&self.corners(face)[k as usize]) != 0).then_some(axis)
     }
 
-    /// Whether corner `k` is one of the three that define its face's plane. Others are within half a
-    /// step of it along the axis, which 128 bits hold.
+    /// Whether corner `k` is one of the three corners that define its face's plane. Other corners are within
+    /// half a step of the plane along the axis, which fits 128 bits.
     fn is_on_triangle(&self, face: u32, k: u32) -> bool {
         let first = self.faces[face as usize].start;
         self.reference_triangle(face).contains(&(first + k))
     }
 }
 
-// Positions. The exact one is a quotient of integers of up to 380 bits, whose leading bits nearly always
-// suffice. So numbers are truncated to 124 bits as they arise, with a bound on the loss. If the quotient
-// could be off by more than `OFF`, because terms cancel, it is computed in full.
+// Positions. The exact position is a quotient of integers of up to 380 bits, whose leading bits nearly always
+// suffice. So intermediate numbers are truncated to 124 bits, with a bound on the loss. If the quotient could
+// be off by more than `OFF`, because terms cancel, it is computed in full.
 
-/// Bits that are kept of a number, the sign aside.
+/// The number of bits that are kept of a number, without the sign.
 const KEPT: u32 = 124;
 /// The bits of half a number. The product of two halves fits 128 bits.
 const HALF: u32 = KEPT / 2;
 const LOW_HALF: i128 = (1 << HALF) - 1;
-/// 1 in numbers of which a half is below it.
+/// The value 1 of fixed-point numbers with `HALF` bits below the point.
 const UNIT: f64 = (1u64 << HALF) as f64;
-/// The sum of the weights must be 2⁷⁰ times the error of one. Too small: positions are off by more. Too
-/// large: more of them are computed in full.
+/// The sum of the weights must be 2⁷⁰ times the error of a weight. Too small: positions are off by more. Too
+/// large: more positions are computed in full.
 const MARGIN: u32 = 70;
-/// The same for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with a
+/// The margin for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with a
 /// larger margin than that, no position could be computed from them.
 const EDGE_MARGIN: u32 = 60;
 /// The largest error of a position from truncation, in lattice units: on an edge as long as the lattice is
-/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of its size,
-/// because three weights are in the numerator and three in the denominator.)
+/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of the lattice's
+/// size, because three weights are in the numerator and three in the denominator.)
 pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {
-    /// The rounded position of a vertex in lattice units. Each coordinate is within three of its own
-    /// roundings and [`OFF`] of the exact one, and exact along an axis if a plane perpendicular to that
-    /// axis defines the vertex. All pieces, of any face, that define the vertex by the same points and
-    /// planes get the same bits, in either orientation of their faces.
+    /// The rounded position of a vertex in lattice units. Each coordinate is off by at most three of its own
+    /// roundings plus [`OFF`]. It is exact along an axis if a plane perpendicular to that axis defines the
+    /// vertex. All pieces, of any face, that define the vertex by the same points and planes have the same
+    /// bits, in either orientation of their faces.
     pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
             VertexKind::Corner(k) => return self.corners(face)[k as usize],
@@ -399,14 +399,14 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
         };
         let mut sum = terms(ends.map(|end| end[axis]));
         if moved.is_some_and(|moved| moved.axis == axis) {
-            // Rounded towards 0, so that it has the same magnitude for weights of the other sign.
+            // Rounded towards 0, so that the sum has the same magnitude for weights of the other sign.
             sum += terms(moves.map(|by| (by * UNIT) as i64)) / (1 << HALF);
         }
         sum as f64 / total as f64
     }))
 }
 
-/// The point where two planes meet that of a triangle; `None` if the leading bits do not decide.
+/// The point where two planes meet the plane of a triangle; `None` if the leading bits do not decide.
 fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     let triangle = triangle.map(integers);
     let ((g, dropped_of_g), (h, dropped_of_h)) = (leading(g, triangle), leading(h, triangle));
@@ -419,7 +419,7 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     }
     // All bits above the first 124 are dropped at the other end.
     let dropped = bits_of(weights.map(|weight| weight.magnitude().high));
-    // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four of these.
+    // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four times as much.
     let is_exact = dropped_of_g == 0 && dropped_of_h == 0;
     let inexact = if is_exact { 0 } else { 1 << (KEPT + 2).saturating_sub(dropped) };
     let error = inexact + u128::from(dropped > 0);
@@ -444,8 +444,9 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
     Some(position)
 }
 
-/// A plane's values at some lattice points, without the last bits, and the number of bits dropped. Each is
-/// rounded towards 0, so those of a plane and its reverse differ only in sign. Below 2¹²⁴ in magnitude.
+/// A plane's values at some lattice points, without the last bits, and the number of bits dropped. Each value
+/// is below 2¹²⁴ in magnitude and rounded towards 0, so the values of a plane and of its reverse differ only
+/// in sign.
 #[inline]
 fn leading(plane: &Plane, points: [[i64; 3]; 3]) -> ([i128; 3], u32) {
     let parts = points.map(|point| at(plane, point));
@@ -502,7 +503,7 @@ fn bits_of<const K: usize>(numbers: [i128; K]) -> u32 {
     128 - all.leading_zeros()
 }
 
-/// The two halves of a number, the lower one first and not negative.
+/// The two halves of a number, the lower half first and not negative.
 #[inline]
 fn halves(number: i128) -> [i64; 2] {
     [(number & LOW_HALF) as i64, (number >> HALF) as i64]
@@ -512,7 +513,7 @@ fn halves(number: i128) -> [i64; 2] {
 type Product = HighLow<KEPT>;
 
 impl Product {
-    /// a · b − c · d, of the halves of each.
+    /// a · b − c · d, from the halves of each.
     #[inline]
     fn of(a: [i64; 2], b: [i64; 2], c: [i64; 2], d: [i64; 2]) -> Self {
         let times = |x: i64, y: i64| i128::from(x) * i128::from(y);

@@ -1,12 +1,11 @@
-//! Decides which pixels a piece of a face covers.
+//! Decides the pixels that a piece of a face covers.
 //!
-//! A pixel is covered if its ray meets the piece: if the ray passes inside all lines that bound the piece.
-//! A ray that meets a line exactly is treated as moved by an infinitesimal step, the same for all lines
-//! (see [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So the pieces of a face
-//! tile it, and the faces of a closed surface tile its picture: no pixel is left out, none is covered
-//! twice. The moved ray lies in no partition plane, not even in one that contains the eye, so the piece
-//! that is nearer at the pixel is also later in a back-to-front order. Faces seen exactly edge-on cover
-//! nothing.
+//! A pixel is covered if its ray meets the piece: if the ray passes inside all lines that bound the piece. A
+//! ray that meets a line exactly is treated as moved by an infinitesimal step, the same for all lines (see
+//! [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So the pieces of a face tile it,
+//! and the faces of a closed surface tile its picture: each pixel is covered exactly once. The moved ray lies
+//! in no partition plane, not even in a plane that contains the eye, so the piece that is nearer at the pixel
+//! is also later in a back-to-front order. Faces seen exactly edge-on cover nothing.
 //!
 //! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
 //! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
@@ -20,8 +19,8 @@ use super::line::{Boundary, Seen, Sheet, Source};
 use super::rays::{Rays, Window};
 use crate::exact::{EdgeLine, Faces, PlaneId};
 
-/// In windows of at most this many columns every pixel is tested; in wider ones the lines first narrow each
-/// row. Too small: the narrowing costs more than it saves. Too large: more pixels are tested.
+/// In windows of at most this many columns every pixel is tested; in wider windows the lines first narrow
+/// each row. Too small: the narrowing takes longer than it saves. Too large: more pixels are tested.
 const NARROW: u32 = 8;
 
 /// A piece of a face, for drawing.
@@ -38,15 +37,15 @@ pub struct Piece<'a> {
 pub enum Outline<'a> {
     /// The whole face.
     Whole,
-    /// The part on the inner side of each of these lines. Exact, however small the piece.
+    /// The part on the inner side of each of these lines; exact, however small the piece.
     Lines {
         /// The lines that bound the piece: edges of the face, and cuts.
         lines: &'a [EdgeLine],
-        /// The piece's vertices in lattice units, each coordinate within 2 of the exact one. They only
-        /// limit the pixels to test.
+        /// The piece's vertices in lattice units, each coordinate off by at most 2. They only limit the
+        /// pixels to test.
         vertices: &'a [[f64; 3]],
     },
-    /// The convex polygon of these vertices, in lattice units and in the face's orientation. They are
+    /// The convex polygon of these vertices, in lattice units and in the face's orientation. The vertices are
     /// rounded to the lattice. For algorithms that do not store the lines.
     Vertices(&'a [[f64; 3]]),
 }
@@ -159,8 +158,8 @@ impl<'a> Coverage<'a> {
         }
     }
 
-    /// Two ranges of columns of a row: no pixel outside the first is covered, and every pixel within the
-    /// second is. The second lies within the first, or is empty at its end.
+    /// Two ranges of columns of a row: no pixel outside the first range is covered, and every pixel inside
+    /// the second range is covered. The second range lies inside the first, or is empty at its end.
     fn narrow(&self, y: u32) -> (Range<u32>, Range<u32>) {
         let Range { start, end } = self.window.columns;
         let (mut outer, mut inner) =
@@ -200,12 +199,13 @@ impl<'a> Coverage<'a> {
     }
 }
 
-/// Coordinates of a rounded piece's vertices are limited to this; beyond, the integers overflow.
+/// Coordinates of a rounded piece's vertices are clamped to this; larger coordinates would overflow the
+/// integers.
 const LARGEST: f64 = (1u64 << 51) as f64;
 
 impl<'a> Seen<'a> {
-    /// A face as seen by the rays; `None` if they run along it, or see its back and only fronts are
-    /// visible.
+    /// A face as seen by the rays; `None` if the rays are parallel to its plane, or see its back and only
+    /// fronts are visible.
     pub(super) fn new(rays: &'a Rays, faces: &'a Faces, face: u32) -> Option<Self> {
         let sheet = Sheet::new(rays, faces, PlaneId::face(face));
         let side =

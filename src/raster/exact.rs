@@ -1,9 +1,9 @@
 //! Planes in integers, evaluated at exact rays.
 //!
-//! Planes are computed here from the lattice points that define them, by formulas and integers other than
-//! those for building trees: rows of signed digits. A product or a sum is first computed digit by digit in
-//! 128 bits, without carries; carries are propagated once, at the end. [`Int`](crate::exact::Int) is in
-//! two's complement and carries in every step, so a mistake in one is not repeated in the other.
+//! Planes are computed here from the lattice points that define them, by other formulas and integers than for
+//! building trees: rows of signed digits. A product or a sum is first computed digit by digit in 128 bits,
+//! without carries; carries are propagated once, at the end. [`Int`](crate::exact::Int) is in two's
+//! complement and carries in every step, so a mistake in one type is not repeated in the other.
 //!
 //! With coordinates below 2⁵¹, a normal has 106 bits and an offset 158; φ and κ (see [`line`](super::line))
 //! stay below 2²⁰⁷, and a determinant of both below 2³⁶⁰.
@@ -60,7 +60,7 @@ impl Plane {
         glam::DVec3::from_array(self.normal.map(|c| c as f64))
     }
 
-    /// κ: for a perspective the plane at the eye, for parallel rays its slope along them.
+    /// κ: for a perspective the value of the plane at the eye, for parallel rays its slope along them.
     pub(super) fn kappa(&self, rays: &Rays) -> Short {
         match rays.pencil {
             RayOrigin::From { eye, shift } => {
@@ -159,7 +159,7 @@ pub(super) struct Digits<const N: usize>([i64; N]);
 
 /// Enough for a plane at an eye or at a ray: 207 bits.
 pub(super) type Short = Digits<4>;
-/// Enough for a product of two of these.
+/// Enough for a product of two [`Short`]s.
 pub(super) type Long = Digits<8>;
 
 impl<const N: usize> Digits<N> {
@@ -177,7 +177,7 @@ impl<const N: usize> Digits<N> {
         Self(digits)
     }
 
-    /// The sign: that of the leading digit, which outweighs all others.
+    /// The sign of the leading digit, which outweighs all others.
     pub(super) fn sign(&self) -> Ordering {
         self.0.iter().rev().find(|&&digit| digit != 0).map_or(Ordering::Equal, |d| d.cmp(&0))
     }
@@ -234,7 +234,8 @@ mod tests {
         value.0.iter().rev().fold(IBig::ZERO, |sum, &digit| (sum << BITS as usize) + digit)
     }
 
-    /// Integers below 2^bits in magnitude, often next to a power of 2, where carries run through.
+    /// Integers below 2^bits in magnitude, often next to a power of 2, where carries propagate through all
+    /// digits.
     fn integer(bits: u32) -> impl Strategy<Value = i128> {
         let power = (0..bits, -1..=1i128, any::<bool>());
         let power = power.prop_map(|(k, off, minus)| {

@@ -15,29 +15,29 @@ use crate::random::mix;
 #[derive(Clone, Debug)]
 pub struct DepthImage {
     image: Image,
-    /// 1/t for a perspective and −t for a parallel projection, where the ray meets the face after t times
-    /// its direction: larger is nearer.
+    /// 1/t for a perspective and −t for a parallel projection, where t is the parameter at which the ray
+    /// meets the face: larger is nearer.
     nearness: Vec<f64>,
     unit: f64,
     perspective: bool,
 }
 
 impl DepthImage {
-    /// The faces.
+    /// Returns the picture of the nearest faces.
     pub fn image(&self) -> &Image {
         &self.image
     }
 
-    /// The faces alone.
+    /// Converts into the picture of the nearest faces.
     pub fn into_image(self) -> Image {
         self.image
     }
 
-    /// The depth of the face in each pixel, rounded, in world units, row by row from the top left; infinite
-    /// where there is no face.
+    /// Returns the depth of the face in each pixel, rounded, in world units, row by row from the top left;
+    /// infinite in pixels without a face.
     ///
-    /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel
-    /// rays, from the plane through the middle of the scene, where it may be negative.
+    /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel rays,
+    /// from the plane through the middle of the scene; then it may be negative.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -78,8 +78,8 @@ impl Nearness {
     }
 }
 
-/// The nearest face in each pixel. Of faces at exactly the same distance, that of the later polygon wins,
-/// as if painted over the earlier one.
+/// Returns the nearest face in each pixel. Of faces at exactly the same distance, the face of the later
+/// polygon wins, as if painted over the earlier face.
 ///
 /// # Panics
 ///
@@ -138,7 +138,8 @@ fn zbuffer_and(
 
 /// Whether a face hides another in a pixel: it is nearer, or at the same distance and of the later polygon.
 ///
-/// Nearness is ∓φ/κ, so the nearer one has the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ.
+/// Nearness is ∓φ/κ, so the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ, decides which face is
+/// nearer.
 #[cold]
 fn is_drawn_over(rays: &Rays, faces: &Faces, face: u32, other: u32, x: u32, y: u32) -> bool {
     let pair = PlanePair::new(rays, [face, other].map(|face| Plane::of(faces, face)));
@@ -176,7 +177,7 @@ impl Layers {
         }
     }
 
-    /// The number of pixels in which the faces differ from those of `other`.
+    /// The number of pixels in which the faces differ from the faces in `other`.
     pub(crate) fn differences(&self, other: &Self) -> usize {
         self.sums.iter().zip(&other.sums).filter(|(a, b)| a != b).count()
     }
@@ -186,17 +187,17 @@ impl Layers {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// Nothing is there, and nothing is painted.
+    /// There is no polygon, and nothing is painted.
     Empty,
     /// The right polygon is painted.
     Right,
     /// The painted polygon is not the nearest, but the tolerance allows either order.
     Contested,
-    /// The painted polygon is hidden by another one.
+    /// Another polygon hides the painted polygon.
     WrongOrder,
-    /// Nothing is painted where there is a polygon.
+    /// Nothing is painted, but there is a polygon.
     Hole,
-    /// A polygon is painted where there is none.
+    /// A polygon is painted, but there is no polygon.
     Spill,
 }
 
@@ -204,42 +205,43 @@ pub enum Verdict {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Comparison {
-    /// Pixels in which the true picture shows a polygon.
+    /// The number of pixels in which the true picture shows a polygon.
     pub covered: usize,
-    /// Pixels that do not show the nearest polygon, where the tolerance allows either order.
+    /// The number of pixels that do not show the nearest polygon, but where the tolerance allows either
+    /// order.
     pub contested: usize,
-    /// Pixels that show a polygon hidden by another one.
+    /// The number of pixels that show a polygon that another polygon hides.
     pub wrong_order: usize,
-    /// Pixels that show nothing where there is a polygon.
+    /// The number of pixels that show nothing where there is a polygon.
     pub holes: usize,
-    /// Pixels that show a polygon where there is none.
+    /// The number of pixels that show a polygon where there is no polygon.
     pub spills: usize,
     /// The verdict on each pixel, row by row from the top left.
     pub verdicts: Vec<Verdict>,
 }
 
 impl Comparison {
-    /// The number of wrong pixels: all that differ, except contested ones.
+    /// Returns the number of wrong pixels: all pixels that differ, except contested pixels.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
 }
 
 /// Added to the tolerance, in lattice units, for corners that are on their face's plane only by definition:
-/// each is stored rounded, off by up to 1 unit, and up to 4 such errors add up. If the tolerance is 0, no
+/// each stored corner is off by up to 1 unit, and up to 4 such errors add up. If the tolerance is 0, no
 /// corner is moved and nothing is added.
 const MOVED_CORNERS: f64 = 4.0;
 
-/// Compares a painted picture with a true one, both made with the same rays.
+/// Compares a painted picture with a true picture, both made with the same rays.
 ///
-/// Polygons are compared, not faces: two faces of one polygon are the same. A pixel is *contested* if,
-/// along its ray, the painted face and the true one are at exactly the same distance, or the ray meets
-/// *each* of them within 2 τ of the plane of the other, where τ is the tolerance. The reason: two polygons
-/// that are each within τ of a partition plane may both count as part of that plane, and then they are
-/// painted in input order. With τ = 0 only ties are contested.
+/// Polygons are compared, not faces: two faces of one polygon are equal. A pixel is *contested* if, along its
+/// ray, the painted face and the true face are at exactly the same distance, or the ray meets *each* face
+/// within 2 τ of the plane of the other, where τ is the tolerance. The reason: two polygons that are each
+/// within τ of a partition plane may both count as part of that plane, and then they are painted in input
+/// order. With τ = 0 only ties are contested.
 ///
-/// So a view along one of the two planes excuses nothing by itself: the other polygon, which the ray meets
-/// at an angle, must be as near. This rule uses the polygons, not the partition planes;
+/// So a view along one of the two planes does not suffice: the other polygon, which the ray meets at an
+/// angle, must be equally near. This rule uses the polygons, not the partition planes;
 /// [`verify`](crate::verify::verify()) uses both.
 ///
 /// # Panics
@@ -252,8 +254,8 @@ pub fn compare(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Co
     compare_by(rays, faces, [painted, truth], allowed, |_, _| false)
 }
 
-/// Like [`compare`], with its own rule: two faces are contested if each is met within a length, in lattice
-/// units, of the plane of the other, or if `is_open` returns true for the nearest face, the painted one and
+/// Like [`compare`], with another rule: two faces are contested if each is met within a length, in lattice
+/// units, of the plane of the other, or if `is_open` returns true for the nearest face, the painted face and
 /// the pixel.
 pub(crate) fn compare_by(
     rays: &Rays,
@@ -290,30 +292,30 @@ pub(crate) fn compare_by(
     result
 }
 
-/// The distances from each of two planes of the point where the ray of a pixel meets the other, in lattice
-/// units, rounded.
+/// For each of two planes, the distance of the point where the ray of a pixel meets the other plane, in
+/// lattice units, rounded.
 fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
     let at = pair.at(pixel);
     let divisors = pair.divisors(rays, &at);
-    // The determinant is exact and is rounded only here, so a tie gives exactly 0. A ray within the plane
-    // that it should meet gives 0 / 0 = NaN, which compares as too far.
+    // The determinant is exact and is rounded only here, so a tie results in exactly 0. A ray in the plane
+    // that it should meet results in 0 / 0 = NaN, which compares as too far.
     let value = at.determinant.to_f64().abs();
     [0, 1].map(|to| value / (divisors[1 - to].abs() * pair.planes[to].normal().length()))
 }
 
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the partition
-/// plane between their pieces. `pieces` are the nearer face and the other one, each with the side of the
-/// plane to which its piece belongs (`Greater` is the front, `Equal` the plane itself). Two conditions must
-/// hold. The ray meets the nearer face within the tolerance of that plane, and within it also meets the
-/// other face or begins. One of the two pieces reaches across the plane there.
+/// plane between their pieces. `pieces` are the nearer and the further face, each with the side of the plane
+/// to which its piece belongs (`Greater` is the front, `Equal` the plane itself). Two conditions must hold.
+/// First, the ray meets the nearer face within the tolerance of that plane, and also meets the further face,
+/// or begins, within it. Second, one of the two pieces reaches across the plane there.
 ///
-/// A tolerance can cause no other wrong pixels. Suppose the eye is in front of the plane, and a piece that
-/// the order puts in front is hidden by one that it puts behind. Along the ray, the height above the plane
-/// is linear. It is positive at the eye, at most τ where the ray meets the hiding piece, and at least −τ
-/// further on, at the hidden piece. If the height falls along the ray, both pieces are met within τ of the
-/// plane; if it rises, it is at most τ from the eye to the hiding piece. If neither piece reached across,
-/// the height would fall to 0 or less at the hiding piece, and not be below 0 further on. (Only along a ray
-/// within the plane can it be 0 at both.)
+/// A tolerance can cause no other wrong pixels. Suppose that the eye is in front of the plane, and that a
+/// piece which the order puts behind hides a piece which it puts in front. Along the ray, the height above
+/// the plane is linear. It is positive at the eye, at most τ at the hiding piece, and at least −τ further
+/// away, at the hidden piece. If the height falls along the ray, both pieces are met within τ of the plane;
+/// if it rises, it is at most τ from the eye to the hiding piece. If neither piece reached across, the height
+/// would fall to 0 or less at the hiding piece, and not be below 0 further away. (Only along a ray in the
+/// plane can it be 0 at both pieces.)
 pub(crate) fn is_open(
     rays: &Rays,
     faces: &Faces,

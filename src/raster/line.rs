@@ -1,12 +1,12 @@
 //! The lines that bound a piece of a face, as functions of the pixel.
 //!
-//! Planes are functions of the pixel, too. Two numbers decide where the ray of pixel (x, y) meets a plane
-//! with normal n through p. For a perspective, κ = n·(eye − p) is constant and φ(x, y) = n·direction(x, y)
-//! is linear in the pixel; for a parallel projection κ = n·direction is constant and φ(x, y) = n·(point(x,
-//! y) − p) is linear. The ray meets the plane after −κ/φ of its direction (perspective) or −φ/κ (parallel).
-//! If the divisor is 0, the ray is within the plane or never meets it. The point where the ray meets a
-//! plane f lies in front of another plane h if sgn κ_f · (κ_f φ_h − κ_h φ_f) is positive, provided that f
-//! is met ahead of the eye.
+//! Planes are functions of the pixel, too. Two numbers determine where the ray of pixel (x, y) meets a plane
+//! with normal n through p. For a perspective, κ = n·(eye − p) is constant and φ(x, y) = n·direction(x, y) is
+//! linear in the pixel; for a parallel projection κ = n·direction is constant and φ(x, y) = n·(point(x, y) −
+//! p) is linear. The ray meets the plane after −κ/φ of its direction (perspective) or −φ/κ (parallel). If the
+//! divisor is 0, the ray is in the plane or never meets it. The point where the ray meets a plane f lies in
+//! front of another plane h if sgn κ_f · (κ_f φ_h − κ_h φ_f) is positive, provided that f is met ahead of the
+//! eye.
 
 use std::cmp::Ordering;
 
@@ -36,8 +36,7 @@ pub(super) struct Boundary {
     pub(super) source: Source,
 }
 
-/// A face with the sign of its κ: positive where parallel rays come from behind it, or an eye is in
-/// front of it.
+/// A face with the sign of its κ: positive if parallel rays come from behind it, or an eye is in front of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen<'a> {
     pub(super) rays: &'a Rays,
@@ -71,7 +70,7 @@ impl Seen<'_> {
             // Seen from the front, counter-clockwise edges have the inside on their left: there the eye,
             // the edge and the ray span a negative volume.
             Source::Edge(_) => self.positive == self.rays.is_perspective(),
-            // The upright plane faces outwards where the face's normal runs with the axis.
+            // The upright plane faces outwards if the face's normal has a positive component along the axis.
             Source::Upright(_, axis) => {
                 let normal = Plane::of(self.faces, self.face).normal();
                 self.positive == (normal[axis] > 0.0)
@@ -110,10 +109,10 @@ impl Seen<'_> {
     }
 }
 
-/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)), or (point
-/// − a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of the sum of their two
-/// products, the vectors that they are multiplied by 1, their scalar products by 3 more, the evaluation by
-/// 4.
+/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)), or (point −
+/// a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of the sum of their two
+/// products, the vectors that they are multiplied by are off by 1, their scalar products by 3 more, and the
+/// evaluation by 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
@@ -144,9 +143,9 @@ pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// κ and φ of a plane, rounded; φ(x, y) = φ₀ + x·φ₁ + y·φ₂.
 ///
-/// Errors, with π the sizes of the normal's components (see [`normal_of`]): κ is off by at most 8
-/// roundings of `kappa_size` = Σ π|eye − p|. A value of φ, its evaluation included, is off by at
-/// most 12 roundings of `phi_size`, which is the same sum over the largest terms that occur in φ.
+/// Errors, with π the sizes of the normal's components (see [`normal_of`]): κ is off by at most 8 roundings
+/// of `kappa_size` = Σ π|eye − p|. A value of φ, including its evaluation, is off by at most 12 roundings of
+/// `phi_size`, which is the same sum over the largest terms that occur in φ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sheet {
     pub(super) kappa: f64,
@@ -205,23 +204,23 @@ impl Sheet {
         }
     }
 
-    /// The line in which rays meet this plane, f, and another, h: κ_f φ_h − κ_h φ_f, and a bound on the error
-    /// of its values.
+    /// The line of the rays that meet this plane, f, and another, h, in one point: κ_f φ_h − κ_h φ_f; and a
+    /// bound on the error of its values.
     ///
-    /// Each product is off by 21 roundings of the sizes' product at most: 8 for κ, 7 for a coefficient of
-    /// φ, 2 for the product and the difference, 4 for the evaluation.
+    /// Each product is off by at most 21 roundings of the product of the sizes: 8 for κ, 7 for a coefficient
+    /// of φ, 2 for the product and the difference, 4 for the evaluation.
     pub(crate) fn cut(&self, h: &Self) -> ([f64; 3], f64) {
         let k = std::array::from_fn(|i| self.kappa * h.phi[i] - h.kappa * self.phi[i]);
         let size = self.kappa_size * h.phi_size + h.kappa_size * self.phi_size;
         (k, 40.0 * ROUNDING * size)
     }
 
-    /// The line of rays along the plane, φ, and a bound on the error of its values.
+    /// The line of the rays that are parallel to the plane, φ, and a bound on the error of its values.
     pub(crate) fn horizon(&self) -> ([f64; 3], f64) {
         (self.phi, 24.0 * ROUNDING * self.phi_size)
     }
 
-    /// The sign of κ, if the rounded one is certain.
+    /// The sign of κ, if the rounded value is certain.
     pub(crate) fn certain_side(&self) -> Option<Ordering> {
         let bound = 9.0 * ROUNDING * self.kappa_size;
         if self.kappa > bound {

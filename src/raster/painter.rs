@@ -1,4 +1,4 @@
-//! The painter: later pieces cover earlier ones. Also pictures in colour: RGB, 8 bits each, row by row from
+//! The painter: later pieces cover earlier pieces. Also pictures in colour: RGB, 8 bits each, row by row from
 //! the top left.
 
 use std::ops::Range;
@@ -10,7 +10,7 @@ use super::judge::{Comparison, DepthImage, Verdict};
 use super::rays::Rays;
 use crate::exact::Faces;
 
-/// Draws pieces one by one, each over the earlier ones.
+/// Draws pieces one by one, each over the earlier pieces.
 #[derive(Debug)]
 pub struct Painter<'a> {
     rays: &'a Rays,
@@ -20,7 +20,7 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// A painter with an empty picture.
+    /// Creates a painter with an empty picture.
     ///
     /// # Panics
     ///
@@ -30,8 +30,7 @@ impl<'a> Painter<'a> {
         Self { rays, faces, is_front_to_back: false, image: Image::new(rays.size()) }
     }
 
-    /// The same painter for pieces in front-to-back order: a later piece is visible only where no earlier
-    /// one is.
+    /// Expects pieces in front-to-back order: a later piece is visible only where no earlier piece is.
     #[must_use]
     pub fn front_to_back(self) -> Self {
         Self { is_front_to_back: true, ..self }
@@ -60,7 +59,7 @@ impl<'a> Painter<'a> {
         });
     }
 
-    /// The picture.
+    /// Returns the picture.
     pub fn finish(self) -> Image {
         self.image
     }
@@ -107,28 +106,28 @@ impl Image {
         Self { size, faces: vec![NONE; pixels], drawn: 0 }
     }
 
-    /// A picture with the given face in each pixel, and the number of times pixels were covered.
+    /// Creates a picture with the given face in each pixel, and the number of times that pixels were covered.
     pub fn from_faces(size: [u32; 2], faces: Vec<u32>, drawn: u64) -> Self {
         debug_assert_eq!(faces.len(), size[0] as usize * size[1] as usize);
         Self { size, faces, drawn }
     }
 
-    /// Its width and height in pixels.
+    /// Returns the width and height of the picture in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The face in each pixel, [`NONE`] where there is none, row by row from the top left.
+    /// Returns the face in each pixel, row by row from the top left; [`NONE`] for a pixel without a face.
     pub fn faces(&self) -> &[u32] {
         &self.faces
     }
 
-    /// The number of pixels that show a face.
+    /// Returns the number of pixels that show a face.
     pub fn covered(&self) -> usize {
         self.faces.iter().filter(|&&face| face != NONE).count()
     }
 
-    /// The number of times that pieces covered pixels, overdrawn ones included.
+    /// Returns the number of times that pieces covered pixels, including overdrawn pixels.
     pub fn drawn(&self) -> u64 {
         self.drawn
     }
@@ -139,7 +138,7 @@ impl Image {
     }
 }
 
-/// A colour for a polygon by its number: neighbours in number differ clearly.
+/// Returns a colour for a polygon by its number: polygons with neighbouring numbers differ clearly.
 pub fn colour_of(polygon: usize) -> [u8; 3] {
     // Steps of the golden ratio spread any number of hues evenly.
     let hue = (polygon as f64 * 0.618_033_988_749_894_9).fract() * 6.0;
@@ -162,8 +161,8 @@ pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
 
-/// The picture in colours: each polygon in the colour that `colour` returns for its number, darker the more
-/// obliquely it is seen; `background` where there is no polygon.
+/// Returns the picture in colours: each polygon in the colour that `colour` returns for its number, darker
+/// the more obliquely it is seen; `background` in pixels without a polygon.
 ///
 /// # Panics
 ///
@@ -198,9 +197,9 @@ pub(super) fn shaded(colour: [u8; 3], normal: DVec3, direction: DVec3) -> [u8; 3
     colour.map(|c| (f64::from(c) * share).round() as u8)
 }
 
-/// The depths as grey, from that of the nearest pixels to that of the furthest, `[255, 40]` or `[40, 255]`;
-/// pixels without a face are black. The scale is linear in depth between the nearest and the furthest
-/// hundredth of the pixels.
+/// Returns the depths as greys. `greys` are the grey of the nearest and of the furthest pixels, such as
+/// `[255, 40]` or `[40, 255]`; pixels without a face are black. The scale is linear in depth between the
+/// nearest and the furthest hundredth of the pixels.
 pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     let depths: Vec<f64> = depth.depths().collect();
     let mut sorted: Vec<f64> = depths.iter().copied().filter(|d| d.is_finite()).collect();
@@ -220,7 +219,7 @@ pub fn depth_map(depth: &DepthImage, greys: [u8; 2]) -> Vec<u8> {
     depths.into_iter().flat_map(|depth| [grey(depth); 3]).collect()
 }
 
-/// A picture of the differences: `picture`, as RGB, at a quarter of its brightness, with contested
+/// Returns a picture of the differences: `picture`, as RGB, at a quarter of its brightness, with contested
 /// pixels blue, wrong order red, holes yellow, and spills magenta.
 pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     let pixels = comparison.verdicts.iter().zip(picture.chunks_exact(3));
@@ -234,11 +233,11 @@ pub fn difference(comparison: &Comparison, picture: &[u8]) -> Vec<u8> {
     colours.flatten().collect()
 }
 
-/// Paints a colour over that of a pixel, as in every colour picture of this library. Amounts of red, green
+/// Paints a colour over a pixel's colour, as in every colour picture of this library. Amounts of red, green
 /// and blue are from 0 to 255. An opacity of 1 replaces the pixel's colour; 0 is invisible.
 ///
-/// The result is rounded, so the order counts: pixels painted elsewhere are bit for bit the same only if
-/// the same colours are painted over the same background one by one.
+/// The result is rounded, so the order matters: two pixels are bit for bit equal only if the same colours are
+/// painted over the same background one by one.
 pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
     for (old, new) in pixel.iter_mut().zip(colour) {
         *old = *old * (1.0 - opacity) + f32::from(new) * opacity;
@@ -268,7 +267,7 @@ pub(crate) fn for_each_shaded(
 mod tests {
     use super::*;
 
-    /// In floats, the vector product of its edges is 0.
+    /// In floats, the vector product of the sliver's edges is 0.
     #[test]
     fn the_normal_of_a_sliver_is_that_of_its_plane() {
         let sliver = [

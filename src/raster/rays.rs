@@ -16,11 +16,11 @@ use crate::viewpoint::Viewpoint;
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|
 /// | perspective | from the eye, in direction base + x·right + y·down |
-/// | parallel | through the point base + x·right + y·down, in one direction for all |
+/// | parallel | through the point base + x·right + y·down, in the same direction for all pixels |
 ///
-/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel unless it
-/// is more than a million extents away, and every decision after that is exact. Narrower views are refused.
-/// The eye and the direction are those of [`Eye`], which trees also use for orders.
+/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel unless it is
+/// more than a million extents away, and every decision after that is exact. Narrower views are an error. The
+/// eye and the direction are those of [`Eye`], which trees also use for orders.
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
 /// such as the cells of a partition, may share them. A function that takes rays and faces of different
@@ -31,7 +31,8 @@ pub struct Rays {
     pub(super) size: [u32; 2],
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
-    /// The height of the whole picture of which these are some rows, and the number of rows above them.
+    /// The height of the whole picture of which these rays are some rows; `above` is the number of rows above
+    /// them.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
@@ -55,9 +56,9 @@ pub struct Rays {
 /// The start or the direction of all rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum RayOrigin {
-    /// They start at the eye: an integer times 2^shift.
+    /// All rays start at the eye: an integer times 2^shift.
     From { eye: [i64; 3], shift: u32 },
-    /// They have this direction.
+    /// All rays have this direction.
     Along { direction: [i64; 3] },
 }
 
@@ -74,38 +75,38 @@ pub(super) enum Given {
 /// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a direction 168,
 /// and the product of two such 358: [`Digits`](super::digits) hold every decision. Too large: a wide view
 /// leaves the [`REGION`], because a direction's components, and those of `right` and `down` times the
-/// picture's sides, add up to three times as much. Too small: narrow views are refused.
+/// picture's sides, add up to three times as much. Too small: narrow views are rejected.
 const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
 /// The magnitude of points on parallel rays, and of directions, is below this.
 const REGION: f64 = (1u64 << 60) as f64;
-/// The least size of a pixel for each ray of the picture's width and height. Components of `right` and
-/// `down` are rounded by 1 at most: a ray is off by √3/2 for each ray of the width and the height between
-/// it and the middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d|
-/// / (h · σ): h is the distance of the picture's plane from the eye, and σ the smallest singular value of
-/// the matrix with the columns `right` and `down`. With the angle φ between the two, σ² ≥
-/// min(|right|, |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the pixel's size here. Too
-/// small: rays are off by more than a thousandth of a pixel.
+/// The least size of a pixel for each ray of the picture's width and height. Components of `right` and `down`
+/// are rounded by at most 1: a ray is off by √3/2 for each ray of the width and the height between it and the
+/// middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h
+/// is the distance of the picture's plane from the eye, and σ the smallest singular value of the matrix with
+/// the columns `right` and `down`. With the angle φ between the two, σ² ≥ min(|right|, |down|)² · (1 − |cos
+/// φ|). (For square pixels it is equal.) σ is the pixel's size here. Too small: rays are off by more than a
+/// thousandth of a pixel. Too large: usable narrow views are rejected.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
-    /// The rays of a camera through a scene.
+    /// Creates the rays of a camera through a scene.
     ///
     /// # Errors
     ///
-    /// If a perspective camera is further from the scene than about 2³⁰ of its extents; if a parallel one
-    /// shows something as far from it as 2⁹ extents; or if the view is so narrow that rays could be off by
-    /// a thousandth of a pixel. In a picture of n pixels, width and height together, every pixel is large
-    /// enough that has n · 2⁻⁴⁶ radians or, in a parallel view, n · 2⁻⁴⁰ of the scene's extent. With 1 000
-    /// by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the extent. The
-    /// size of an oblong pixel is its shorter side; that of a skewed pixel, its shorter side times √(1
-    /// − |cos φ|), where φ is the angle between its sides.
+    /// If a perspective camera is further from the scene than about 2³⁰ extents of the scene; if the picture
+    /// of a parallel camera reaches 2⁹ extents away from the scene; or if the view is so narrow that rays
+    /// could be off by a thousandth of a pixel. Let n be the sum of the picture's width and height in pixels.
+    /// A pixel of n · 2⁻⁴⁶ radians, or in a parallel view of n · 2⁻⁴⁰ of the scene's extent, is large enough.
+    /// With 1 000 by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the
+    /// extent. The size of an oblong pixel is its shorter side. The size of a skewed pixel is its shorter
+    /// side times √(1 − |cos φ|), where φ is the angle between its sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }
 
-    /// The rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a picture
-    /// `samples` times as wide and as high. It may be larger than cameras allow; draw it by
+    /// Creates the rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a
+    /// picture `samples` times as wide and as high. It may be larger than cameras allow; draw it by
     /// [`rows`](Self::rows).
     ///
     /// # Errors
@@ -138,7 +139,7 @@ impl Rays {
             (Projection::Parallel { centre, .. }, None) => {
                 let direction = eye.integer().map(|c| -c);
                 let centre = DVec3::from_array(lattice.to_lattice(*centre));
-                // In the plane through the middle of the scene.
+                // The middle of the picture, in the plane through the middle of the scene.
                 let middle = centre - camera.forward() * centre.dot(camera.forward());
                 let steps = pixel.map(|side| lattice.length_to_lattice(side));
                 let depth_unit = lattice.length_to_world(float(direction).length());
@@ -150,8 +151,8 @@ impl Rays {
         }
     }
 
-    /// Rays with pixels of the width and height `steps`, which are refused if their size is less than
-    /// `finest`; `middle` is the parameter of the middle one.
+    /// Rays with pixels of the width and height `steps`; an error if their size is less than `finest`.
+    /// `middle` is the parameter of the middle ray.
     #[allow(clippy::too_many_arguments, reason = "both kinds of camera differ in all of them")]
     fn build(
         camera: &Camera,
@@ -211,12 +212,12 @@ impl Rays {
         })
     }
 
-    /// Whether they were made for the grid of the given faces.
+    /// Whether the rays were made for the grid of the given faces.
     pub(crate) fn are_for(&self, faces: &Faces) -> bool {
         self.lattice == *faces.lattice()
     }
 
-    /// Panics unless they were made for the grid of the given faces.
+    /// Panics unless the rays were made for the grid of the given faces.
     pub(crate) fn expect(&self, faces: &Faces) {
         assert!(
             self.are_for(faces),
@@ -224,8 +225,8 @@ impl Rays {
         );
     }
 
-    /// The same rays, restricted to some rows of the picture: row 0 of the result is the first of them. So
-    /// a large picture can be drawn in parts, each with little memory.
+    /// Restricts the rays to some rows of the picture: row 0 of the result is the first of these rows. So a
+    /// large picture can be drawn in parts, each with little memory.
     ///
     /// Rows beyond the picture are left out.
     #[must_use]
@@ -237,37 +238,36 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// The same rays, which meet only the fronts of faces: the sides from which their corners run
-    /// counter-clockwise.
+    /// Restricts the rays to the fronts of faces: the sides from which their corners run counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }
 
-    /// The same rays, with coordinates in the picture from the corner of the first pixel instead of its
-    /// centre. Exact, because `right` and `down` are even.
+    /// The same rays, with picture coordinates from the corner of the first pixel instead of its centre. This
+    /// is exact, because `right` and `down` are even.
     #[cfg(feature = "drawing")]
     pub(crate) fn with_corner_origin(self) -> Self {
         let base = std::array::from_fn(|i| self.base[i] - self.right[i] / 2 - self.down[i] / 2);
         Self { base, first: 0.5, ..self }
     }
 
-    /// Whether the rays meet only the fronts of faces.
+    /// Returns whether the rays meet only the fronts of faces.
     pub fn is_front_only(&self) -> bool {
         self.front_only
     }
 
-    /// The picture's width and height in pixels.
+    /// Returns the picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The viewpoint for ordering fragments: the camera's.
+    /// Returns the camera's viewpoint, for ordering fragments.
     pub fn viewpoint(&self) -> Viewpoint {
         self.viewpoint
     }
 
-    /// The start and the direction of a pixel's ray, in lattice units, for judges with other arithmetic.
-    /// The ray of a parallel camera also continues backwards.
+    /// Returns the start and the direction of a pixel's ray, in lattice units, for judges with other
+    /// arithmetic. The ray of a parallel camera also continues backwards.
     #[doc(hidden)]
     pub fn ray(&self, x: u32, y: u32) -> [[i128; 3]; 2] {
         let wide = |v: [i64; 3]| v.map(i128::from);
@@ -308,7 +308,7 @@ impl Rays {
     /// The eye relative to a lattice point; for parallel rays, the point of the first pixel's ray. Each
     /// component is within 2.4 roundings.
     ///
-    /// (An integer beyond 2⁵³, rounded, less a coordinate of at most 2⁵¹.)
+    /// (An integer beyond 2⁵³, rounded, minus a coordinate of at most 2⁵¹.)
     #[inline]
     pub(crate) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
@@ -337,7 +337,7 @@ const MARGIN: f64 = 1.0 / 256.0;
 
 impl Rays {
     /// All pixels whose rays may meet the convex hull of these points, each given to within `VERTEX_ERROR`;
-    /// `None` if there are none.
+    /// `None` if there are no such pixels.
     ///
     /// A polygon that reaches behind the eye may be anywhere in the picture, unless it lies entirely beyond
     /// one of the picture's sides.
@@ -363,7 +363,7 @@ impl Rays {
         let sides = [[-0.5 * width, 0.5 * width], [top, top + height]];
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (mut ahead, mut behind) = (true, true);
-        // Whether all points so far are beyond the left, right, upper, lower side.
+        // For the left, right, upper and lower side, whether all points so far are beyond it.
         let mut beyond = [true; 4];
         for &point in points {
             let (at, error) = self.in_picture(point);
@@ -391,9 +391,9 @@ impl Rays {
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
-    /// A lattice point in homogeneous coordinates of the picture, rounded: x and y in pixels, as in
-    /// [`region`](Self::region), times the last, which is positive ahead of the eye. With bounds on their
-    /// errors.
+    /// A lattice point in homogeneous coordinates of the picture, rounded, with bounds on their errors: x and
+    /// y in pixels, as in [`region`](Self::region), times the last coordinate, which is positive ahead of the
+    /// eye.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (at, error) = self.in_picture(point);
@@ -460,13 +460,12 @@ fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 /// A bound on the relative error of a product of [`inverse`]'s matrix and a rounded vector, in the norms of
 /// [`Rays::in_picture`].
 ///
-/// With ε = 2⁻⁵³ and V the volume that the columns span as unit vectors: the columns are rounded by ε,
-/// their vector products by 4 ε of the product of two lengths, the determinant by 8 ε of that of three
-/// lengths, each component. The row itself is at least V times the product of two lengths. So it is off by
-/// less than 24 ε / V of itself, and its product with a vector, which is off by 2.4 ε itself, by less than
-/// (24 / V + 6) ε of the product of both lengths. That is √3 times as much in terms of the sum of the row's
-/// and the largest of the vector's components. It is less than 2⁻⁴⁶ where V ≥ 1/2, and less than 2⁻⁴⁷ / V
-/// where V is less.
+/// Let ε = 2⁻⁵³, and V the volume that the columns span as unit vectors. Each component of the columns is
+/// rounded by ε, of their vector products by 4 ε of the product of two lengths, and the determinant by 8 ε of
+/// the product of three lengths. A row is at least V times the product of two lengths, so it is off by less
+/// than 24 ε / V of itself. Its product with a vector, which is off by 2.4 ε, is off by less than (24 / V +
+/// 6) ε of the product of both lengths. In terms of the sum of the row's components and the largest of the
+/// vector's, that is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than 2⁻⁴⁷ / V otherwise.
 fn rounding(columns: [DVec3; 3]) -> f64 {
     let [a, b, c] = columns.map(DVec3::normalize);
     let volume = a.dot(b.cross(c)).abs();

@@ -10,7 +10,8 @@ use std::str::FromStr;
 
 use crate::error::{Error, Kind};
 
-/// The largest number of polygons of a generated scene: about 2 GB of corners.
+/// The largest number of polygons of a generated scene: about 2 GB of corners. Too large: memory runs out.
+/// Too small: large scenes cannot be generated.
 const MOST: u32 = 20_000_000;
 
 /// The generator of a scene. If it has a size: the default size, and the meaning of a size.
@@ -33,7 +34,7 @@ macro_rules! builtin {
         }
 
         impl Builtin {
-            /// Every scene, in the order in which to list them.
+            /// Every scene, in the order of listings.
             pub const ALL: &'static [Self] = &[$(Self::$scene),*];
 
             fn row(self) -> (&'static str, &'static str, Recipe) {
@@ -75,12 +76,12 @@ builtin! {
 }
 
 impl Builtin {
-    /// The name by which users select the scene.
+    /// Returns the name by which users select the scene.
     pub fn name(self) -> &'static str {
         self.row().0
     }
 
-    /// A one-line description of the scene.
+    /// Returns a one-line description of the scene.
     pub fn description(self) -> &'static str {
         self.row().1
     }
@@ -95,24 +96,24 @@ impl Builtin {
         }
     }
 
-    /// The meaning of the size; `None` for scenes of one size.
+    /// Returns the meaning of the size; `None` for scenes of one size.
     pub fn size_meaning(self) -> Option<&'static str> {
         self.size().map(|(_, meaning)| meaning)
     }
 
-    /// The default size; `None` for scenes of one size.
+    /// Returns the default size; `None` for scenes of one size.
     pub fn default_size(self) -> Option<u32> {
         self.size().map(|(size, _)| size)
     }
 
-    /// The range of valid sizes; `None` for scenes of one size. At most about 20 million polygons.
+    /// Returns the range of valid sizes, up to about 20 million polygons; `None` for scenes of one size.
     pub fn sizes(self) -> Option<RangeInclusive<u32>> {
         // 32 · 790² = 19 971 200 polygons.
         let sizes = if self == Self::Teapot { 2..=790 } else { 1..=MOST };
         self.size().map(|_| sizes)
     }
 
-    /// Whether the seed matters.
+    /// Returns whether the seed matters.
     pub fn is_seeded(self) -> bool {
         matches!(self.row().2, Recipe::Seeded(..))
     }
@@ -167,17 +168,17 @@ pub struct BuiltinSpec {
 }
 
 impl BuiltinSpec {
-    /// The scene without its size.
+    /// Returns the scene without its size.
     pub fn scene(self) -> Builtin {
         self.scene
     }
 
-    /// The given size, or the default; `None` for scenes of one size.
+    /// Returns the given size, or the default; `None` for scenes of one size.
     pub fn size(self) -> Option<u32> {
         self.size.or(self.scene.default_size())
     }
 
-    /// About how many polygons the scene has, without generating it if it is large.
+    /// Returns the approximate number of polygons, without generating the scene if it is large.
     pub fn polygons(self) -> usize {
         match (self.scene, self.size()) {
             (_, None) => self.build(0).len(),

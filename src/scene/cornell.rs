@@ -15,14 +15,13 @@ const CEILING: [[f64; 3]; 4] =
 const LAMP: [[f64; 3]; 4] =
     [[343.0, 548.8, 227.0], [343.0, 548.8, 332.0], [213.0, 548.8, 332.0], [213.0, 548.8, 227.0]];
 
-/// The Cornell box: 16 quads in millimetres, up is y, open towards −z.
+/// Returns the Cornell box: 16 quads in millimetres, up is y, open towards −z.
 ///
-/// The measurements are those published by the Cornell University Program of Computer Graphics
-/// ("Cornell Box Data"), with its camera position. The room's walls face inwards, the blocks
-/// outwards, and the blocks have no underside. As measured, the walls are not square and the red
-/// one is not quite planar; the lamp lies in the plane of the ceiling. Order: floor, ceiling, lamp,
-/// back wall, green wall, red wall, short block, tall block (top, then sides). Colours are for
-/// display and do not derive from the measured spectra.
+/// The Cornell University Program of Computer Graphics published the measurements and the camera position
+/// ("Cornell Box Data"). The room's walls face inwards, the blocks outwards, and the blocks have no
+/// underside. As measured, the walls are not square, and the red wall is not exactly planar; the lamp lies in
+/// the plane of the ceiling. Order: floor, ceiling, lamp, back wall, green wall, red wall, short block, tall
+/// block (top, then sides). Colours are for display and are not derived from the measured spectra.
 pub fn cornell_box() -> Scene {
     let mut scene = Scene::new("cornell", DVec3::Y).with_view(
         // Published: direction 0 0 1. The room is 559.2 deep.
@@ -42,7 +41,7 @@ pub fn cornell_box() -> Scene {
 
     let (floor, top) = (FLOOR.map(DVec3::from), CEILING.map(DVec3::from));
     scene.push(floor, white);
-    // Before the lamp: of coplanar polygons the later one shows.
+    // Before the lamp, because the later of coplanar polygons is visible.
     scene.push(top, ceiling);
     scene.push(LAMP.map(DVec3::from), lamp);
     scene.push([floor[3], floor[2], top[2], top[1]], back);

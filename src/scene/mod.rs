@@ -1,12 +1,12 @@
 //! Scenes: polygons with flat colours, generated or read from a file.
 //!
-//! A [`Scene`] is a plain list of polygons, in the order in which they were added; it does not sort or
-//! draw. Generated scenes have one function each ([`cornell_box`], [`teapot`], …) and are listed by
-//! [`Builtin`]. With the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
+//! A [`Scene`] is a plain list of polygons, in the order in which they were added; it does not sort or draw.
+//! Each generated scene has a function ([`cornell_box`], [`teapot`], …), and [`Builtin`] lists them all. With
+//! the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
 //!
-//! The corners of a polygon run counter-clockwise seen from its front. The front of a closed body is its
-//! outside; that of a room is its inside. Every generated scene is bit for bit the same on every machine:
-//! generators use only `+ − × ÷` and `sqrt`, which IEEE 754 defines to the last bit.
+//! The corners of a polygon are counter-clockwise seen from its front. Fronts face outwards on a closed body,
+//! and inwards in a room. Every generated scene is bit for bit the same on every machine: generators use only
+//! `+ − × ÷` and `sqrt`, which IEEE 754 defines to the last bit.
 
 mod builtin;
 mod cornell;
@@ -48,7 +48,8 @@ use crate::Polygon;
 /// assert_eq!(scene.material(0).name, "red");
 /// ```
 ///
-/// Two scenes are equal if their contents are, even if these come from different lines of a file.
+/// Two scenes are equal if their contents are equal, even if the polygons come from different lines of a
+/// file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     name: String,
@@ -65,7 +66,7 @@ pub struct Scene {
     view: Option<(DVec3, DVec3)>,
 }
 
-/// Attributes of corners that a file gives besides positions. A list is empty if the file has no attribute
+/// Attributes of corners that a file contains besides positions. A list is empty if the file has no attribute
 /// of that kind; otherwise it has an entry for each corner that was read.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Attributes {
@@ -82,7 +83,7 @@ pub struct ScenePolygon<'a> {
 }
 
 impl<'a> ScenePolygon<'a> {
-    /// The corners, counter-clockwise seen from the front.
+    /// Returns the corners, counter-clockwise seen from the front.
     pub fn points(&self) -> &'a [DVec3] {
         self.corners
     }
@@ -123,7 +124,7 @@ impl PartialEq for Scene {
 }
 
 impl Scene {
-    /// A scene without polygons or materials, in which `up` points upwards.
+    /// Creates a scene without polygons or materials, in which `up` points upwards.
     pub fn new(name: impl Into<String>, up: DVec3) -> Self {
         Self {
             name: name.into(),
@@ -145,7 +146,7 @@ impl Scene {
         (self.materials.len() - 1) as u32
     }
 
-    /// Adds a polygon. A `material` that was never added shows as [`Material::DEFAULT`].
+    /// Adds a polygon. A `material` that was never added appears as [`Material::DEFAULT`].
     pub fn push(&mut self, polygon: impl IntoIterator<Item = DVec3>, material: u32) {
         // One by one, because a wrong size hint must not allocate memory.
         polygon.into_iter().for_each(|corner| self.corners.push(corner));
@@ -179,22 +180,22 @@ impl Scene {
         Self { name: name.into(), ..self }
     }
 
-    /// The name given at the start; for a file its path.
+    /// Returns the name of the scene; for a file its path.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The number of polygons, degenerate ones included.
+    /// Returns the number of polygons, including degenerate polygons.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether there are no polygons.
+    /// Returns whether there are no polygons.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// The corners of one polygon.
+    /// Returns the corners of a polygon.
     ///
     /// # Panics
     ///
@@ -204,22 +205,24 @@ impl Scene {
         &self.corners[start..self.ends[index]]
     }
 
-    /// Every polygon, in order: a slice of corners with its precision, which the default tolerance follows.
+    /// Returns every polygon, in order: a slice of corners with its precision, on which the default tolerance
+    /// depends.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = ScenePolygon<'_>> + Clone {
         let polygon =
             |index| ScenePolygon { corners: self.polygon(index), precision: self.precision };
         (0..self.len()).map(polygon)
     }
 
-    /// The largest distance of corners from their intended planes, a length. For a scene from an OBJ file,
-    /// four units in the last decimal that its coordinates need. (In a parallelogram whose corners are off
-    /// by half a unit each way, one corner is off the plane of the three others by three and a half.) 0 in
-    /// generated scenes, unless [`with_precision`](Self::with_precision) sets it.
+    /// Returns the largest distance of corners from their intended planes, a length. For a scene from an OBJ
+    /// file, this is four units in the last decimal that its coordinates need. (In a parallelogram whose
+    /// corners are off by half a unit in each direction, one corner is off the plane of the three others by
+    /// three and a half units.) In generated scenes it is 0, unless [`with_precision`](Self::with_precision)
+    /// sets it.
     pub fn precision(&self) -> f64 {
         self.precision
     }
 
-    /// The texture coordinates of a corner of a polygon, if a file gives them.
+    /// Returns the texture coordinates of a corner of a polygon, if they are in the file.
     ///
     /// # Panics
     ///
@@ -228,7 +231,7 @@ impl Scene {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// The normal at a corner of a polygon, if a file gives it, with the file's length.
+    /// Returns the normal at a corner of a polygon, if it is in the file, not normalised.
     ///
     /// # Panics
     ///
@@ -237,8 +240,8 @@ impl Scene {
         self.attribute(&self.attributes.normals, polygon, corner)
     }
 
-    /// The colour of a corner of a polygon, if a file gives it: red, green and blue as in the file, usually
-    /// from 0 to 1.
+    /// Returns the colour of a corner of a polygon, if it is in the file: red, green and blue as in the file,
+    /// usually from 0 to 1.
     ///
     /// # Panics
     ///
@@ -254,7 +257,7 @@ impl Scene {
         of.get(start + corner).copied().flatten()
     }
 
-    /// The material of one polygon.
+    /// Returns the material of a polygon.
     ///
     /// # Panics
     ///
@@ -265,30 +268,31 @@ impl Scene {
         self.materials.get(number).unwrap_or(&UNKNOWN)
     }
 
-    /// The line of the file from which a polygon was read, counted from 1; `None` in generated scenes.
+    /// Returns the line of the file from which a polygon was read, counted from 1; `None` in generated
+    /// scenes.
     pub fn line(&self, index: usize) -> Option<usize> {
         self.lines.get(index).copied()
     }
 
-    /// All materials, in the order in which they were added.
+    /// Returns all materials, in the order in which they were added.
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// The direction that points upwards, of length 1 in generated scenes.
+    /// Returns the direction that points upwards, of length 1 in generated scenes.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// The least and the greatest corner of the bounding box of all polygons; `None` without
-    /// corners. O(n) in the corners.
+    /// Returns the least and the greatest corner of the bounding box of all polygons; `None` without corners.
+    /// O(n) for n corners.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let (&first, rest) = self.corners.split_first()?;
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// An eye point and a target, for scenes that have a usual or only possible view, such as the Cornell
-    /// box through its open side.
+    /// Returns an eye point and a target, for scenes that have a usual or only possible view, such as the
+    /// Cornell box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }
@@ -300,9 +304,9 @@ impl Scene {
 pub struct Material {
     /// A name for people; it need not be unique.
     pub name: String,
-    /// Red, green, blue from 0 to 1, sRGB-encoded: the value to display, unchanged.
+    /// Red, green and blue from 0 to 1, sRGB-encoded: the value to display, unchanged.
     pub color: [f32; 3],
-    /// From 0, invisible, to 1, opaque.
+    /// The opacity, from 0, invisible, to 1, opaque.
     pub opacity: f32,
 }
 
@@ -310,18 +314,18 @@ impl Material {
     /// Light grey, opaque, without a name: for polygons without a material.
     pub const DEFAULT: Self = Self { name: String::new(), color: [0.8; 3], opacity: 1.0 };
 
-    /// An opaque material.
+    /// Creates an opaque material.
     pub fn new(name: impl Into<String>, color: [f32; 3]) -> Self {
         Self { name: name.into(), color, opacity: 1.0 }
     }
 
-    /// The same material with an opacity from 0, invisible, to 1, opaque.
+    /// Sets the opacity, from 0, invisible, to 1, opaque.
     #[must_use]
     pub fn with_opacity(self, opacity: f32) -> Self {
         Self { opacity, ..self }
     }
 
-    /// Eight colours that stay distinct for colour-blind eyes: Okabe and Ito, "Color Universal
+    /// Returns eight colours that are distinct for colour-blind eyes: Okabe and Ito, "Color Universal
     /// Design", 2008, with grey in place of black.
     pub fn palette() -> impl Iterator<Item = Self> {
         const PALETTE: [(&str, [u8; 3]); 8] = [

@@ -18,37 +18,36 @@ pub use decimals::Decimals;
 use statements::{Statement, index, read};
 
 impl Scene {
-    /// Reads a Wavefront OBJ file and the material libraries it names.
+    /// Reads a Wavefront OBJ file and the material libraries that it names.
     ///
-    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its corners,
-    /// in any object or group. A face with fewer than three different corners keeps its place and is
-    /// counted in the report. Faces that are given twice, not convex or not planar are kept for the tree
-    /// builder. Corners keep their texture coordinates, their normals, and the colours of their `v` lines
-    /// ([`uv`](Self::uv), [`normal`](Self::normal), [`color`](Self::color)). Points, lines and curves are
-    /// left out, and so is a weight after the three coordinates of a `v` line. A line that ends in a
-    /// backslash continues in the next.
+    /// Polygon `i` of the scene is the `i`-th `f` line of the file, counted from 0, with all its corners, in
+    /// any object or group. A face with fewer than three different corners keeps its place and is counted in
+    /// the report. Faces that are repeated, not convex or not planar are kept for the tree builder. Corners
+    /// keep their texture coordinates, their normals, and the colours of their `v` lines ([`uv`](Self::uv),
+    /// [`normal`](Self::normal), [`color`](Self::color)). Points, lines, curves, and a weight after the three
+    /// coordinates of a `v` line are left out. A line that ends in a backslash continues in the next line.
     ///
-    /// Coordinates are read as `f64`. Four units in the last decimal that they need are the scene's
-    /// [`precision`](Self::precision). The file holds fixed either the number of decimals or the number of
+    /// Coordinates are read as `f64`. The scene's [`precision`](Self::precision) is four units in the last
+    /// decimal that they need. Either the number of decimals is fixed in the file, or the number of
     /// significant digits of the largest coordinates. Zeros at the end of all coordinates do not count
     /// (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15 significant digits is
-    /// first rounded to 15 (`0.30000000000000004` needs one), and one of less than about 10⁻¹¹ of the
-    /// largest counts as 0. If no more than one coordinate in 100 has nine significant digits or more *and*
-    /// more decimals than all with fewer digits, only the first three digits of such coordinates count, so
-    /// that a few computed numbers do not decide for all. If all coordinates of nine digits and more
+    /// first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate of less than about 10⁻¹¹
+    /// of the largest counts as 0. A few computed numbers do not decide for all: if at most one coordinate in
+    /// 100 has nine significant digits or more *and* more decimals than all coordinates with fewer digits,
+    /// only the first three digits of such coordinates count. If all coordinates of nine digits and more
     /// (except one in 100) are `f32` numbers up to their written digits, a unit is a step of `f32` of the
-    /// largest. Up is y, because OBJ files do not define it.
+    /// largest coordinate. Up is y, because OBJ files do not define it.
     ///
-    /// Colours are the `Kd` of the face's material, taken as sRGB, with its `d` or `Tr` as opacity. A
-    /// missing or unreadable library is not an error: its materials appear as
+    /// A face's colour is the `Kd` of its material, read as sRGB, with its `d` or `Tr` as opacity. A missing
+    /// or unreadable library is not an error: its materials appear as
     /// [`Material::DEFAULT`](super::Material::DEFAULT), and the report lists it.
     ///
-    /// Libraries are read from the file's folder and the folders in it. A name that leads out of it,
-    /// because it is absolute or contains `..`, is not followed, and the report lists it. (Symbolic links
-    /// are followed: the owner of the folder made them, not the file.) Only regular files are read.
+    /// Libraries are read from the file's folder and the folders in it. A name that leads out of this folder,
+    /// because it is absolute or contains `..`, is not followed, and the report lists it. (Symbolic links are
+    /// followed, because the folder's owner made them, not the file.) Only regular files are read.
     ///
-    /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is refused:
-    /// reading one without a writer would wait forever. A line that is not UTF-8 is read as Latin-1.
+    /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is an error:
+    /// without a writer, reading it would wait forever. A line that is not UTF-8 is read as Latin-1.
     ///
     /// # Errors
     ///
@@ -80,10 +79,10 @@ impl Scene {
 
 /// Reads a whole file.
 ///
-/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth one, reorders
-/// faces by material, fails on indices of normals that are not read, and names no line in its errors. So it
-/// gets only checked `v` lines of three numbers and `f` lines of vertex numbers. It holds all faces of a
-/// file at once, so [`ObjStream`] does not use it.
+/// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth number,
+/// reorders faces by material, fails on indices of normals that are not read, and names no line in its
+/// errors. So it receives only checked `v` lines of three numbers and `f` lines of vertex numbers. It stores
+/// all faces of a file at once, so [`ObjStream`] does not use it.
 fn load(
     name: &str,
     input: io::Result<impl Read>,
@@ -102,7 +101,7 @@ fn load(
                     _ => None,
                 });
             }
-            // The second coordinate may be missing, and a third one is not used.
+            // The second coordinate may be missing, and a third coordinate is not used.
             Statement::TextureCoordinates => given.uvs.push(match numbers(words)[..] {
                 [Some(u)] => Some(DVec2::new(u, 0.0)),
                 [Some(u), Some(v), ..] => Some(DVec2::new(u, v)),
@@ -134,7 +133,7 @@ fn load(
     let mut corners = mesh.indices.iter().filter_map(|&index| points.get(index as usize));
     let mut scene = contents.scene(name, library);
     for &material in &materials {
-        // If all faces are triangles, `tobj` gives no numbers of corners.
+        // If all faces are triangles, `tobj` returns no numbers of corners.
         let sides = mesh.face_arities.get(scene.len()).map_or(3, |&sides| sides as usize);
         scene.push(corners.by_ref().take(sides).map(|&point| point.into()), material);
         let polygon = scene.polygon(scene.len() - 1);
@@ -154,10 +153,10 @@ fn is_degenerate(polygon: &[DVec3]) -> bool {
     others.next().is_none_or(|second| others.all(|corner| corner == second))
 }
 
-/// Attributes of corners that a file gives besides positions.
+/// Attributes of corners that a file contains besides positions.
 #[derive(Default)]
 struct Given {
-    /// For each vertex, each `vt` line and each `vn` line; `None` where it is missing or malformed.
+    /// The attribute of each vertex, each `vt` line and each `vn` line; `None` if it is missing or malformed.
     colors: Vec<Option<[f32; 3]>>,
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
@@ -182,8 +181,8 @@ impl Given {
         self.corners.push([u32::try_from(vertex).ok(), uv, normal]);
     }
 
-    /// The attributes of each corner, and the number of lines and references that are malformed or name no
-    /// line.
+    /// The attributes of each corner, and the number of lines and references that are malformed or name a
+    /// missing line.
     fn finish(self) -> (Attributes, usize) {
         let mut faults = self.faults
             + self.uvs.iter().filter(|uv| uv.is_none()).count()
@@ -198,7 +197,8 @@ impl Given {
     }
 }
 
-/// The values of corners, given their numbers; none if no corner has one. Counts numbers beyond the last.
+/// The values of corners, given their numbers; empty if no corner has a value. Counts numbers beyond the
+/// last.
 fn of_corners<T: Copy>(
     numbers: impl Iterator<Item = Option<u32>>,
     values: &[Option<T>],
@@ -218,11 +218,11 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
     words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
 }
 
-/// A Wavefront OBJ file that is read polygon by polygon, with only its vertices in memory: for scenes too
-/// large for one tree.
+/// A Wavefront OBJ file, read polygon by polygon with only its vertices in memory: for scenes too large for
+/// one tree.
 ///
-/// Polygons, materials, precision and errors are those of [`Scene::read_obj`]. Texture coordinates, normals
-/// and colours of corners are ignored. The file is read twice, so it must be a regular file.
+/// Polygons, materials, precision and errors are the same as for [`Scene::read_obj`]. Texture coordinates,
+/// normals and colours of corners are ignored. The file is read twice, so it must be a regular file.
 ///
 /// ```no_run
 /// use std::ops::ControlFlow;
@@ -242,7 +242,7 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
 pub struct ObjStream {
     path: PathBuf,
     vertices: Vec<DVec3>,
-    /// Whether a polygon has a vertex.
+    /// Whether a polygon has each vertex.
     is_used: Vec<bool>,
     scene: Scene,
     report: ObjReport,
@@ -285,29 +285,29 @@ impl ObjStream {
         Ok(Self { path: path.to_owned(), vertices, is_used, scene, report: contents.report })
     }
 
-    /// The scene without its polygons: its name, materials and precision.
+    /// Returns the scene without its polygons: its name, materials and precision.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The number of polygons.
+    /// Returns the number of polygons.
     pub fn polygons(&self) -> usize {
         self.report.faces
     }
 
-    /// A report on the parts left out. Degenerate faces are not counted.
+    /// Returns a report on the parts left out. Degenerate faces are not counted.
     pub fn report(&self) -> &ObjReport {
         &self.report
     }
 
-    /// The vertices of polygons, each once.
+    /// Returns the vertices of polygons, each once.
     pub fn corners(&self) -> impl Iterator<Item = DVec3> + Clone {
         let used = self.vertices.iter().zip(&self.is_used).filter(|&(_, &is_used)| is_used);
         used.map(|(&vertex, _)| vertex)
     }
 
     /// Reads the file again, and calls `visit` with the corners and the material number of each polygon, in
-    /// order, until that breaks.
+    /// order, until `visit` breaks.
     ///
     /// # Errors
     ///
@@ -341,8 +341,8 @@ impl ObjStream {
 
 /// Opens a file to read all of it.
 fn open(path: &Path) -> io::Result<File> {
-    // Unnamed pipes, such as `/dev/stdin`, have a writer. Where `/dev/fd` has links, links to such pipes
-    // have no target; elsewhere it has files.
+    // Unnamed pipes, such as `/dev/stdin`, have a writer. If `/dev/fd` contains links, links to such pipes
+    // have no target; on other systems it contains files.
     #[cfg(unix)]
     if let Ok(target) = path.canonicalize()
         && !target.starts_with("/dev")
@@ -358,7 +358,7 @@ fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 ///
-/// Those of opening, and if it is not a regular file.
+/// The errors of opening a file, and if it is not a regular file.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     // Checked before opening, because opening a pipe may wait for a writer.
     let found = fs::metadata(path)?;
@@ -385,24 +385,24 @@ fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
 
 /// A report on an OBJ file: the faces read, and the parts left out.
 ///
-/// Displayed as a short sentence about everything left out, or empty.
+/// `Display` writes a short sentence about everything left out, or nothing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ObjReport {
-    /// The `f` lines, degenerate ones included: the polygons of the scene.
+    /// The number of `f` lines, including degenerate faces: the polygons of the scene.
     pub faces: usize,
-    /// Faces with fewer than three different corner positions. They stay in the scene, so that
-    /// polygon numbers are those of the file.
+    /// The number of faces with fewer than three different corner positions. They stay in the scene, so that
+    /// polygons are numbered as in the file.
     pub degenerate_faces: usize,
-    /// `p` lines.
+    /// The number of `p` lines.
     pub skipped_points: usize,
-    /// `l` lines.
+    /// The number of `l` lines.
     pub skipped_lines: usize,
-    /// `vt` and `vn` lines that are malformed, and references of corners to such lines that are malformed
-    /// or name none. Those corners lack that attribute.
+    /// The number of malformed `vt` and `vn` lines, and of references to such lines that are malformed or
+    /// name a missing line. The corners with such references lack that attribute.
     pub skipped_attributes: usize,
-    /// Lines that begin with any other unknown word, such as the statements for free-form curves and
-    /// surfaces.
+    /// The number of lines that begin with any other unknown word, such as the statements for free-form
+    /// curves and surfaces.
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
@@ -411,16 +411,16 @@ pub struct ObjReport {
     pub outside_libraries: Vec<String>,
     /// Materials that are used but not defined.
     pub missing_materials: Vec<String>,
-    /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
+    /// The number of `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
     /// unsupported kind, such as spectral curves.
     pub skipped_material_lines: usize,
-    /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was taken as 0
-    /// or 1: the library and the line, as in `parts.mtl:7`.
+    /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was clamped to
+    /// 0 or 1: the library and the line, as in `parts.mtl:7`.
     pub clamped_material_lines: Vec<String>,
 }
 
 impl ObjReport {
-    /// Whether nothing was left out or changed.
+    /// Returns whether nothing was left out or changed.
     pub fn is_clean(&self) -> bool {
         *self == Self { faces: self.faces, ..Self::default() }
     }
@@ -429,7 +429,7 @@ impl ObjReport {
 impl fmt::Display for ObjReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = |count: usize| (count > 0).then(|| count.to_string());
-        // The first three names and the number of others.
+        // The first three names, and the number of the others.
         let list = |names: &[String]| {
             let shown = names.iter().take(3).cloned().collect::<Vec<_>>().join(", ");
             match names.len() {

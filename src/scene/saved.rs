@@ -16,23 +16,23 @@ const MOST: usize = u32::MAX as usize;
 const LONGEST: usize = 1 << 16;
 
 impl Scene {
-    /// Writes the scene with its materials and the attributes of its corners, so that [`read`](Self::read)
-    /// returns an equal one. It may follow a tree in the same file, as in files of the program `binspace`.
+    /// Writes the scene with its materials and the attributes of its corners. [`read`](Self::read) returns an
+    /// equal scene. The scene may follow a tree in the same file, as in files of the program `binspace`.
     ///
     /// # Layout
     ///
-    /// Version 1. All numbers are little-endian; a list is its length as `u64` and then its items; an
+    /// Version 1. All numbers are little-endian. A list is its length as `u64` and then its items. An
     /// optional item is a `u32`, 1 if present and 0 if not, and then its numbers.
     ///
     /// | part | content |
     /// |---|---|
     /// | head | the bytes `binspacescen`, the version as `u32` |
     /// | name | a list of bytes: UTF-8, at most 65 536 |
-    /// | up, precision | three `f64`, and one |
+    /// | up, precision | three `f64`, and one `f64` |
     /// | view | six `f64`, optional: eye and target |
     /// | materials | the number as `u64`; each is a name, and red, green, blue and opacity as `f32` |
     /// | polygons | a list: the number of corners, and the material, as `u32` |
-    /// | corners | of all polygons: three `f64` each |
+    /// | corners | the corners of all polygons: three `f64` each |
     /// | lines | a list: for each polygon its line in the source file, `u64`; or empty |
     /// | texture coordinates | a list: for each corner two `f64`, optional; or empty |
     /// | normals | a list: likewise, three `f64` |
@@ -41,7 +41,8 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// Those of the writer, or if a name is too long. The bytes written until then are not a valid file.
+    /// The errors of the writer, or if a name is too long. The bytes written before an error are not a valid
+    /// file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let numbers = |file: &mut Writer<_>, numbers: &[f64]| {
@@ -82,13 +83,13 @@ impl Scene {
 
     /// Reads a scene that [`write`](Self::write) has written. Reads only the scene's bytes.
     ///
-    /// Any file is safe to read, and memory grows with the bytes read. Coordinates and colours are taken
-    /// from the file: as in any scene, they may be infinite or NaN.
+    /// Any file is safe to read, and memory grows with the bytes read. As in any scene, coordinates and
+    /// colours may be infinite or NaN.
     ///
     /// # Errors
     ///
     /// If the data cannot be read; if they are not a scene, have another version, are truncated or damaged,
-    /// or contain lists that contradict each other; or if memory runs out. The message says which.
+    /// or contain lists that contradict each other; or if memory runs out. The message says which of these.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let name = read_name(&mut file)?;

@@ -50,19 +50,19 @@ const SPOUT_UPPER: Tube = [
     [2.8, 2.4, 3.2, 2.4, 0.15],
 ];
 
-/// The Utah teapot, `segments` × `segments` quads on each of its 32 patches; up is z, the spout
+/// Returns the Utah teapot, `segments` × `segments` quads on each of its 32 patches; up is z, the spout
 /// points along +x.
 ///
-/// Martin Newell's bicubic patches of 1975 in the published proportions (3.15 high, the body 4 across),
-/// with the bottom that F. Crow added: "The origins of the teapot", IEEE Computer Graphics and Applications
-/// 7(1), 1987. Patches in the published order: 4 of rim, 8 of body, 4 of handle, 4 of spout, 8 of lid, 4 of
-/// bottom. Rim, body, lid and bottom are surfaces of revolution, and handle and spout are symmetric, so
-/// their profiles are the whole table.
+/// Martin Newell's bicubic patches of 1975 in the published proportions (3.15 high, the body 4 across), with
+/// the bottom that F. Crow added: "The origins of the teapot", IEEE Computer Graphics and Applications 7(1),
+/// 1987. Patches in the published order: 4 of the rim, 8 of the body, 4 of the handle, 4 of the spout, 8 of
+/// the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of revolution, and handle and spout are
+/// symmetric, so their profiles define all patches.
 ///
-/// There are 32 · `segments`² polygons, of which the 8 · `segments` at the top of the lid and the middle of
-/// the bottom are triangles. They face outwards. Neighbouring patches share corners bit for bit. As
-/// published, the lid leaves a gap to the rim, and handle and spout pierce the body. Fewer than 2
-/// `segments` count as 2, because the spout's lip would fold flat.
+/// There are 32 · `segments`² polygons, which face outwards. The 8 · `segments` polygons at the top of the
+/// lid and the middle of the bottom are triangles. Neighbouring patches share corners bit for bit. As
+/// published, the lid leaves a gap to the rim, and handle and spout pierce the body. Fewer than 2 `segments`
+/// count as 2, because otherwise the spout's lip would fold flat.
 pub fn teapot(segments: u32) -> Scene {
     let mut scene = Scene::new(format!("teapot:{segments}"), DVec3::Z)
         .with_view(DVec3::new(3.5, -9.5, 5.5), DVec3::new(0.2, 0.0, 1.3));
@@ -95,7 +95,7 @@ fn revolve(profile: Profile) -> [Patch; 4] {
     [quarter, half, third, turn(third)]
 }
 
-/// The half at y ≤ 0 and its mirror image, which runs back.
+/// The half at y ≤ 0, and its mirror image in the opposite direction.
 fn mirror(tube: Tube) -> [Patch; 2] {
     let half = tube.map(|[x0, z0, x1, z1, width]| {
         [[x0, 0.0, z0], [x0, -width, z0], [x1, -width, z1], [x1, 0.0, z1]].map(DVec3::from)
@@ -115,8 +115,8 @@ fn bernstein(n: u32) -> Vec<[f64; 4]> {
         .collect()
 }
 
-/// A point of a cubic Bézier curve. It lies in the box of the control points; clamping it there against
-/// rounding keeps poles single points and level rows level.
+/// A point of a cubic Bézier curve, clamped to the box of the control points. Without the clamp, rounding
+/// could split poles and tilt level rows.
 fn curve_point(w: &[f64; 4], [a, b, c, d]: [DVec3; 4]) -> DVec3 {
     let low = a.min(b).min(c.min(d));
     let high = a.max(b).max(c.max(d));

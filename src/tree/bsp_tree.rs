@@ -351,7 +351,7 @@ impl BspTree {
         self.faces.len()
     }
 
-    /// The faces of which the fragments are pieces, for `raster`.
+    /// Returns the faces that the fragments are pieces of, for `raster`.
     #[cfg_attr(not(feature = "raster"), doc(hidden))]
     pub fn faces(&self) -> &Faces {
         &self.faces

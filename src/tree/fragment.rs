@@ -63,7 +63,8 @@ impl<'t> Fragment<'t> {
         self.faces.polygon(self.face)
     }
 
-    /// The face of which this is a piece, one of [`BspTree::faces`]: the polygon, or one of its triangles.
+    /// Returns the face that this is a piece of, one of [`BspTree::faces`]: the polygon, or one of its
+    /// triangles.
     #[doc(hidden)]
     pub fn face(&self) -> u32 {
         self.face
@@ -122,7 +123,7 @@ impl<'t> Fragment<'t> {
         self.lattice_vertices().map(move |position| lattice.to_world(position))
     }
 
-    /// The vertices in lattice units, rounded.
+    /// Returns the vertices in lattice units, rounded.
     #[doc(hidden)]
     pub fn lattice_vertices(
         &self,
@@ -151,7 +152,7 @@ impl<'t> Fragment<'t> {
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
-    /// For each edge, from a vertex to the next, the line that bounds the fragment there.
+    /// Returns, for each edge from a vertex to the next, the line that bounds the fragment there.
     #[doc(hidden)]
     pub fn lines(
         &self,
@@ -163,7 +164,7 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// For each vertex, its exact definition on its face.
+    /// Returns, for each vertex, its exact definition on its face.
     #[doc(hidden)]
     pub fn vertex_ids(
         &self,

@@ -171,7 +171,7 @@ impl Mesh {
         (0..self.len() as u32).map(|vertex| self.vertex(vertex))
     }
 
-    /// The position of each point.
+    /// Returns the position of each point.
     ///
     /// Corners are at their given positions, rounded to the grid, even if the tolerance moved them in the
     /// tree. Other points are rounded: the error of each coordinate is at most 2⁻⁵¹ of the scene's extent

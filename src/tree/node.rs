@@ -86,7 +86,7 @@ impl<'t> Node<'t> {
         }
     }
 
-    /// The plane's exact name, by a face or corner of [`BspTree::faces`].
+    /// Returns the plane's exact name, by a face or corner of [`BspTree::faces`].
     #[doc(hidden)]
     pub fn plane(&self) -> PlaneId {
         self.tree.nodes[self.index()].plane
@@ -119,13 +119,13 @@ impl<'t> Node<'t> {
         self.ranges().back
     }
 
-    /// The front side.
+    /// Returns the front side.
     pub fn front(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.front_node(self.index()), self.in_front())
     }
 
-    /// The back side.
+    /// Returns the back side.
     pub fn back(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.back_node(self.index()), self.behind())

@@ -1,5 +1,5 @@
-//! Compares a tree's picture with a depth buffer's, and the forms of an order with each other. This is the
-//! only module that uses both the tree and the judge.
+//! Compares a tree's picture with a depth buffer's picture, and the forms of an order with each other. This
+//! is the only module that uses both the tree and the judge.
 
 use crate::Error;
 
@@ -23,38 +23,38 @@ pub struct Verification {
     pub painted: Image,
     /// The nearest face in every pixel, by a depth buffer that uses the faces but not the tree.
     pub truth: DepthImage,
-    /// The differences of `painted` from `truth`.
+    /// The differences between `painted` and `truth`.
     pub comparison: Comparison,
-    /// The differences from `truth` of the picture painted front to back, where each fragment is painted
-    /// only on empty pixels.
+    /// The differences between `truth` and the picture painted front to back, in which each fragment is
+    /// painted only on empty pixels.
     pub front_to_back: Comparison,
-    /// The number of pixels in which a face that covers them, visible or hidden, is painted more than once
-    /// or not at all. Such faults would be visible in transparent faces.
+    /// The number of pixels in which a face that covers them, visible or hidden, is not painted exactly once.
+    /// Such faults would be visible in transparent faces.
     pub miscounted: usize,
-    /// Whether each order lists every fragment once, and is the same in all forms.
+    /// An error if an order does not list every fragment once, or is not the same in all forms.
     pub orders: Result<(), String>,
 }
 
 impl Verification {
-    /// Whether the pictures and the orders are all right.
+    /// Returns whether the pictures and the orders are all right.
     pub fn is_right(&self) -> bool {
         let wrong = self.comparison.wrong() + self.front_to_back.wrong() + self.miscounted;
         wrong == 0 && self.orders.is_ok()
     }
 }
 
-/// Paints a tree's fragments back to front and front to back, and compares both pictures with a
-/// depth buffer's, pixel by pixel. Also compares the orders that the tree returns as lists, by
-/// iterators and by visitors.
+/// Paints a tree's fragments back to front and front to back, and compares both pictures with a depth
+/// buffer's picture, pixel by pixel. It also compares the orders that the tree returns as lists, by iterators
+/// and by visitors.
 ///
-/// Everything [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
-/// as the tolerance allows count as contested. For these, one of the two fragments reaches across the
-/// tree's plane between them. The ray meets both within the tolerance of that plane, or meets the nearer
-/// one there and begins there. With a tolerance of 0 only ties are contested: fragments at exactly the same
-/// distance.
+/// The result [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
+/// as the tolerance allows count as contested. In such a pixel, one of the two fragments reaches across the
+/// tree's plane between them, and the ray meets both fragments within the tolerance of that plane, or meets
+/// the nearer fragment there and begins there. With a tolerance of 0 only ties are contested: fragments at
+/// exactly the same distance.
 ///
-/// This excuses less than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
-/// twice the tolerance apart do not have an open order if a plane of the tree separates them exactly.
+/// This rule is stricter than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
+/// twice the tolerance apart are not contested if a plane of the tree separates them exactly.
 ///
 /// ```
 /// use binspace::verify::verify;
@@ -77,8 +77,8 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Like [`verify`], with the backs of faces left out, both of the pictures and of the faces that can hide
-/// others. For rooms seen from outside.
+/// Verifies a tree like [`verify`], without the backs of faces: these are neither painted nor hide other
+/// faces. For rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -88,7 +88,7 @@ pub fn verify_fronts(tree: &BspTree, camera: &Camera) -> Result<Verification, Er
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Like [`verify`], for orders that need not be the tree's.
+/// Like [`verify`], for orders that need not be the tree's orders.
 fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let faces = tree.faces();
     let (far_first, near_first) = (&orders.0[0], &orders.0[FIRST_NEAR]);
@@ -97,8 +97,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     let (truth, all) = zbuffer_layers(&rays, faces);
     let against_truth = |image: &Image| compare_by_planes(tree, &rays, image, truth.image());
     let comparison = against_truth(&painted);
-    // If one order is the reverse of the other, showing only the first fragment of each pixel gives the
-    // same picture as painting over: no second picture is needed.
+    // If one order is the reverse of the other, keeping the first fragment of each pixel results in the same
+    // picture as painting over: no second picture is needed.
     let front_to_back = if near_first.iter().rev().eq(far_first) {
         comparison.clone()
     } else {
@@ -110,8 +110,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders }
 }
 
-/// Compares a painted picture of a tree with a true one. Ties are contested, and pixels in which the
-/// tolerance, at the plane between the two fragments, leaves open which is painted last.
+/// Compares a painted picture of a tree with a true picture. Contested are ties, and pixels in which the
+/// tolerance, at the plane between the two fragments, leaves open which fragment is painted last.
 fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image) -> Comparison {
     let faces = tree.faces();
     if faces.tolerance() == 0.0 {
@@ -151,8 +151,8 @@ const FIRST_NEAR: usize = 2;
 /// Checks that the orders of a viewpoint list every fragment once, are the same as a list and as an
 /// iterator, and that front to back is the reverse of back to front.
 ///
-/// This compares the orders only with each other; [`verify`] also compares their
-/// pictures with a depth buffer's.
+/// This compares the orders only with each other; [`verify`] also compares their pictures with a depth
+/// buffer's picture.
 ///
 /// # Errors
 ///
@@ -166,7 +166,7 @@ pub fn check_orders(tree: &BspTree, viewpoint: Viewpoint) -> Result<(), String> 
 struct Orders([Vec<u32>; 4]);
 
 impl Orders {
-    /// The orders of a tree. An order that does not end is cut off as soon as it is certainly too long.
+    /// The orders of a tree. An order that does not end is truncated as soon as it is certainly too long.
     fn of(tree: &BspTree, viewpoint: Viewpoint) -> Self {
         let most = tree.len() + 1;
         let (mut far_first, mut near_first) = (Vec::new(), Vec::new());
@@ -201,7 +201,7 @@ impl Orders {
     }
 }
 
-/// Returns an error if a list does not have each fragment once.
+/// Returns an error unless a list contains each fragment once.
 fn each_once(list: &[u32], fragments: usize) -> Result<(), String> {
     let mut seen = vec![false; fragments];
     for &fragment in list {

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::Faces;
 use crate::exact::PlaneId;
 
-/// A large square, and a small one with its front on the other side, whose plane is off by more than the
-/// tolerance where the large one ends.
+/// A large square, and a small square with its front on the other side. At the end of the large square, the
+/// small square's plane is off by more than the tolerance.
 #[test]
 fn polygons_put_into_one_plane_share_it_and_keep_their_fronts() {
     let square = |x: f64, size: f64| {

@@ -1,4 +1,4 @@
-//! Against a bignum, and through decimal digits.
+//! Integers compared with a bignum, and through decimal digits.
 
 use super::Int;
 use dashu_int::IBig;
@@ -10,7 +10,7 @@ fn big<const N: usize>(value: &Int<N>) -> IBig {
     IBig::from_le_bytes(&bytes)
 }
 
-/// Limbs that are often all ones or all zeros, where carries run through.
+/// Limbs that are often all ones or all zeros, where carries propagate.
 fn limb() -> impl Strategy<Value = u64> {
     prop_oneof![Just(0), Just(u64::MAX), Just(1 << 63), 0..4u64, any::<u64>()]
 }
@@ -65,7 +65,7 @@ fn power<const N: usize>(exponent: u32) -> Int<N> {
     Int::<1>::from_limbs([1]).shifted(exponent)
 }
 
-/// Half way between two floats a single bit decides, in any limb below: that of the last kept bits, the
+/// Half-way between two floats a single bit decides, in any lower limb: the limb of the last kept bits, the
 /// next, or any other.
 #[test]
 fn one_bit_far_below_a_tie_decides() {

@@ -26,7 +26,7 @@ fn point() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
-    // Also near one another, where planes are almost parallel.
+    // Also points near one another, where planes are almost parallel.
     let near = (point(), prop::array::uniform3(prop::array::uniform3(-2..3i64))).prop_map(
         |(point, offsets)| {
             let limit = LATTICE_LIMIT;
@@ -49,7 +49,7 @@ fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[IBig]) -> f64 {
     let off = (0..3).map(|axis| {
         let terms = points.iter().zip(weights);
         let sum: IBig = terms.map(|(p, w)| IBig::from(p[axis] as i64) * w).sum();
-        // The position in 2⁻⁸⁰ths, which holds every bit of it that matters.
+        // The position in units of 2⁻⁸⁰, which keeps every bit that matters.
         let scaled = IBig::from((position[axis] * 2f64.powi(40)) as i128) << 40;
         let off: IBig = (scaled * &total - (sum << 80)) / &total;
         off.abs().to_f64().value() / 2f64.powi(80)
@@ -66,7 +66,7 @@ fn a_bit_below_a_tie_decides_where_a_number_is_rounded_to() {
         (even + tie, 1, even + up),
         (even + up + tie, 0, even + 2 * up),
         (-even - tie, 0, -even),
-        // 1/2⁶² more than minus the tie.
+        // 1/2⁶² more than the negative tie.
         (-even - tie, 1, -even),
         (-even - tie - 1, u64::MAX >> 2, -even - up),
     ] {
@@ -117,8 +117,8 @@ fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
     [triangle.map(|corner| corner.to_array()), near(), near()]
 }
 
-/// For any cancellation, and on either side of the triangle's edges: results are right, and the same if the
-/// triangle and the planes face the other way.
+/// For any cancellation, and on either side of the triangle's edges, results are right, and the same if the
+/// triangle and the planes are reversed.
 #[test]
 fn positions_inside_are_right_or_not_told() {
     let mut random = SplitMix64::new(7);
@@ -202,8 +202,8 @@ fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
     ExactEdge { ends, moved: Some(moved) }
 }
 
-/// The position is exactly that of the edge between the moved ends, and the same if the triangle, the plane
-/// and the edge run the other way.
+/// The position is exactly on the edge between the moved ends, and the same if the triangle, the plane and
+/// the edge are reversed.
 #[test]
 fn positions_on_moved_edges_are_right_or_not_told() {
     let mut random = SplitMix64::new(11);
@@ -217,7 +217,7 @@ fn positions_on_moved_edges_are_right_or_not_told() {
         let slope = IBig::from(own.normal()[axis]);
         let is_near = offs.iter().all(|off| off.abs() * IBig::from(2) <= slope.abs());
         let is_inside = ends.iter().flatten().all(|c| c.abs() <= LATTICE_LIMIT);
-        // Each end times the slope, after its move: on the triangle's plane.
+        // Each end, times the slope, after its move onto the triangle's plane.
         let values = [0, 1].map(|i| {
             value(&plane, &ends[i]) * &slope - &offs[i] * IBig::from(plane.normal()[axis])
         });

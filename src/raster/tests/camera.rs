@@ -1,4 +1,4 @@
-//! Rays are those of their camera.
+//! Rays agree with their camera.
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;

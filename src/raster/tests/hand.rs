@@ -129,7 +129,7 @@ fn what_the_tolerance_makes_equal_is_contested() {
         let (a, b) = (square([0.0; 2], [6.0; 2], gap), square([0.0; 2], [6.0; 2], 0.0));
         faces(&[a, b], Some(tolerance))
     };
-    // Painted in input order, so that the further covers the nearer.
+    // Painted in input order, so that the further square covers the nearer.
     let verdict = |gap, tolerance| judged(&[0, 1], &pair(gap, tolerance)).verdicts[7];
     assert_eq!(verdict(1.9e-3, 1e-3), Verdict::Contested);
     assert_eq!(verdict(2.1e-3, 1e-3), Verdict::WrongOrder);
@@ -206,7 +206,7 @@ fn rays_through_lines_belong_to_the_piece_on_their_right() {
     assert_eq!(show(&below), "...... ...... ...... ...... ....A. ...AA.");
 }
 
-/// Looking down at a steep face that crosses a flat one.
+/// Looking down at a steep face that crosses a flat face.
 #[test]
 fn both_faces_have_to_be_near_the_plane_of_the_other() {
     let tolerance = 0.01;
@@ -237,7 +237,7 @@ fn without_a_tolerance_no_order_is_open() {
     }
 }
 
-/// So near that the rounding of its corners would put the eye behind it.
+/// The face is so near that the rounding of its corners would put the eye behind it.
 #[test]
 fn an_eye_a_few_units_before_a_face_sees_nothing_else() {
     let faces = faces(&[square([0.0, 0.0], [6.0, 6.0], 0.0)], None);

@@ -10,7 +10,8 @@ use crate::view::Camera;
 
 const PIXELS: [u32; 2] = [32, 32];
 
-/// For each pixel, the number of faces met from the front minus those from behind, and of all faces met.
+/// For each pixel, the number of faces met from the front minus the number met from behind, and the number of
+/// all faces met.
 fn layers(rays: &Rays, faces: &Faces) -> Vec<(i32, i32)> {
     let mut counts = vec![(0, 0); (PIXELS[0] * PIXELS[1]) as usize];
     for face in 0..faces.len() as u32 {
@@ -66,7 +67,7 @@ fn a_cube_has_a_front_for_every_back() {
                 if (inside - 1.0).abs() < 1e-12 {
                     continue; // on the surface, or next to it: matrices round their eyes
                 }
-                // Outside, each ray that enters leaves again; inside, each leaves once.
+                // From outside, each ray that enters also leaves; from inside, each ray leaves once.
                 let expected = if inside < 1.0 { -1 } else { 0 };
                 for &(signed, all) in &layers(&rays, &faces) {
                     assert_eq!(signed, expected, "{camera:?}");

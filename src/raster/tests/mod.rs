@@ -28,7 +28,7 @@ impl Random {
         self.0.next() % limit
     }
 
-    /// From −1 to 1.
+    /// A number from −1 to 1.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.range(-1.0, 1.0)
     }
@@ -37,7 +37,7 @@ impl Random {
         self.0.point(-1.0, 1.0)
     }
 
-    /// With integer coordinates from −`limit` to `limit`.
+    /// A point with integer coordinates from −`limit` to `limit`.
     pub(super) fn grid(&mut self, limit: i32) -> DVec3 {
         let span = 2 * limit as u64 + 1;
         DVec3::from_array(std::array::from_fn(|_| f64::from(self.below(span) as i32 - limit)))
@@ -48,8 +48,8 @@ pub(super) fn faces(polygons: &[Vec<DVec3>], tolerance: Option<f64>) -> Faces {
     Faces::new(polygons, tolerance).unwrap().0
 }
 
-/// Views of a scene of extent about `size` around the origin: general ones, views along the axes with rays
-/// through lattice points, close, grazing, far, and parallel ones of all these kinds; and the same
+/// Views of a scene of extent about `size` around the origin: general, along the axes with rays through
+/// lattice points, close, grazing and far views, and parallel views of all these kinds. Also the same views
 /// off-axis, with oblong and skewed pixels.
 pub(super) fn cameras(random: &mut Random, size: f64, pixels: [u32; 2]) -> Vec<Camera> {
     let quarter = std::f64::consts::FRAC_PI_2;

@@ -45,8 +45,8 @@ struct Point(Vector, IBig);
 /// A ray's start and direction.
 struct Ray(Point, Vector);
 
-/// The ray of a pixel; or, moved by δ to the right and δ² downwards, where δ is less than any ratio of the
-/// numbers involved: practically infinitesimal.
+/// The ray of a pixel; on request, moved by δ to the right and δ² downwards, where δ is less than any ratio
+/// of the numbers involved, so practically infinitesimal.
 fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     const SHIFT: usize = 3000;
     let [start, direction] = ray(rays, x, y);
@@ -66,8 +66,8 @@ fn ray_of(rays: &Rays, x: u32, y: u32, moved: bool) -> Ray {
     }
 }
 
-/// The point where a ray meets the plane of a face, and the multiple of its direction, as a quotient;
-/// `None` if it does not, or only behind the eye.
+/// The point where a ray meets the plane of a face, and the multiple of its direction, as a quotient; `None`
+/// if the ray does not meet the plane, or only behind the eye.
 fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig; 2])> {
     let (n, p) = plane(faces, face);
     let Ray(Point(start, divisor), direction) = ray;
@@ -180,7 +180,7 @@ pub(crate) struct Height {
 }
 
 impl Height {
-    /// Whether it is at most `reach`.
+    /// Whether the height is at most `reach`.
     pub(crate) fn is_within(&self, reach: f64) -> bool {
         let reach = RBig::from_f64(reach).unwrap();
         self.squared <= &reach * &reach

@@ -29,7 +29,7 @@ fn rows_together_are_the_whole_picture() {
             let height = rays.size()[1];
             let (mut start, mut parts, mut depths) = (0, Vec::new(), Vec::new());
             while start < height {
-                // Parts of parts; the last ones include rows that do not exist.
+                // Parts of parts; the last parts include rows that do not exist.
                 let end = start + 1 + random.below(9) as u32;
                 let lead = start.min(random.below(3) as u32);
                 let part = rays.rows(start - lead..end + 2).rows(lead..lead + end - start);
@@ -72,7 +72,7 @@ fn the_rays_of_a_pixel_are_spread_evenly_over_it() {
             let Ok(rays) = Rays::sampled(&camera, &faces, samples) else { continue };
             assert_eq!(rays.size(), [31 * samples, 20 * samples]);
             for [x, y] in [[0, 0], [31 * samples - 1, 3], [samples, 20 * samples - 1]] {
-                // Also for the same row of a part of the picture.
+                // Also the same row of a part of the picture.
                 for (rays, row) in [(&rays, y), (&rays.rows(y..y + 1), 0)] {
                     let [start, direction] = ray(rays, x, row)
                         .map(|v| DVec3::from_array(v.map(|c| c.to_string().parse().unwrap())));

@@ -3,22 +3,23 @@
 use std::collections::BTreeMap;
 
 /// The least fixed number of significant digits that programs write. Too small: short numbers of different
-/// size, as people write them, are taken for rounded ones.
+/// size, as people write them, count as rounded.
 const FEWEST_DIGITS: i32 = 6;
-/// The decimal digits that an `f64` holds for any value; further ones are noise of a computation, as in
-/// `0.30000000000000004`.
+/// The number of decimal digits that an `f64` stores for any value; further digits are noise of a
+/// computation, as in `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
-/// A number that begins more than this many places after the largest is zero plus noise. Too small: thin
-/// layers near zero are not seen. Too large: one sine of a rounded π decides.
+/// A number that begins more than this many places after the largest number is zero plus noise. Too small:
+/// thin layers near zero are ignored. Too large: one sine of a rounded π decides.
 const NOISE_PLACES: i32 = 11;
 /// Numbers of this many significant digits are long: as many as distinguish one `f32` from another. Too
-/// small: the heights of thin layers, as people write them, are long. Too large: those of an `f32` are not.
+/// small: the heights of thin layers, as people write them, are long. Too large: numbers from `f32` are not
+/// long.
 const LONG: i32 = 9;
-/// At most one number in this many is a stray. Too small: parts of a scene that are more precise than the
-/// rest are overlooked. Too large: a few long numbers decide for all.
+/// At most one number in this many is a stray. Too small: parts of a scene that are more precise than others
+/// are overlooked. Too large: a few long numbers decide for all.
 const STRAYS: usize = 100;
-/// The least number of long numbers that shows whether all were `f32`. Too small: some are near one by
-/// chance.
+/// The least number of long numbers that shows whether all were `f32`. Too small: some are near an `f32` by
+/// chance. Too large: files with few `f32` are not recognised.
 const TELLING: usize = 12;
 /// The number of leading digits of a long number that count if such numbers are strays. Too small: layers
 /// near zero that a program computed are merged. Too large: a stray decides for all.
@@ -27,16 +28,16 @@ const DIGITS_OF_STRAYS: i32 = 3;
 /// The digits of the numbers seen so far.
 ///
 /// Programs write either a fixed number of decimals, or a fixed number of significant digits. In the latter
-/// case numbers of different size have as many digits, which otherwise only the largest numbers have. Zeros
-/// that a program adds at the end do not count; zeros that it omits there do no harm, because the longest
-/// numbers decide. The exceptions are numbers far longer than nearly all others: see
+/// case numbers of different size have equally many digits; otherwise only the largest numbers have the most
+/// digits. Zeros that a program adds at the end do not count. Zeros that it omits there do no harm, because
+/// the longest numbers decide. The exceptions are numbers far longer than nearly all others: see
 /// `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,
-    /// The number of numbers with such digits; zeros have none.
+    /// For each kind of digits, how many numbers have it; zeros are not counted.
     seen: BTreeMap<Digits, usize>,
-    /// The number of long numbers, and of those that are `f32` up to their written digits.
+    /// How many long numbers there are, and how many of these are `f32` up to their written digits.
     long: usize,
     long_of_f32: usize,
     /// The largest number, by its size.
@@ -75,7 +76,7 @@ impl Digits {
         })
     }
 
-    /// The digits of a number that an `f64` holds for certain.
+    /// The digits of a number that an `f64` certainly stores.
     fn without_noise(self, value: f64) -> Option<Self> {
         if self.count() <= DIGITS_OF_F64 {
             return Some(self);
@@ -87,7 +88,7 @@ impl Digits {
         self.first.saturating_sub(self.last).saturating_add(1)
     }
 
-    /// Its first digits.
+    /// The first digits of the number.
     fn cut(self) -> Self {
         let last = self.last.max(self.first.saturating_sub(DIGITS_OF_STRAYS - 1));
         Self { last, written: self.written.min(DIGITS_OF_STRAYS), ..self }
@@ -112,16 +113,16 @@ impl Decimals {
         }
     }
 
-    /// One unit in the last decimal of the largest numbers; 0 if no number was seen. For numbers that were
-    /// `f32`, and are written with more digits than these have, a step of the largest.
+    /// Returns one unit in the last decimal of the largest numbers; 0 if no number was seen. For numbers that
+    /// were `f32`, and are written with more digits than an `f32` has, it is a step of the largest.
     pub fn unit(&self) -> f64 {
         let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
         let step = if is_f32 { f64::from(f32::EPSILON) * self.largest } else { 0.0 };
         step.max(self.decimal())
     }
 
-    /// The digits that count: not those of zeros with noise, and only the first of the few long numbers
-    /// that have more decimals than any short one.
+    /// The digits that count: without the digits of zeros with noise, and only the first digits of the few
+    /// long numbers that have more decimals than any short number.
     fn counted(&self) -> Vec<Digits> {
         let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
         let is_noise = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
@@ -173,7 +174,7 @@ mod tests {
             (&["0", "0"], 1.0),
             (&["0.000"], 1.0),
             (&["12", "-7", "100"], 1.0),
-            // Zeros at the end of all.
+            // Zeros at the end of all numbers.
             (&["12.250000", "-0.500000", "100.000000"], 1e-2),
             (&["1.230000", "4.560000", "0.000000"], 1e-2),
             (&["1.2300000e+00", "4.560000e+01", "1.000000e+02"], 1e-2),
@@ -215,7 +216,7 @@ mod tests {
             }
             let unit = |exponent: usize| format!("1e-{exponent}").parse::<f64>().unwrap();
             assert_eq!(fixed.unit(), unit(places), "{places} decimals");
-            // The largest are from 10 on.
+            // The largest numbers are from 10 on.
             assert_eq!(significant.unit(), unit(places - 1), "{places} digits after the first");
         }
     }
@@ -241,9 +242,9 @@ mod tests {
             (&["123.45605"], 1e-5),
             (&["0.0000125"], 1e-7),
             (&["0.0033333333333"], 1e-5),
-            // Nor are long numbers with no more decimals than short ones.
+            // Long numbers with no more decimals than short numbers are not strays.
             (&["0.12345", "1234.56789", "2345.67"], 1e-5),
-            // Nor are many.
+            // Many long numbers are not strays.
             (&["0.1234567890123"; 9], 1e-3),
             (&["0.1234567890123"; 11], 1e-13),
         ];
@@ -279,7 +280,7 @@ mod tests {
             let found = unit(numbers.iter().map(|number| &**number));
             assert!((step * 0.99..step * 1.01).contains(&found), "{way}: {found} {step}");
         }
-        // Of `f64` numbers with as many digits, few are near an `f32`.
+        // Few `f64` numbers with as many digits are near an `f32`.
         let numbers: Vec<String> = (0..200).map(|_| format!("{:.10}", random())).collect();
         assert_eq!(unit(numbers.iter().map(|number| &**number)), 1e-10);
     }

@@ -11,15 +11,15 @@ use crate::scene::Material;
 /// Materials by the bytes of their names, in the order of a library.
 type Materials = Vec<(Vec<u8>, Material)>;
 
-/// The reason why a library is not read. The greater fault is the worse one.
+/// The reason why a library is not read. The greater value is the worse fault.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Fault {
     Missing,
-    /// Its name leads out of the folder of the file that names it.
+    /// The library's name leads out of the folder of the file that names it.
     Outside,
 }
 
-/// Reads all libraries. Where several define a material, the last one counts.
+/// Reads all libraries. If several libraries define a material, the last definition counts.
 pub(super) fn load(
     libraries: &[&[u8]],
     mut read: impl FnMut(&Path) -> Option<Vec<u8>>,

@@ -48,7 +48,7 @@ pub(super) struct Contents {
     vertices: usize,
     decimals: Decimals,
     libraries: Names,
-    /// The materials that faces use; the name is empty if none is given.
+    /// The materials that faces use; the name is empty if the file sets no material.
     materials: Names,
     /// The name of the material in use, and its number once a face has used it.
     material: (Vec<u8>, Option<u32>),
@@ -57,7 +57,7 @@ pub(super) struct Contents {
 }
 
 /// Reads a file called `name`. Calls `visit` with each statement, and the words after its keyword, until
-/// that breaks.
+/// `visit` breaks.
 pub(super) fn read<B>(
     name: &str,
     input: io::Result<impl Read>,
@@ -122,7 +122,7 @@ impl Contents {
             Some("mtllib") => _ = number(&mut self.libraries, behind_keyword(line)),
             Some("p") => self.report.skipped_points += 1,
             Some("l") => self.report.skipped_lines += 1,
-            // They name or group faces, or define their shading.
+            // These statements name or group faces, or define their shading.
             None | Some("o" | "g" | "s" | "mg") => {}
             Some(_) => self.report.skipped_statements += 1,
         }
@@ -198,7 +198,7 @@ impl Contents {
     }
 }
 
-/// The number of a name, which it gets at its first mention.
+/// The number of a name, assigned at its first mention.
 fn number(names: &mut Names, name: &[u8]) -> u32 {
     // There are no more names than lines, and no more materials than faces.
     let next = names.len() as u32;
@@ -211,12 +211,12 @@ fn in_order(names: &Names) -> Vec<&[u8]> {
     names.into_iter().map(|(name, _)| &name[..]).collect()
 }
 
-/// The number from 0 of a vertex, texture coordinate or normal. A word gives it from 1, or, if it is
-/// negative, backwards from the last of `count` so far. It may be beyond the last of the file.
+/// The number, counted from 0, of a vertex, texture coordinate or normal. A word counts from 1, or, if it is
+/// negative, backwards from the last of `count` so far. The number may be beyond the last of the file.
 pub(super) fn index(word: &str, count: usize) -> Option<usize> {
     let number: i64 = word.parse().ok()?;
     let from_0 = if number < 0 { number.checked_add_unsigned(count as u64)? } else { number - 1 };
-    // The number after it must be one, too.
+    // The next number must also be valid.
     usize::try_from(from_0).ok().filter(|&index| index < usize::MAX)
 }
 
@@ -254,7 +254,7 @@ pub(super) fn decode(line: &[u8]) -> Result<Cow<'_, str>, Problem> {
     Ok(text(line))
 }
 
-/// Bytes as text. If they are not UTF-8, each becomes the character of that number (Latin-1): old files
+/// Bytes as text. If they are not UTF-8, each byte becomes the character of that number (Latin-1): old files
 /// have names and comments in other encodings.
 pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(bytes) {
@@ -263,7 +263,7 @@ pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Byte-order marks of unsupported encodings; that of UTF-32 begins with one of UTF-16.
+/// Byte-order marks of unsupported encodings; the mark of UTF-32 begins with the mark of UTF-16.
 const MARKS: [(&[u8], &str); 4] = [
     (b"\xff\xfe\0\0", "UTF-32"),
     (b"\0\0\xfe\xff", "UTF-32"),
@@ -288,8 +288,8 @@ impl<R: Read> Lines<R> {
         Self { input, line: Vec::new(), ends: 0, is_after_cr: false }
     }
 
-    /// Reads the next line; returns its number from 1, or, for joined lines, that of the first. `None` at
-    /// the end.
+    /// Reads the next line; returns its number, counted from 1, or for joined lines the number of the first.
+    /// `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<usize>, Problem> {
         self.line.clear();
         let is_there = self.append()?;

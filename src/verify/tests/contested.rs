@@ -1,4 +1,4 @@
-//! The pixels that a tree's planes excuse, compared with exact rays and the ranges of its nodes.
+//! The pixels that a tree's planes excuse, compared with exact rays and the ranges of the tree's nodes.
 
 use std::cmp::Ordering;
 
@@ -36,8 +36,8 @@ fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
 }
 
 /// The rule of the tolerance, exactly. A ray meets the nearer of two fragments within the tolerance of the
-/// plane between them, and also meets the other, or starts, within it; and it meets one of the two beyond
-/// that plane.
+/// plane between them. It also meets the other fragment, or starts, within the tolerance. And it meets one of
+/// the two fragments beyond that plane.
 fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
     let faces = tree.faces();
     let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());

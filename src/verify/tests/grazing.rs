@@ -12,7 +12,7 @@ use crate::{BuildOptions, Heuristic};
 
 const TOLERANCE: f64 = 1e-2;
 
-/// A floor, and a wall that stands on it: only the wall's foot is visible, and the floor behind it.
+/// A floor, and a wall that stands on it: only the wall's foot and the floor behind it are visible.
 fn wall_on_floor() -> BspTree {
     let floor = [(0.0, -9.0), (20.0, -9.0), (20.0, 9.0), (0.0, 9.0)].map(|(x, y)| [x, y, 0.0]);
     let wall = [(-9.0, 0.0), (9.0, 0.0), (9.0, 1.0), (-9.0, 1.0)].map(|(y, z)| [1.0, y, z]);
@@ -20,8 +20,8 @@ fn wall_on_floor() -> BspTree {
     first.with_tolerance(TOLERANCE).build([floor, wall]).unwrap()
 }
 
-/// Eyes as far above the floor as half the tolerance, whose rays all meet the wall lower than that,
-/// and the floor up to 18 behind it.
+/// Eyes half the tolerance above the floor. All their rays meet the wall below the eye, and the floor up to
+/// 18 behind the wall.
 fn cameras() -> [Camera; 2] {
     let (eye, foot) =
         (DVec3::new(-1.0, 0.0, 0.5 * TOLERANCE), DVec3::new(1.0, 0.0, 0.2 * TOLERANCE));
@@ -56,7 +56,7 @@ fn a_wrong_order_in_a_grazing_view_is_not_excused() {
     }
 }
 
-/// Also by the polygons alone: the floor is far from the wall's plane.
+/// The polygons alone also decide this: the floor is far from the wall's plane.
 #[test]
 fn a_floor_far_behind_a_wall_is_not_contested_by_the_polygons() {
     let tree = wall_on_floor();
@@ -69,7 +69,7 @@ fn a_floor_far_behind_a_wall_is_not_contested_by_the_polygons() {
     }
 }
 
-/// A wall that reaches below the floor's plane within the tolerance is excused there, and only there.
+/// A wall that reaches below the floor's plane within the tolerance is excused only there.
 #[test]
 fn what_reaches_across_the_plane_within_the_tolerance_is_excused() {
     let floor = [(3.0, 5.0), (4.0, 5.0), (4.0, 6.0), (3.0, 6.0)].map(|(x, y)| [x, y, 0.0]);
@@ -79,9 +79,9 @@ fn what_reaches_across_the_plane_within_the_tolerance_is_excused() {
     let polygons = [floor, wall(1.0, -0.9 * TOLERANCE, 1.0), wall(2.0, -1.0, 0.9 * TOLERANCE)];
     let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let tree = first.with_tolerance(TOLERANCE).build(polygons).unwrap();
-    // Rays along the plane, slightly upwards: the lower half below it, the upper one above; all within the
-    // tolerance. So the back is in front, and the wall behind is painted last: the front wall reaches
-    // across the plane below it, the other one above it.
+    // Rays nearly along the plane, slightly upwards, all within the tolerance: the lower half below the
+    // plane, the upper half above it. So the plane's back counts as nearer, and the wall behind is painted
+    // last. The front wall reaches across the plane below it, the other wall above it.
     let along = DVec3::new(1.0, 0.0, 1e-9);
     let camera = Camera::parallel(along, DVec3::Z, DVec3::X, TOLERANCE, [10, 10]).unwrap();
     for (is_reversed, contested) in [(false, 100), (true, 0)] {
@@ -109,7 +109,7 @@ fn rough(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
     polygons
 }
 
-/// Every exchange due to the tolerance is excused, seen along the planes from within the scene.
+/// Every exchange due to the tolerance is excused, seen along the planes from inside the scene.
 #[test]
 fn the_orders_of_trees_are_never_wrong() {
     let mut random = SplitMix64::new(3);

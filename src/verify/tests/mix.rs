@@ -1,4 +1,4 @@
-//! The method of engines: opaque polygons in any order by a depth buffer, then translucent ones in the
+//! The method of engines: opaque polygons in any order with a depth buffer, then translucent polygons in the
 //! tree's order, with the depth test on and depth writes off. Each pixel is judged by all polygons that an
 //! exact ray meets, sorted by their exact distances.
 
@@ -46,8 +46,8 @@ fn hits(rays: &Rays, faces: &Faces) -> Hits {
     pixels.map(of_pixel).collect()
 }
 
-/// The picture by sorting: the nearest opaque polygon, and everything in front of it. At the same distance
-/// translucent polygons are over opaque ones, and later ones over earlier.
+/// The picture by sorting: the nearest opaque polygon, and all polygons in front of it. At the same distance,
+/// translucent polygons are over opaque polygons, and later over earlier polygons.
 fn sorted_picture(faces: &Faces, hits: &Hits) -> Vec<Colour> {
     let of_pixel = |hits: &HashMap<u32, RBig>| {
         let mut all: Vec<(&RBig, bool, usize)> = hits
@@ -126,7 +126,7 @@ fn opaque_by_depth_and_translucent_in_tree_order_is_the_exact_picture() {
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic).with_tolerance(0.0);
             (heuristic, options.build(scene.polygons()).unwrap())
         });
-        // Both have the same faces.
+        // Both trees have the same faces.
         let faces = trees[0].1.faces();
         for camera in cameras(&scene, 2) {
             let rays = Rays::new(&camera, faces).unwrap();

@@ -65,8 +65,8 @@ fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
     }
 }
 
-/// Two walls, one of which reaches up and the other down across the plane of a floor at the side by less
-/// than the tolerance, seen along it.
+/// Two walls across the plane of a floor at the side, seen along it: one reaches up, the other down, by less
+/// than the tolerance.
 #[test]
 fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
     let unit = 1e-2;
@@ -83,7 +83,7 @@ fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
         let camera = Camera::perspective(eye, target, DVec3::Z, 0.01, [40, 40]).unwrap();
         verify(&tree, &camera).unwrap().comparison
     };
-    // From below, the wall in front is painted first, and the far one over its lower end.
+    // From below, the wall in front is painted first, and the far wall over its lower end.
     let within = look(unit, -1e-6);
     assert_eq!(within.wrong(), 0);
     assert!(within.contested > 0);

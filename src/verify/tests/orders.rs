@@ -22,7 +22,7 @@ fn orders(tree: &BspTree, camera: &Camera) -> Orders {
     Orders::of(tree, camera.viewpoint())
 }
 
-/// The judgement of orders, one form of which is not the tree's.
+/// The judgement of orders, one form of which is not the tree's order.
 fn judged(
     tree: &BspTree,
     camera: &Camera,
@@ -53,7 +53,7 @@ fn a_form_that_contradicts_the_others_is_named() {
             assert!(fault(&judgement).starts_with(&expected), "{}", fault(&judgement));
         }
     }
-    // Errors name the other forms, which are compared with the list.
+    // Errors name the other forms, because these are compared with the list.
     let judgement = judged(&tree, camera, 0, |list| list.swap(0, 1));
     assert!(fault(&judgement).starts_with("order contradicts"));
 }
@@ -76,7 +76,7 @@ fn fragments_listed_twice_or_never_or_from_nowhere_are_named() {
     }
 }
 
-/// The same opaque picture, but a transparent one would differ.
+/// The opaque picture is the same, but a transparent picture would differ.
 #[test]
 fn a_fragment_painted_twice_in_its_place_is_counted() {
     let (scene, tree) = case();
@@ -107,8 +107,8 @@ fn a_fragment_that_is_left_out_is_counted_though_others_hide_it() {
     assert!(hidden > 5, "only {hidden} hidden fragments");
 }
 
-/// The other subtree first at one node, for each node: some of these are visible, and only in the picture
-/// that is painted in that direction.
+/// For each node, the other subtree first: some of these faults are visible, only in the picture that is
+/// painted in that direction.
 #[test]
 fn a_flipped_side_shows_in_the_picture_of_its_direction() {
     let (scene, tree) = case();
