@@ -2,7 +2,7 @@
 //! each scene, and then the table of HEURISTICS.md.
 //!
 //! ```sh
-//! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench heuristics
+//! cargo bench -p binspace-benches --bench heuristics
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
@@ -12,9 +12,9 @@ use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, ErrorKind, Heuristic};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
-use support::{Table, best, best_of, check, print_head, scene, time, viewpoints};
+use support::{Table, best, best_of, check, is_file, print_head, scene, time, viewpoints};
 
-const SCENES: [&str; 25] = [
+const SCENES: [&str; 16] = [
     "newell",
     "crossing",
     "cornell",
@@ -26,39 +26,27 @@ const SCENES: [&str; 25] = [
     "random:1000",
     "chain:10000",
     "layers",
-    "cornell_box.obj",
-    "spider_1k.obj",
-    "forklift_1k.obj",
-    "doom_e1m1.obj",
-    "suzanne_2k.obj",
-    "teapot_quads_2k.obj",
-    "bunny_4k.obj",
-    "doom_map12_big.obj",
-    "bed_21k.obj",
-    "pool_table_29k.obj",
-    "teapot_quads_32k.obj",
-    "chessboard_63k.obj",
-    "maple_tree_166k.obj",
-    "showroom_big_cc0.obj",
+    "bunny.obj",
+    "spider.obj",
+    "person.obj",
+    "level.obj",
+    "level_large.obj",
 ];
 
 /// A build that takes longer is given up, and the table reports it.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(10);
 
 fn main() {
     print_head("Heuristics", "cargo bench -p binspace-benches --bench heuristics");
     let mut measured = Vec::new();
     for name in SCENES {
-        let Some(scene) = scene(name) else { continue };
+        let scene = scene(name);
         let rows = measure(name, &scene);
         measured.push((name, rows));
     }
-    let (files, built_in): (Vec<_>, Vec<_>) =
-        measured.iter().partition(|(name, _)| name.ends_with(".obj"));
-    summary("Each heuristic, relative to `auto`", &built_in);
-    if !files.is_empty() {
-        summary("Each heuristic, relative to `auto`, on the files", &files);
-    }
+    let (files, built_in): (Vec<_>, Vec<_>) = measured.iter().partition(|(name, _)| is_file(name));
+    summary("Heuristics on built-in scenes", &built_in);
+    summary("Heuristics on real scenes", &files);
 }
 
 struct Row {
@@ -154,13 +142,13 @@ const COLUMNS: [&str; 10] = [
     "             longest",
 ];
 
-type Figure = fn(&Row) -> f64;
+/// The number of decimals of a figure, and the figure of a row.
+type Figure = (usize, fn(&Row) -> f64);
 
 /// Prints the figures of each heuristic, divided by the figures of `auto`: geometric means, and the scenes with
 /// the smallest and the largest ratio. Scenes whose builds were given up are left out.
 fn summary(title: &str, measured: &[&(&str, Vec<Row>)]) {
-    // With the number of decimals.
-    let figures: [(usize, Figure); 3] = [
+    let figures: [Figure; 3] = [
         (2, |row| row.fragments as f64),
         (2, |row| row.build.as_secs_f64()),
         (1, |row| row.order.as_secs_f64()),

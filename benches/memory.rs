@@ -1,47 +1,58 @@
-//! Bytes of a finished tree, and the peak while it is built. Prints a table of RESULTS.md.
+//! Bytes of a finished tree, and the peak while it is built; and of what peers keep. Prints a table of figures.md.
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::BspTree;
+use binspace::glam::DVec3;
+use binspace::scene::Scene;
+use bvh::aabb::{Aabb, Bounded};
+use bvh::bounding_hierarchy::BHShape;
+use bvh::bvh::Bvh;
 use dhat::{HeapStats, Profiler};
-use support::{Table, Target, against, check, print_head, scene, viewpoints};
+use euclid::default::Point3D;
+use nalgebra::Point3;
+use plane_split::BspSplitter;
+use std::thread;
+use support::{Table, check, print_head, scene, triangulated, viewpoints};
 
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
 
-const SCENES: [&str; 12] = [
+const SCENES: [&str; 11] = [
     "random:1000",
+    "city:10000",
+    "sphere:10000",
     "city:100000",
     "sphere:100000",
     "terrain:100000",
-    "terrain:1000000",
-    "bunny_4k.obj",
-    "doom_map12_big.obj",
-    "teapot_quads_32k.obj",
-    "chessboard_63k.obj",
-    "pool_table_29k.obj",
-    "maple_tree_166k.obj",
-    "showroom_big_cc0.obj",
+    "bunny.obj",
+    "spider.obj",
+    "dragon_large.obj",
+    "engine.obj",
+    "level_large.obj",
 ];
+/// `plane-split` takes time quadratic in the polygons of a sphere, takes quads and triangles, and recurses as
+/// deep as its tree is.
+const MOST_SPLIT: usize = 11_000;
+const THEIR_STACK: usize = 4 << 30;
 
 fn main() {
     print_head("Memory", "cargo bench -p binspace-benches --bench memory");
     let table = Table::new(
-        "Memory: the tree, and the peak while it is built",
+        "Memory",
         &[
             "scene",
+            "polygons",
             "fragments",
-            "bytes / fragment",
-            "target",
-            "met",
-            "peak / tree",
-            "target",
-            "met",
+            "bytes a fragment",
+            "peak ÷ tree",
+            "bytes a polygon",
+            "plane-split, a polygon",
+            "bvh, a polygon",
         ],
     );
     for name in SCENES {
-        let Some(scene) = scene(name) else { continue };
+        let scene = scene(name);
         // Counts allocations from here on: the scene is not included.
         let profiler = Profiler::builder().testing().build();
         let tree = BspTree::build(scene.polygons()).expect("within budget");
@@ -58,11 +69,84 @@ fn main() {
         check(&tree, &scene);
         assert_eq!(order.len(), tree.len());
 
-        let each = built.curr_bytes as f64 / tree.len() as f64;
-        let [each, most, met] = against(each, Target::AtMost(160.0));
-        let peak = built.max_bytes as f64 / built.curr_bytes as f64;
-        let [peak, peak_target, peak_met] = against(peak, Target::AtMost(2.5));
-        let fragments = tree.len().to_string();
-        table.row(&[name.to_owned(), fragments, each, most, met, peak, peak_target, peak_met]);
+        let each = |bytes: usize, count: usize| format!("{:.0}", bytes as f64 / count as f64);
+        let can_split = scene.len() < MOST_SPLIT && scene.polygons().all(|p| p.points().len() < 5);
+        let split = can_split.then(|| each(bytes_of_splitter(&scene), scene.len()));
+        table.row(&[
+            name.to_owned(),
+            scene.len().to_string(),
+            tree.len().to_string(),
+            each(built.curr_bytes, tree.len()),
+            format!("{:.2}", built.max_bytes as f64 / built.curr_bytes as f64),
+            each(built.curr_bytes, scene.len()),
+            split.unwrap_or("–".to_owned()),
+            each(bytes_of_hierarchy(&scene), scene.len()),
+        ]);
+    }
+}
+
+/// The bytes that are kept of what a function returns.
+fn bytes_of<T>(make: impl FnOnce() -> T) -> usize {
+    let _profiler = Profiler::builder().testing().build();
+    let kept = make();
+    let bytes = HeapStats::get().curr_bytes;
+    drop(kept);
+    bytes
+}
+
+fn bytes_of_splitter(scene: &Scene) -> usize {
+    let work = || {
+        bytes_of(|| {
+            let mut splitter = BspSplitter::<usize>::new();
+            for (number, corners) in scene.polygons().enumerate() {
+                let points = corners.points();
+                let point = |k: usize| Point3D::from(points[k % points.len()].to_array());
+                let points = [0, 1, 2, 3].map(point);
+                // Polygons without an area have no plane.
+                if let Some(polygon) = plane_split::Polygon::from_points(points, number) {
+                    splitter.add(polygon);
+                }
+            }
+            splitter
+        })
+    };
+    thread::scope(|scope| {
+        let thread = thread::Builder::new().stack_size(THEIR_STACK).spawn_scoped(scope, work);
+        thread.expect("a thread").join().expect("plane-split does not panic here")
+    })
+}
+
+/// A hierarchy of boxes in `f32`, with the boxes of its triangles and without their corners.
+fn bytes_of_hierarchy(scene: &Scene) -> usize {
+    let triangles = triangulated(scene);
+    bytes_of(|| {
+        let bounds = |points: &[DVec3]| {
+            let points = points.iter().map(|p| Point3::from(p.as_vec3().to_array()));
+            points.fold(Aabb::empty(), |bounds, point| bounds.grow(&point))
+        };
+        let shapes = triangles.polygons().map(|p| Shape { bounds: bounds(p.points()), node: 0 });
+        let mut shapes: Vec<Shape> = shapes.collect();
+        (Bvh::build(&mut shapes), shapes)
+    })
+}
+
+struct Shape {
+    bounds: Aabb<f32, 3>,
+    node: usize,
+}
+
+impl Bounded<f32, 3> for Shape {
+    fn aabb(&self) -> Aabb<f32, 3> {
+        self.bounds
+    }
+}
+
+impl BHShape<f32, 3> for Shape {
+    fn set_bh_node_index(&mut self, index: usize) {
+        self.node = index;
+    }
+
+    fn bh_node_index(&self) -> usize {
+        self.node
     }
 }

@@ -1,100 +1,108 @@
-//! A build with every thread, against the surface area heuristic of the `bvh` crate with its rayon executor
-//! on the same triangles. Their boxes are computed beforehand, in `f32` as most of its users would, and in
-//! `f64`.
+//! A build on one thread and on two, against the surface area heuristic of the `bvh` crate on two threads, on
+//! the same polygons as triangles. Its boxes are computed beforehand, in `f32` as most of its users would.
 
 use binspace::BspTree;
+use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use bvh::aabb::{Aabb, Bounded};
-use bvh::bounding_hierarchy::{BHShape, BHValue};
+use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::{Bvh, rayon_executor};
 use nalgebra::Point3;
 use std::time::Duration;
-use support::{Table, Target, against, best, check, scene, time};
+use support::{Table, best, check, ratio, scene, threads, time, triangulated};
 
-const SCENES: [(&str, f64); 6] = [
-    ("bunny_4k.obj", 25.0),
-    ("doom_map12_big.obj", 15.0),
-    ("chessboard_63k.obj", 15.0),
-    ("teapot_quads_32k.obj", 15.0),
-    ("showroom_big_cc0.obj", 25.0),
-    ("maple_tree_166k.obj", 25.0),
+const SCENES: [&str; 13] = [
+    "random:1000",
+    "terrain:100000",
+    "sphere:100000",
+    "city:100000",
+    "terrain:1000000",
+    "bunny.obj",
+    "spider.obj",
+    "person.obj",
+    "dragon.obj",
+    "dragon_large.obj",
+    "engine.obj",
+    "level.obj",
+    "level_large.obj",
 ];
 
 pub(crate) fn run() {
     let table = Table::new(
-        "Build, two threads, against bvh",
+        "Build",
         &[
             "scene",
-            "triangles",
+            "polygons",
             "fragments",
-            "binspace",
-            "bvh f64",
-            "ratio",
-            "bvh f32",
-            "ratio",
-            "target",
-            "met",
+            "fragments a polygon",
+            "one thread",
+            "two threads",
+            "one ÷ two",
+            "bvh",
+            "bvh ÷ ours",
         ],
     );
-    for (name, target) in SCENES {
-        let Some(scene) = scene(name) else { continue };
-        let double = hierarchy(&boxes::<f64>(&scene, |x| x));
-        let single = hierarchy(&boxes::<f32>(&scene, |x| x as f32));
-        let (ours, tree) = best(|| BspTree::build(scene.polygons()).expect("within budget"));
-        check(&tree, &scene);
-        let ratio = |theirs: Duration| ours.as_secs_f64() / theirs.as_secs_f64();
-        let [of_single, target, met] = against(ratio(single), Target::AtMost(target));
+    let (one, two) = (threads(1), threads(2));
+    for name in SCENES {
+        let scene = scene(name);
+        let build = || BspTree::build(scene.polygons()).expect("within budget");
+        let (alone, by_one) = one.install(|| best(build));
+        let (together, by_two) = two.install(|| best(build));
+        check(&by_two, &scene);
+        assert_same(&by_one, &by_two);
+        let hierarchy = two.install(|| hierarchy(&scene));
         table.row(&[
             name.to_owned(),
-            boxes::<f64>(&scene, |x| x).len().to_string(),
-            tree.len().to_string(),
-            time(ours),
-            time(double),
-            format!("{:.2}", ratio(double)),
-            time(single),
-            of_single,
-            target,
-            met,
+            scene.len().to_string(),
+            by_two.len().to_string(),
+            format!("{:.2}", by_two.len() as f64 / scene.len() as f64),
+            time(alone),
+            time(together),
+            ratio(alone, together),
+            time(hierarchy),
+            ratio(hierarchy, together),
         ]);
     }
 }
 
+/// The same statistics, and the same fragments bit for bit in the same places.
+fn assert_same(a: &BspTree, b: &BspTree) {
+    assert_eq!(a.stats(), b.stats());
+    for (a, b) in a.fragments().zip(b.fragments()) {
+        assert_eq!(a.polygon(), b.polygon());
+        assert!(a.vertices().eq(b.vertices()));
+    }
+}
+
 /// The shortest time to build a hierarchy of boxes.
-fn hierarchy<T: BHValue + Send>(boxes: &[Shape<T>]) -> Duration {
-    let mut boxes = boxes.to_vec();
+fn hierarchy(scene: &Scene) -> Duration {
+    let triangles = triangulated(scene);
+    let bounds = |points: &[DVec3]| {
+        let points = points.iter().map(|p| Point3::from(p.as_vec3().to_array()));
+        points.fold(Aabb::empty(), |bounds, point| bounds.grow(&point))
+    };
+    let mut boxes: Vec<Shape> = triangles
+        .polygons()
+        .map(|corners| Shape { bounds: bounds(corners.points()), node: 0 })
+        .collect();
     let (shortest, hierarchy) = best(|| Bvh::build_with_executor(&mut boxes, rayon_executor));
     assert_eq!(hierarchy.nodes.len(), 2 * boxes.len() - 1);
     shortest
 }
 
-/// The box of each triangle. Faces are cut into fans: a hierarchy does not mind that some of them
-/// are not convex.
-fn boxes<T: BHValue>(scene: &Scene, number: impl Fn(f64) -> T) -> Vec<Shape<T>> {
-    let mut boxes = Vec::new();
-    for corners in scene.polygons() {
-        for pair in corners.points().windows(2).skip(1) {
-            let corners = [corners.points()[0], pair[0], pair[1]];
-            let points = corners.map(|p| Point3::from(p.to_array().map(&number)));
-            let bounds = points.iter().fold(Aabb::empty(), |bounds, point| bounds.grow(point));
-            boxes.push(Shape { bounds, node: 0 });
-        }
-    }
-    boxes
-}
-
 #[derive(Clone)]
-struct Shape<T: BHValue> {
-    bounds: Aabb<T, 3>,
+struct Shape {
+    bounds: Aabb<f32, 3>,
     node: usize,
 }
 
-impl<T: BHValue> Bounded<T, 3> for Shape<T> {
-    fn aabb(&self) -> Aabb<T, 3> {
+impl Bounded<f32, 3> for Shape {
+    fn aabb(&self) -> Aabb<f32, 3> {
         self.bounds
     }
 }
 
-impl<T: BHValue> BHShape<T, 3> for Shape<T> {
+impl BHShape<f32, 3> for Shape {
     fn set_bh_node_index(&mut self, index: usize) {
         self.node = index;
     }

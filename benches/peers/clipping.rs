@@ -18,10 +18,8 @@ const LEAST_JUDGED: usize = 10;
 const NEAR: [f64; 3] = [1e-2, 1e-6, 1e-9];
 
 pub(crate) fn run() {
-    let table = Table::new(
-        "A floor that reaches behind the eye: clipped to the viewport or not",
-        &["page", "way", "pieces", "frame", "judged", "wrong"],
-    );
+    let table =
+        Table::new("Floor behind the eye", &["page", "way", "pieces", "frame", "judged", "wrong"]);
     for page in Page::ALL {
         let mut layers = page.layers(COUNT, SEED);
         let floor = DMat4::from_translation(dvec3(0.0, 420.0, 0.0))

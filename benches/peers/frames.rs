@@ -4,9 +4,8 @@
 use binspace::{BuildOptions, FrameBuilder, Viewpoint};
 use euclid::default::Point3D;
 use plane_split::BspSplitter;
-use rayon::ThreadPoolBuilder;
 use std::time::Duration;
-use support::{SEED, Table, Target, against, best_of, time};
+use support::{SEED, Table, best_of, ratio, threads, time};
 use testkit::pages::{Page, SCREEN};
 
 type Outline = [[f64; 3]; 4];
@@ -19,22 +18,20 @@ const MARGIN: f64 = 1e-3;
 
 pub(crate) fn run() {
     let table = Table::new(
-        "Frames of a page of layers, one thread, against plane-split 0.18",
+        "Page of layers",
         &[
             "page",
             "our pieces",
-            "theirs",
+            "its pieces",
             "our frame",
-            "theirs",
-            "theirs / ours",
-            "target",
-            "met",
-            "judged",
-            "ours wrong",
-            "theirs wrong",
+            "its frame",
+            "its time ÷ ours",
+            "points",
+            "our wrong",
+            "its wrong",
         ],
     );
-    let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let pool = threads(1);
     for page in Page::ALL {
         for count in COUNTS {
             let layers = page.layers(count, SEED);
@@ -61,17 +58,13 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let (_, their_faults) = judge(depths, &of_theirs);
     assert!(judged > 10, "{name}: {judged} points");
     assert_eq!(our_faults, 0, "{name}");
-    let ratio = theirs.as_secs_f64() / ours.as_secs_f64();
-    let [ratio, target, met] = against(ratio, Target::AtLeast(1.0));
     table.row(&[
         name,
         of_ours.len().to_string(),
         of_theirs.len().to_string(),
         time(ours),
         time(theirs),
-        ratio,
-        target,
-        met,
+        ratio(theirs, ours),
         judged.to_string(),
         our_faults.to_string(),
         their_faults.to_string(),

@@ -1,9 +1,9 @@
 //! The library against its peers: the crates that its users would take instead, on the same work, in the same
-//! run. Prints the tables of RESULTS.md.
+//! run. Prints tables of figures.md.
 //!
 //! ```sh
-//! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench peers            # all sections, some minutes
-//! cargo bench -p binspace-benches --bench peers -- order plane-split         # some of them
+//! cargo bench -p binspace-benches --bench peers                          # all sections
+//! cargo bench -p binspace-benches --bench peers -- order plane-split     # some of them
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
@@ -14,31 +14,26 @@ mod clipping;
 mod culling;
 mod drawings;
 mod exactness;
-mod fragments;
 mod frames;
-mod growth;
 mod mesh;
 mod order;
 mod overlay;
 mod plane_split;
 mod rays;
-mod rulings;
 mod same;
 mod saved;
-mod threads;
+mod transparency;
 
 /// A section's name on the command line, and its function.
 type Section = (&'static str, fn());
 
 const SECTIONS: &[Section] = &[
     ("order", order::run),
+    ("transparency", transparency::run),
     ("mesh", mesh::run),
     ("overlay", overlay::run),
     ("same-order", same::run),
     ("build", build::run),
-    ("threads", threads::run),
-    ("growth", growth::run),
-    ("fragments", fragments::run),
     ("plane-split", plane_split::run),
     ("frames", frames::run),
     ("clipping", clipping::run),
@@ -46,7 +41,6 @@ const SECTIONS: &[Section] = &[
     ("drawings", drawings::run),
     ("gl2ps", drawings::gl2ps::run),
     ("exactness", exactness::run),
-    ("rulings", rulings::run),
     ("saved", saved::run),
     ("rays", rays::run),
 ];

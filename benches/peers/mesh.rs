@@ -3,16 +3,16 @@
 use binspace::mesh::Mesh;
 use binspace::{BspTree, Error, Viewpoint};
 use std::time::{Duration, Instant};
-use support::{Table, Target, against, check, scene, time, viewpoints};
+use support::{Table, check, ratio, scene, time, viewpoints};
 
 const SCENES: [&str; 7] = [
     "terrain:100000",
     "sphere:10000",
     "city:100000",
     "random:1000",
-    "bunny_4k.obj",
-    "chessboard_63k.obj",
-    "maple_tree_166k.obj",
+    "bunny.obj",
+    "engine.obj",
+    "level_large.obj",
 ];
 
 type Make = fn(&BspTree) -> Result<Mesh, Error>;
@@ -22,7 +22,7 @@ const KINDS: [(&str, Make); 2] = [("loose", BspTree::mesh), ("welded", BspTree::
 
 pub(crate) fn run() {
     let table = Table::new(
-        "Indices back to front, one thread, against the order of the fragments",
+        "Index buffers",
         &[
             "scene",
             "fragments",
@@ -31,13 +31,11 @@ pub(crate) fn run() {
             "made in",
             "order",
             "indices",
-            "ratio",
-            "target",
-            "met",
+            "indices ÷ order",
         ],
     );
     for name in SCENES {
-        let Some(scene) = scene(name) else { continue };
+        let scene = scene(name);
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         check(&tree, &scene);
         for (kind, make) in KINDS {
@@ -47,11 +45,9 @@ pub(crate) fn run() {
             let (mut ordering, mut writing) = (Duration::ZERO, Duration::ZERO);
             for viewpoint in viewpoints(&scene) {
                 let [order, write] = compare(&tree, &mesh, viewpoint);
-                ordering += order;
-                writing += write;
+                ordering += order / 5;
+                writing += write / 5;
             }
-            let ratio = writing.as_secs_f64() / ordering.as_secs_f64();
-            let [ratio, target, met] = against(ratio, Target::AtMost(1.5));
             table.row(&[
                 name.to_owned(),
                 tree.len().to_string(),
@@ -60,9 +56,7 @@ pub(crate) fn run() {
                 time(making),
                 time(ordering),
                 time(writing),
-                ratio,
-                target,
-                met,
+                ratio(writing, ordering),
             ]);
         }
     }

@@ -5,31 +5,53 @@
 use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::scene::{Builtin, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{env, fs, thread};
 use testkit::dice::Dice;
+use testkit::shapes::fan;
 
 /// The seed of every generated scene.
 pub const SEED: u64 = 1;
 
-/// A built-in scene, or a file in the folder `BINSPACE_SCENES`. A missing file is named and left out.
-pub fn scene(name: &str) -> Option<Scene> {
-    if !name.ends_with(".obj") {
-        let (scene, size) = Builtin::parse(name).expect("the name of a scene");
-        return Some(scene.build(size, SEED));
-    }
-    let Some(folder) = env::var_os("BINSPACE_SCENES") else {
-        eprintln!("left out: {name} (BINSPACE_SCENES does not name its folder)");
-        return None;
+/// A scene by name: built in, made here, or a file of `benches/scenes`.
+pub fn scene(name: &str) -> Scene {
+    let count = |text: &str| text.parse().expect("a number");
+    let round = |number: &str, height: f64| {
+        let mut scene = Scene::new(name.to_owned(), DVec3::Z);
+        fan(count(number) as usize, height).into_iter().for_each(|corners| scene.push(corners, 0));
+        scene
     };
-    match Scene::read_obj(Path::new(&folder).join(name)) {
-        Ok((scene, _)) => Some(scene),
-        Err(error) => {
-            eprintln!("left out: {name} ({error})");
-            None
+    match name.split_once(':') {
+        Some(("triangles in cubes", number)) => triangles_in_cubes(count(number)),
+        Some(("random quads", number)) => random_quads(count(number)),
+        Some(("small triangles", number)) => small_triangles(count(number)),
+        Some(("fan", number)) => round(number, 0.0),
+        Some(("cone", number)) => round(number, 1.5),
+        _ if is_file(name) => {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/files").join(name);
+            let read = Scene::read_obj(&path);
+            read.unwrap_or_else(|_| panic!("no {name}: run python3 benches/scenes/fetch.py")).0
         }
+        _ => {
+            let (scene, size) = Builtin::parse(name).expect("the name of a scene");
+            scene.build(size, SEED)
+        }
+    }
+}
+
+/// Whether a scene of this name is read from a file.
+pub fn is_file(name: &str) -> bool {
+    name.ends_with(".obj")
+}
+
+/// The direction that points up in a scene.
+pub fn up(name: &str) -> DVec3 {
+    match is_file(name) && !name.starts_with("level") {
+        true => DVec3::Y,
+        false => DVec3::Z,
     }
 }
 
@@ -72,26 +94,19 @@ pub fn boxes(count: u32) -> Scene {
     scene
 }
 
-/// Strips along both families of lines of z = x y, on some patches of it side by side: many planes hold one
-/// line, and many lines meet in one point. `strips`: number per patch, a multiple of 4.
-pub fn rulings(strips: i32, patches: i32) -> Scene {
+/// Strips along both families of lines of z = x y: many planes hold one line, and many lines meet in one point.
+/// `strips`: a multiple of 4.
+pub fn rulings(strips: i32) -> Scene {
     let half = strips / 4;
-    let name = match patches {
-        1 => format!("rulings:{strips}"),
-        _ => format!("rulings:{strips}, {patches} times"),
-    };
-    let mut scene = Scene::new(name, DVec3::Z);
-    for patch in 0..patches {
-        let place = [patch % 4, patch / 4 % 4, 8 * (patch / 16)].map(|k| f64::from(200 * k));
-        for i in -half..half {
-            let along_x = [[i, -half, -half * i], [i, half, half * i]];
-            let along_y = along_x.map(|[x, y, z]| [y, x, z]);
-            let (flat, upright) = ((7 * i + patch).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
-            for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {
-                let [a, b] = line.map(|p| DVec3::from(place) + DVec3::from(p.map(f64::from)));
-                let arm = DVec3::from(arm.map(f64::from));
-                scene.push([a, b, b + arm, a + arm], 0);
-            }
+    let mut scene = Scene::new(format!("rulings:{strips}"), DVec3::Z);
+    for i in -half..half {
+        let along_x = [[i, -half, -half * i], [i, half, half * i]];
+        let along_y = along_x.map(|[x, y, z]| [y, x, z]);
+        let (flat, upright) = ((7 * i).rem_euclid(3) - 1, 1 + (5 * i).rem_euclid(6));
+        for (line, arm) in [(along_x, [flat, 0, upright]), (along_y, [0, flat, upright])] {
+            let [a, b] = line.map(|p| DVec3::from(p.map(f64::from)));
+            let arm = DVec3::from(arm.map(f64::from));
+            scene.push([a, b, b + arm, a + arm], 0);
         }
     }
     scene
@@ -130,7 +145,7 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
 
 /// Work is repeated for at most this long, or this many times: more would give the same shortest
 /// time.
-const ENOUGH: (Duration, u32) = (Duration::from_secs(2), 200);
+const ENOUGH: (Duration, u32) = (Duration::from_secs(1), 200);
 
 /// The shortest time of several, three at least, and the last result.
 pub fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
@@ -206,23 +221,15 @@ impl Table {
     }
 }
 
-/// A measured ratio against its target, the last three cells of a row.
-pub fn against(measured: f64, target: Target) -> [String; 3] {
-    let (sign, limit, met) = match target {
-        Target::AtMost(limit) => ('≤', limit, measured <= limit),
-        Target::AtLeast(limit) => ('≥', limit, measured >= limit),
-    };
-    let verdict = if met { "yes" } else { "no" };
-    [format!("{measured:.2}"), format!("{sign} {limit}"), verdict.to_owned()]
+/// A ratio of times.
+pub fn ratio(a: Duration, b: Duration) -> String {
+    let ratio = a.as_secs_f64() / b.as_secs_f64();
+    if ratio < 0.1 { format!("{ratio:.3}") } else { format!("{ratio:.2}") }
 }
 
-/// The target of a figure.
-#[derive(Clone, Copy, Debug)]
-pub enum Target {
-    /// At most this.
-    AtMost(f64),
-    /// At least this.
-    AtLeast(f64),
+/// A pool of threads to measure in.
+pub fn threads(count: usize) -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(count).build().expect("threads")
 }
 
 /// A time with three digits.
@@ -241,8 +248,6 @@ pub fn print_head(title: &str, command: &str) {
     println!("- command: `{command}`");
     println!("- date: {}", said_by("date", &["-u", "+%Y-%m-%d %H:%M UTC"]));
     println!("- commit: {}", said_by("git", &["describe", "--always", "--abbrev=10", "--dirty"]));
-    let builder = ["log", "-1", "--abbrev=10", "--format=%h", "--", "../src/build"];
-    println!("- last change to building: {}", said_by("git", &builder));
     println!("- machine: {}", machine());
     println!("- compiler: {}", said_by("rustc", &["--version"]));
     println!("- generated scenes by seed {SEED}; shortest time of several, all in one run");

@@ -63,7 +63,7 @@ fn indices(triangles: &[[DVec3; 3]]) -> Vec<[u32; 3]> {
 }
 
 /// A hierarchy of boxes, and the triangles in them. Its own test of a triangle leaves out backs, so
-/// both windings are tested.
+/// the triangle is tested with the winding that faces the ray.
 pub(crate) struct Bvh {
     hierarchy: bvh::bvh::Bvh<f64, 3>,
     triangles: Vec<Triangle>,
@@ -71,6 +71,7 @@ pub(crate) struct Bvh {
 
 struct Triangle {
     corners: [Point3<f64>; 3],
+    normal: Vector3<f64>,
     bounds: Aabb<f64, 3>,
     node: usize,
 }
@@ -78,8 +79,9 @@ struct Triangle {
 impl Triangle {
     fn meets(&self, ray: &bvh::ray::Ray<f64, 3>) -> f64 {
         let [a, b, c] = &self.corners;
-        let front = ray.intersects_triangle(a, b, c).distance;
-        if front.is_finite() { front } else { ray.intersects_triangle(a, c, b).distance }
+        let is_front = self.normal.dot(&ray.direction) < 0.0;
+        let (b, c) = if is_front { (b, c) } else { (c, b) };
+        ray.intersects_triangle(a, b, c).distance
     }
 }
 
@@ -104,7 +106,8 @@ impl Bvh {
         let triangle = |corners: &[DVec3; 3]| {
             let corners = corners.map(|c| Point3::from(c.to_array()));
             let bounds = corners.iter().fold(Aabb::empty(), |bounds, point| bounds.grow(point));
-            Triangle { corners, bounds, node: 0 }
+            let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+            Triangle { corners, normal, bounds, node: 0 }
         };
         let mut triangles: Vec<Triangle> = triangles.iter().map(triangle).collect();
         let hierarchy = bvh::bvh::Bvh::build(&mut triangles);

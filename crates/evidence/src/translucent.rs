@@ -5,7 +5,9 @@ use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
 use crate::layers::Layers;
+use binspace::Viewpoint;
 use binspace::internals::Pieces;
+use binspace::view::Camera;
 
 /// A colour, each channel from 0 to 1.
 pub type Colour = [f32; 3];
@@ -93,6 +95,109 @@ pub fn by_layers(
     layers.pixels().map(blend).collect()
 }
 
+/// The nearest layers of each pixel blended, the furthest of these first: depth peeling (C. Everitt, "Interactive
+/// order-independent transparency", 2001) that stops after some passes. Its depth tests are exact here.
+pub fn by_nearest_layers(
+    faces: &Faces,
+    layers: &Layers,
+    passes: usize,
+    look: impl Fn(usize) -> Look,
+    background: Colour,
+) -> Vec<Colour> {
+    let blend = |layers: &[u32]| {
+        let nearest = layers[..layers.len().min(passes)].iter().rev();
+        nearest.map(|&face| look(faces.polygon(face))).fold(background, |behind, l| l.over(behind))
+    };
+    layers.pixels().map(blend).collect()
+}
+
+/// The weights of [`by_weights`], by the numbers of their equations. They take the distance of a layer from the
+/// eye: in 7 to 9 as if the furthest corner had the distance 500, in 10 as the depth between the nearest and the
+/// furthest corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// 10 / (10⁻⁵ + (z/5)² + (z/200)⁶).
+    Equation7,
+    /// 10 / (10⁻⁵ + (z/10)³ + (z/200)⁶).
+    Equation8,
+    /// 0.03 / (10⁻⁵ + (z/200)⁴).
+    Equation9,
+    /// 3·10³ (1 − d)³.
+    Equation10,
+}
+
+impl Weight {
+    /// All weights.
+    pub const ALL: [Self; 4] =
+        [Self::Equation7, Self::Equation8, Self::Equation9, Self::Equation10];
+
+    /// The weight at a distance between the nearest and the furthest.
+    fn at(self, z: f64, [near, far]: [f64; 2]) -> f64 {
+        let scaled = 500.0 * z / far;
+        let weight = match self {
+            Self::Equation7 => 10.0 / (1e-5 + (scaled / 5.0).powi(2) + (scaled / 200.0).powi(6)),
+            Self::Equation8 => 10.0 / (1e-5 + (scaled / 10.0).powi(3) + (scaled / 200.0).powi(6)),
+            Self::Equation9 => 0.03 / (1e-5 + (scaled / 200.0).powi(4)),
+            Self::Equation10 => {
+                let depth = (1.0 / near - 1.0 / z) / (1.0 / near - 1.0 / far);
+                3e3 * (1.0 - depth).powi(3)
+            }
+        };
+        weight.clamp(1e-2, 3e3)
+    }
+}
+
+/// Weighted blended order-independent transparency (M. McGuire and L. Bavoil, "Weighted blended
+/// order-independent transparency", 2013): the mean of the layers' colours by opacity and weight, over the
+/// background as often as the layers cover it.
+///
+/// # Panics
+///
+/// If the camera is a parallel one.
+pub fn by_weights(
+    faces: &Faces,
+    layers: &Layers,
+    camera: &Camera,
+    weight: Weight,
+    look: impl Fn(usize) -> Look,
+    background: Colour,
+) -> Vec<Colour> {
+    let Viewpoint::Eye(eye) = camera.viewpoint() else { panic!("a perspective camera") };
+    // The plane of a face, from the eye.
+    let plane = |face: u32| {
+        let lattice = faces.lattice();
+        let corner = |k| lattice.to_world(faces.corner(k)) - eye;
+        let [a, b, c] = faces.reference_triangle(face).map(corner);
+        let normal = (b - a).cross(c - a);
+        (normal, normal.dot(a))
+    };
+    let planes: Vec<_> = (0..faces.len() as u32).map(plane).collect();
+    let distances = (0..faces.len() as u32)
+        .flat_map(|face| faces.corners(face))
+        .map(|&corner| (faces.lattice().to_world(corner) - eye).dot(camera.forward()));
+    let range = distances
+        .fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], z| [low.min(z.max(1e-3)), high.max(z)]);
+    let ([width, height], pixel) = (camera.size(), camera.pixel_size());
+    let blend = |(number, layers): (usize, &[u32])| {
+        let (x, y) = (number as u32 % width, number as u32 / width);
+        let across = (f64::from(x) + 0.5 - 0.5 * f64::from(width)) * pixel[0];
+        let up = (0.5 * f64::from(height) - f64::from(y) - 0.5) * pixel[1];
+        let ray = camera.forward() + camera.right() * across + camera.up() * up;
+        let (mut sum, mut weights, mut revealed) = ([0.0; 3], 0.0, 1.0);
+        for &face in layers {
+            let look = look(faces.polygon(face));
+            let (normal, offset) = planes[face as usize];
+            let share = weight.at(offset / normal.dot(ray), range) as f32 * look.opacity;
+            sum = [0, 1, 2].map(|i| sum[i] + look.colour[i] * share);
+            weights += share;
+            revealed *= 1.0 - look.opacity;
+        }
+        let mean = sum.map(|c| c / f32::max(weights, 1e-5));
+        [0, 1, 2].map(|i| mean[i] * (1.0 - revealed) + background[i] * revealed)
+    };
+    layers.pixels().enumerate().map(blend).collect()
+}
+
 /// The number of pixels that differ in a bit.
 pub fn differences(a: &[Colour], b: &[Colour]) -> usize {
     let bits = |colour: &Colour| colour.map(f32::to_bits);
@@ -108,6 +213,7 @@ pub fn rgb(pixels: &[Colour]) -> Vec<u8> {
 mod tests {
     use super::*;
     use crate::method::centroid_order;
+    use binspace::glam::DVec3;
     use binspace::scene;
     use binspace::view;
     use binspace::{BuildOptions, Heuristic};
@@ -115,6 +221,43 @@ mod tests {
     fn look(polygon: usize) -> Look {
         let colour = binspace::raster::colour_of(polygon).map(|c| f32::from(c) / 255.0);
         Look { colour, opacity: 0.2 + 0.1 * (polygon % 7) as f32 }
+    }
+
+    /// Two squares that fill a picture, the nearer one red with opacity 0.5, the further one green with opacity 0.25;
+    /// and white behind them.
+    #[test]
+    fn blends_without_an_order_are_those_by_hand() {
+        let square = |z: f64| [[-9., -9., z], [9., -9., z], [9., 9., z], [-9., 9., z]];
+        let (faces, _) = Faces::new([square(-1.0), square(-2.0)], Some(0.0)).unwrap();
+        let (eye, middle) = (DVec3::ZERO, DVec3::NEG_Z);
+        let camera = Camera::perspective(eye, middle, DVec3::Y, 1.0, [4, 4]).unwrap();
+        let layers = Layers::new(&Rays::new(&camera, &faces).unwrap(), &faces);
+        let look = |polygon| match polygon {
+            0 => Look { colour: [1.0, 0.0, 0.0], opacity: 0.5 },
+            _ => Look { colour: [0.0, 1.0, 0.0], opacity: 0.25 },
+        };
+        let all_near = |found: Vec<Colour>, expected: Colour| {
+            assert_eq!(found.len(), 16);
+            for (found, expected) in found.as_flattened().iter().zip(expected.repeat(16)) {
+                assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+            }
+        };
+        let white = [1.0; 3];
+        let peeled = |passes| by_nearest_layers(&faces, &layers, passes, look, white);
+        all_near(peeled(1), [1.0, 0.5, 0.5]);
+        all_near(peeled(2), [0.875, 0.5, 0.375]);
+        assert_eq!(peeled(2), by_layers(&faces, &layers, look, white));
+        // The distances 1 and 2 count as 250 and 500; 0.375 of the white remains.
+        let weights = [0.03 / (1e-5 + 1.25_f64.powi(4)), 0.03 / (1e-5 + 2.5_f64.powi(4))];
+        let share = weights[0] * 0.5 / (weights[0] * 0.5 + weights[1].max(0.01) * 0.25);
+        let [red, green] = [share, 1.0 - share].map(|share| (0.625 * share + 0.375) as f32);
+        let found = by_weights(&faces, &layers, &camera, Weight::Equation9, look, white);
+        all_near(found, [red, green, 0.375]);
+        // The nearest depth is 0, the furthest 1, where the weight is limited.
+        let share = 3e3 * 0.5 / (3e3 * 0.5 + 0.01 * 0.25);
+        let [red, green] = [share, 1.0 - share].map(|share: f64| (0.625 * share + 0.375) as f32);
+        let found = by_weights(&faces, &layers, &camera, Weight::Equation10, look, white);
+        all_near(found, [red, green, 0.375]);
     }
 
     #[test]

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Measures every figure of the documents, and keeps the documents equal to what was measured.
+
+    python3 benches/figures.py           # measures, writes benches/figures.md, fills the documents: 20 minutes
+    python3 benches/figures.py fill      # fills the documents from benches/figures.md
+    python3 benches/figures.py check     # fails if a document differs from benches/figures.md
+
+A document has a comment before a table: the title of a table of figures.md, and perhaps some of its columns.
+
+    <!-- figures: Build | scene, polygons, two threads -->
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+FIGURES = ROOT / "benches/figures.md"
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted(ROOT.glob("benches/[A-Z]*.md"))]
+BENCHES = ["peers", "memory", "heuristics", "ablation"]
+UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
+
+# Work, peer, its table, the column of its time ÷ ours or the columns of both, perhaps the value of another column, our
+# errors, its errors.
+PEERS = [
+    ("order of a frame", "`radsort`: one depth a polygon", "Order of a frame", "sort ÷ order", None,
+     "wrong", "wrong by sort"),
+    ("page of layers", "`plane-split` 0.18", "Page of layers", "its time ÷ ours", None, "our wrong", "its wrong"),
+    ("SVG of a mesh", "`gl2ps`, its tree", "SVG of a mesh", "its time ÷ ours", ("gl2ps sorts by", "bsp"),
+     "our wrong", "its wrong"),
+    ("SVG of a mesh", "`gl2ps`, sorted depths", "SVG of a mesh", "its time ÷ ours", ("gl2ps sorts by", "simple"),
+     "our wrong", "its wrong"),
+    ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
+]
+# As above: what has no order, or is not tuned.
+OTHERS = [
+    ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
+    ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),
+    ("memory", "`bvh`, no order", "Memory", ("bvh, a polygon", "bytes a polygon"), None, None, None),
+]
+# Work, its table, the column of its time, and the pattern of the rows.
+SPEEDS = [
+    ("order of a frame, a fragment", "Order of a frame", "ns a fragment", ".*", " ns"),
+    ("tree of 100 000 polygons, two threads", "Build", "two threads", ".*:100000", ""),
+    ("200 polygons that move ÷ a new tree", "Moving polygons", "replace ÷ rebuild", ".*", ""),
+    ("saved tree: read ÷ build", "Saved trees", "read ÷ build", ".*", ""),
+]
+
+
+class Fault(Exception):
+    """A message for the user."""
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def read_tables(text):
+    """The tables of figures.md by title: lists of rows, the names of the columns first."""
+    tables = {}
+    for title, body in re.findall(r"^## (.+)\n\n((?:\|.*\n)+)", text, re.MULTILINE):
+        head, _, *rows = body.splitlines()
+        tables[title] = [cells(head), *map(cells, rows)]
+    head = ["work", "peer", "its ÷ ours", "our errors", "its errors"]
+    tables["Peers"] = [head, *(peer(tables, *row) for row in PEERS)]
+    tables["Others"] = [head[:3], *(peer(tables, *row)[:3] for row in OTHERS)]
+    tables["Speeds"] = [["work", "measured"], *(speed(tables, *row) for row in SPEEDS)]
+    return tables
+
+
+def table_of(tables, title):
+    if title not in tables:
+        raise Fault(f"benches/figures.md has no table “{title}”")
+    return tables[title]
+
+
+def column(table, name, rows=None):
+    if name not in table[0]:
+        raise Fault(f"no column “{name}” among {table[0]}")
+    place = table[0].index(name)
+    return [row[place] for row in (table[1:] if rows is None else rows)]
+
+
+def value(cell):
+    number, *unit = cell.split()
+    return float(number) * UNITS.get(unit[0] if unit else "", 1.0)
+
+
+def span(found, unit=""):
+    """The least and the greatest of some cells."""
+    least, greatest = min(found, key=value), max(found, key=value)
+    if least == greatest:
+        return least + unit
+    (_, *of_least), (_, *of_greatest) = least.split(), greatest.split()
+    return (least.split()[0] if of_least == of_greatest else least) + "–" + greatest + unit
+
+
+def peer(tables, work, name, title, ratio, only, ours, theirs):
+    table = table_of(tables, title)
+    rows = table[1:]
+    if only:
+        rows = [row for row, cell in zip(rows, column(table, only[0])) if cell == only[1]]
+    errors = [span(column(table, errors, rows)) if errors else "–" for errors in (ours, theirs)]
+    if isinstance(ratio, tuple):
+        both = zip(*(map(value, column(table, one, rows)) for one in ratio))
+        ratios = [f"{theirs / ours:.2f}" for theirs, ours in both]
+    else:
+        ratios = column(table, ratio, rows)
+    return [work, name, span(ratios), *errors]
+
+
+def speed(tables, work, title, name, pattern, unit):
+    table = table_of(tables, title)
+    rows = [row for row in table[1:] if re.fullmatch(pattern, row[0])]
+    return [work, span(column(table, name, rows), unit)]
+
+
+def rendered(tables, title, columns):
+    table = table_of(tables, title)
+    if columns:
+        names = [name.strip() for name in columns.split(",")]
+        table = [names, *zip(*(column(table, name) for name in names))]
+    lines = [table[0], ["---"] + ["---:"] * (len(table[0]) - 1), *table[1:]]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def filled(tables, text):
+    """A document with the tables of figures.md behind its comments."""
+    return re.sub(r"(<!-- figures: (.+?)(?: \| (.+?))? -->)\n*(?:\|.*\n)*\n*",
+                  lambda m: f"{m[1]}\n\n{rendered(tables, m[2], m[3])}\n", text).rstrip("\n") + "\n"
+
+
+def measure():
+    subprocess.run([sys.executable, ROOT / "benches/scenes/fetch.py"], check=True)
+    printed = []
+    for bench in BENCHES:
+        command = ["cargo", "bench", "-p", "binspace-benches", "--bench", bench]
+        print(" ".join(command), flush=True)
+        printed.append(subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout)
+    FIGURES.write_text("\n".join(printed))
+
+
+def main(job):
+    if job == "measure":
+        measure()
+    tables = read_tables(FIGURES.read_text())
+    different = []
+    for document in DOCUMENTS:
+        text = document.read_text()
+        right = filled(tables, text)
+        if text != right:
+            different.append(str(document.relative_to(ROOT)))
+            if job != "check":
+                document.write_text(right)
+    if job == "check" and different:
+        raise Fault(f"{', '.join(different)}: figures differ from benches/figures.md; "
+                    "run python3 benches/figures.py fill")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] not in ([], ["fill"], ["check"]):
+        sys.exit(__doc__)
+    try:
+        main(*(sys.argv[1:] or ["measure"]))
+    except Fault as fault:
+        sys.exit(f"figures.py: {fault}")
