@@ -547,9 +547,11 @@ class _Built:
     def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
-        valid = everything[~np.isnan(everything).any(1)]
-        # Coordinates of the tree are from -1 to 1: axes may have very different scales.
-        low, high = (valid.min(0), valid.max(0)) if len(valid) else (-np.ones(3), np.ones(3))
+        # Coordinates of the tree are from -1 to 1: axes may have very different scales. NaN are left out.
+        low, high = (
+            np.nan_to_num([ends.reduce(everything[:, axis], initial=np.nan) for axis in range(3)])
+            for ends in (np.fmin, np.fmax)
+        )
         self.middle, self.scale = low + (high - low) / 2, np.where(high > low, (high - low) / 2, 1.0)
         points, lines, markers = ((part - self.middle) / self.scale for part in (points, lines, markers))
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
@@ -660,7 +662,7 @@ def _views(offsets):
         codes = np.full(len(around), Path.LINETO, np.uint8)
         codes[:1], codes[1:][-1:] = Path.MOVETO, Path.CLOSEPOLY
         rows = places[start:end].reshape(len(chosen), len(around), 2)
-        paths[chosen] = np.fromiter((_Outline(row, codes) for row in rows), object, len(chosen))
+        paths[chosen] = np.fromiter([_Outline(row, codes) for row in rows], object, len(chosen))
         start = end
     return paths, np.concatenate(corners), places[:start]
 
