@@ -1,12 +1,12 @@
-//! Each tuning number of the heuristics, off, halved and doubled: its effect on the fragments and on the
-//! build time, over all scenes. Prints the table of ABLATION.md.
+//! Changes one tuning constant at a time (off, halved, doubled), and measures fragments and build time over all
+//! scenes. Prints the table of ABLATION.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench ablation
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::BuildOptions;
 use binspace::glam::{DQuat, DVec3, EulerRot};
@@ -47,8 +47,7 @@ const FILES: [&str; 11] = [
     "chessboard_63k.obj",
 ];
 
-/// The builds of a scene with one tuning take at least this long together, if there are not [`MOST_BUILDS`]
-/// before.
+/// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`] times.
 const ENOUGH: Duration = Duration::from_millis(12);
 const MOST_BUILDS: usize = 9;
 
@@ -81,21 +80,29 @@ const CHANGES: [Change; 31] = changes! {
 
 /// The changes of the tuning for frames.
 const OF_FRAMES: [Change; 9] = [
-    ("crossings", "0", |t| t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })),
-    ("crossings", "½", |t| t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })),
-    ("crossings", "all", |t| {
+    ("frames: crossings", "0", |t| {
+        t.frames = Some(FrameTuning { crossings: 0, ..FrameTuning::FRAMES })
+    }),
+    ("frames: crossings", "½", |t| {
+        t.frames = Some(FrameTuning { crossings: 1, ..FrameTuning::FRAMES })
+    }),
+    ("frames: crossings", "all", |t| {
         t.frames = Some(FrameTuning { crossings: MOST, ..FrameTuning::FRAMES })
     }),
-    ("probes", "0", |t| t.frames = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
-    ("probes", "×2", |t| t.frames = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })),
-    ("trusted_share", "½", |t| {
+    ("frames: probes", "0", |t| t.frames = Some(FrameTuning { probes: 0, ..FrameTuning::FRAMES })),
+    ("frames: probes", "×2", |t| {
+        t.frames = Some(FrameTuning { probes: 8, ..FrameTuning::FRAMES })
+    }),
+    ("frames: trusted_share", "½", |t| {
         t.frames = Some(FrameTuning { trusted_share: 0.125, ..FrameTuning::FRAMES })
     }),
-    ("trusted_share", "×2", |t| {
+    ("frames: trusted_share", "×2", |t| {
         t.frames = Some(FrameTuning { trusted_share: 0.5, ..FrameTuning::FRAMES })
     }),
-    ("coarse", "0", |t| t.frames = Some(FrameTuning { coarse: 0.0, ..FrameTuning::FRAMES })),
-    ("coarse", "∞", |t| {
+    ("frames: coarse", "0", |t| {
+        t.frames = Some(FrameTuning { coarse: 0.0, ..FrameTuning::FRAMES })
+    }),
+    ("frames: coarse", "∞", |t| {
         t.frames = Some(FrameTuning { coarse: f64::INFINITY, ..FrameTuning::FRAMES })
     }),
 ];
@@ -106,18 +113,20 @@ fn main() {
     let faces: usize = scenes.iter().map(Scene::len).sum();
     println!("- scenes: {}, of {faces} polygons together", scenes.len());
     println!("- figures: geometric means over the scenes, relative to the default tuning");
-    println!("- times: the shortest of up to {MOST_BUILDS} builds, in turn with the default's");
     println!(
-        "- fragments are exact; times are off by some 5 % on a machine at rest, by more on others"
+        "- times: the shortest of up to {MOST_BUILDS} builds, alternating with the default tuning"
     );
-    ablate("Each field changed", &Tuning::DEFAULT, &CHANGES, &scenes);
-    let title = "Each field that frames have of their own changed, over pages of layers";
-    ablate(title, &Tuning::FRAMES, &OF_FRAMES, &pages());
+    println!(
+        "- fragments are exact; times vary by about 5 % on an idle machine, and more on others"
+    );
+    let columns = ["field", "change", "fragments", "most", "on", "time", "longest", "on"];
+    let table = Table::new("One constant changed", &columns);
+    ablate(&table, &Tuning::DEFAULT, &CHANGES, &scenes);
+    // The fields that only frames have, over pages of layers.
+    ablate(&table, &Tuning::FRAMES, &OF_FRAMES, &pages());
 }
 
-fn ablate(title: &str, base: &Tuning, changes: &[Change], scenes: &[Scene]) {
-    let columns = ["field", "change", "fragments", "most", "on", "time", "longest", "on"];
-    let table = Table::new(title, &columns);
+fn ablate(table: &Table, base: &Tuning, changes: &[Change], scenes: &[Scene]) {
     for &(field, how, change) in changes {
         let mut tuning = *base;
         change(&mut tuning);
@@ -147,7 +156,7 @@ fn ablate(title: &str, base: &Tuning, changes: &[Change], scenes: &[Scene]) {
     }
 }
 
-/// The fragments and the time with the second tuning, each divided by that with the first.
+/// The fragments and the time with the second tuning, divided by the fragments and the time with the first.
 fn compare(scene: &Scene, tunings: [&Tuning; 2]) -> [f64; 2] {
     let mut shortest = [Duration::MAX; 2];
     let mut fragments = [0; 2];

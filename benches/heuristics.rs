@@ -1,12 +1,12 @@
-//! Every heuristic on every scene: pieces, depth, build, order; and the loss of the default against the best.
-//! Prints the tables of HEURISTICS.md.
+//! Measures fragments, depth, build time and order time of every heuristic on every scene. Prints a table for
+//! each scene, and then the table of HEURISTICS.md.
 //!
 //! ```sh
 //! BINSPACE_SCENES=… cargo bench -p binspace-benches --bench heuristics
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, ErrorKind, Heuristic};
@@ -42,18 +42,23 @@ const SCENES: [&str; 25] = [
     "showroom_big_cc0.obj",
 ];
 
-/// A build that takes longer is given up, and said so.
+/// A build that takes longer is given up, and the table reports it.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 fn main() {
     print_head("Heuristics", "cargo bench -p binspace-benches --bench heuristics");
-    let mut losses = Vec::new();
+    let mut measured = Vec::new();
     for name in SCENES {
         let Some(scene) = scene(name) else { continue };
         let rows = measure(name, &scene);
-        losses.push((name, rows));
+        measured.push((name, rows));
     }
-    summary(&losses);
+    let (files, built_in): (Vec<_>, Vec<_>) =
+        measured.iter().partition(|(name, _)| name.ends_with(".obj"));
+    summary("Each heuristic, relative to `auto`", &built_in);
+    if !files.is_empty() {
+        summary("Each heuristic, relative to `auto`, on the files", &files);
+    }
 }
 
 struct Row {
@@ -135,25 +140,51 @@ fn time_order(tree: &BspTree, scene: &Scene) -> Duration {
     sum / viewpoints.len() as u32
 }
 
-/// On each scene, `auto` against the best of all in each respect.
-fn summary(measured: &[(&str, Vec<Row>)]) {
-    let table = Table::new(
-        "What `auto` loses against the best of all on each scene",
-        &["scene", "fragments", "fewest by", "build", "fastest by", "order", "fastest by"],
-    );
-    for (name, rows) in measured {
-        let Some(auto) = rows.iter().find(|row| row.heuristic == Heuristic::Auto) else { continue };
-        let mut cells = vec![(*name).to_owned()];
-        let figures: [fn(&Row) -> f64; 3] = [
-            |row| row.fragments as f64,
-            |row| row.build.as_secs_f64(),
-            |row| row.order.as_secs_f64(),
-        ];
-        for figure in figures {
-            let best = rows.iter().min_by(|a, b| figure(a).total_cmp(&figure(b))).unwrap_or(auto);
-            cells.push(format!("{:.2}", figure(auto) / figure(best)));
-            let winner = if figure(best) < figure(auto) { best.heuristic } else { auto.heuristic };
-            cells.push(winner.to_string());
+/// The columns of [`summary`]: a mean and two scenes for each of the three figures.
+const COLUMNS: [&str; 10] = [
+    "heuristic",
+    "fragments",
+    "               least",
+    "                most",
+    "build",
+    "            shortest",
+    "             longest",
+    "order",
+    "            shortest",
+    "             longest",
+];
+
+type Figure = fn(&Row) -> f64;
+
+/// Prints the figures of each heuristic, divided by the figures of `auto`: geometric means, and the scenes with
+/// the smallest and the largest ratio. Scenes whose builds were given up are left out.
+fn summary(title: &str, measured: &[&(&str, Vec<Row>)]) {
+    // With the number of decimals.
+    let figures: [(usize, Figure); 3] = [
+        (2, |row| row.fragments as f64),
+        (2, |row| row.build.as_secs_f64()),
+        (1, |row| row.order.as_secs_f64()),
+    ];
+    let table = Table::new(title, &COLUMNS);
+    for &heuristic in Heuristic::ALL {
+        let mut cells = vec![heuristic.to_string()];
+        for (decimals, figure) in figures {
+            let of = |rows: &[Row], by: Heuristic| {
+                rows.iter().find(|row| row.heuristic == by).map(figure)
+            };
+            let ratios = measured.iter().filter_map(|(name, rows)| {
+                Some((of(rows, heuristic)? / of(rows, Heuristic::Auto)?, *name))
+            });
+            let ratios: Vec<(f64, &str)> = ratios.collect();
+            let mean =
+                ratios.iter().map(|(ratio, _)| ratio.ln()).sum::<f64>() / ratios.len() as f64;
+            cells.push(format!("{:.decimals$}", mean.exp()));
+            let least = ratios.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+            let most = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+            for end in [least, most] {
+                let cell = |(ratio, name): &(f64, &str)| format!("{ratio:.decimals$} {name}");
+                cells.push(end.map_or_else(String::new, cell));
+            }
         }
         table.row(&cells);
     }

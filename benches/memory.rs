@@ -1,7 +1,7 @@
 //! Bytes of a finished tree, and the peak while it is built. Prints a table of RESULTS.md.
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::BspTree;
 use dhat::{HeapStats, Profiler};

@@ -27,7 +27,7 @@ fn cut(faces: &Faces, plane: &PreparedPlane, spanning: &[u32]) -> [usize; 2] {
     [front.len(), back.len()]
 }
 
-/// The same by rounded numbers.
+/// Does the same with rounded numbers.
 fn cut_rounded(plane: &RoundedPlane<f64>, spanning: &[RoundedPiece]) -> [usize; 2] {
     let mut counts = [0; 2];
     for piece in spanning {

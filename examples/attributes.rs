@@ -1,14 +1,14 @@
-//! Texture coordinates and colours of the corners, carried over the cuts of a tree.
+//! Texture coordinates and colours of corners, interpolated across the splits of a tree.
 //!
 //! ```sh
 //! cargo run --release --example attributes -- docs/attributes.png
 //! ```
 //!
-//! Five sheets cross each other and are cut. `Fragment::weights` says of what corners each new vertex
-//! is made, so checks and colours run on over the cuts, which the picture draws as
-//! thin lines.
+//! Five sheets cross each other and are split. `Fragment::weights` returns each new vertex as a weighted
+//! sum of corners, so checks and colours continue across the splits. The picture draws splits as thin
+//! lines.
 //!
-//! ![Five sheets that cross, with checks that run on over the cuts](../docs/attributes.png)
+//! ![Five sheets that cross, with checks that continue across the splits](../docs/attributes.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -19,13 +19,13 @@ use binspace::{BspTree, BuildOptions, Error, Fragment, Heuristic, Viewpoint};
 use canvas::{Canvas, Colour};
 
 const SIZE: [usize; 2] = [960, 540];
-/// Seen from here in parallel projection, so that what is linear in space is linear in the picture.
+/// The direction towards the eye. In a parallel projection, linear functions in space are linear in the picture.
 const TOWARDS_EYE: DVec3 = dvec3(0.45, -0.75, 0.5);
 const CHECKS: f64 = 8.0;
 /// Of each sheet's four corners.
 const UV: [DVec2; 4] = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
 
-/// What a corner has besides its place: sums of these, weighted, are what a vertex has.
+/// The attributes of a corner. The attributes of a vertex are weighted sums of these.
 #[derive(Clone, Copy)]
 struct Attributes {
     uv: DVec2,
@@ -59,7 +59,7 @@ fn corner(sheet: usize, corner: usize) -> Attributes {
     Attributes { uv: UV[corner], colour }
 }
 
-/// What the vertices of a fragment have.
+/// The attributes of the vertices of a fragment.
 fn attributes(fragment: &Fragment<'_>) -> Vec<Attributes> {
     let zero = Attributes { uv: DVec2::ZERO, colour: DVec3::ZERO };
     let sheet = fragment.polygon();
@@ -73,7 +73,7 @@ fn attributes(fragment: &Fragment<'_>) -> Vec<Attributes> {
     fragment.weights().map(|weights| of_vertex(&weights)).collect()
 }
 
-/// Where a point is in the picture.
+/// The position of a point in the picture.
 fn project(point: DVec3) -> DVec2 {
     let ahead = TOWARDS_EYE.normalize();
     let right = DVec3::Z.cross(ahead).normalize();
@@ -102,7 +102,7 @@ fn paint(tree: &BspTree) -> Canvas {
     canvas
 }
 
-/// What a graphics card does: interpolates in a triangle, and looks the colour up.
+/// As on a graphics card: interpolates in a triangle, and looks up the colour.
 fn texture([a, b, c]: [DVec2; 3], of: [Attributes; 3], point: DVec2) -> Colour {
     let area = (b - a).perp_dot(c - a);
     let (s, t) = ((point - a).perp_dot(c - a) / area, (b - a).perp_dot(point - a) / area);
@@ -129,9 +129,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A sheet is flat, so the place of a vertex says what its texture coordinates must be.
+/// A sheet is flat, so the position of a vertex determines its texture coordinates.
 #[test]
-fn attributes_run_on_over_cuts() {
+fn attributes_continue_across_splits() {
     let tree = build().unwrap();
     assert!(tree.len() > 10);
     let mut cut = 0;

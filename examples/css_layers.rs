@@ -5,8 +5,8 @@
 //! cargo run --release --example css_layers -- docs/css_layers.png
 //! ```
 //!
-//! No card can be painted before its neighbour, so the page is cut. The badge is in the plane of its
-//! card and comes after it in the list, so it is painted over it and is not cut by it.
+//! No whole card can be painted before its neighbour, so cards are split. A badge lies in the plane of its
+//! card and comes after the card in the list, so it is painted over the card and not split by it.
 //!
 //! ![Glass cards that cross, cut and painted back to front](../docs/css_layers.png)
 
@@ -66,7 +66,7 @@ fn paint(layers: &[Layer], page: &Layers) -> Canvas {
     canvas
 }
 
-/// How far a point is inside a rectangle with round corners.
+/// The distance of a point from the boundary of a rectangle with round corners, positive inside.
 fn inside([low, high]: [[f64; 2]; 2], [u, v]: [f64; 2], radius: f64) -> f64 {
     let off = |at: f64, low: f64, high: f64| (at - (low + high) / 2.0).abs() - (high - low) / 2.0;
     let [x, y] = [off(u, low[0], high[0]), off(v, low[1], high[1])].map(|off| off + radius);

@@ -31,14 +31,14 @@ struct Polygon {
     opacity: f32,
 }
 
-/// What a vertex shader would read.
+/// The input of a vertex shader.
 struct Vertex {
     position: Vec3,
     color: [f32; 3],
     opacity: f32,
 }
 
-/// How many index buffers were written on the way, and the picture of the last frame, if wanted.
+/// The number of index buffers that were written, and the picture of the last frame, if wanted.
 struct Film {
     written: usize,
     picture: Option<Vec<u8>>,
@@ -156,7 +156,7 @@ fn scene() -> Vec<Polygon> {
     scene
 }
 
-/// A polygon's colour, lit from above; glass as it is.
+/// A polygon's colour, lit from above; glass is not lit.
 fn lit(polygon: &Polygon) -> [f32; 3] {
     let [a, b, c] = [0, 1, 2].map(|k| polygon.corners[k * (polygon.corners.len() - 1) / 2]);
     let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
@@ -270,7 +270,7 @@ fn area(a: (i64, i64, f64), b: (i64, i64, f64), c: (i64, i64, f64)) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
-/// Whether a sample exactly on an edge is inside: so that of two triangles at an edge one has it.
+/// Whether a sample exactly on an edge is inside. Of two triangles that share an edge, one contains it.
 fn is_top_left(a: (i64, i64, f64), b: (i64, i64, f64)) -> bool {
     a.1 > b.1 || a.1 == b.1 && a.0 < b.0
 }

@@ -1,12 +1,12 @@
-//! A drawing of lines, as of a part to be made: visible edges drawn out, hidden ones dashed.
+//! A line drawing of a machine part: visible edges are solid, hidden edges are dashed.
 //!
 //! ```sh
 //! cargo run --release --example hidden_lines -- docs/hidden_lines.svg
 //! ```
 //!
-//! The map of what shows gives each edge in runs that are visible or hidden, and says what the edge is:
-//! where the body turns away from the eye, or where two polygons meet at an angle. Edges of round parts,
-//! where they meet at almost none, are left out. Runs that are drawn alike are joined to lines.
+//! The visibility map returns each edge as visible and hidden runs, with the kind of the edge: a silhouette, or a
+//! crease between two polygons. Edges inside round parts, where polygons meet at a small angle, are left out. Runs
+//! of the same style are joined into polylines.
 //!
 //! ![A nut with a flange, with its hidden edges dashed](../docs/hidden_lines.svg)
 
@@ -22,7 +22,7 @@ use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
 const SIZE: [u32; 2] = [640, 420];
 /// Quads around the part.
 const QUADS: usize = 96;
-/// The angle from which on a crease is drawn, in radians.
+/// The smallest angle of a crease that is drawn, in radians.
 const CREASE: f64 = 0.3;
 
 type Ring = [DVec3; QUADS];
@@ -101,7 +101,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Each edge of the part is that of two quads, and all are in the picture.
+/// Each edge of the part belongs to two quads, and all are in the picture.
 #[test]
 fn outlines_are_closed_and_some_edges_hidden() {
     let runs = runs().unwrap();

@@ -8,10 +8,10 @@
 //!
 //! The surfaces are the polygons of a tree. Lines and points go into an overlay, which cuts each line
 //! where it goes through a surface, so that it is painted before the surface on one side and after it
-//! on the other. A label is a point that is written at its turn.
+//! on the other. A label is a point; its text is written when the order reaches it.
 //!
-//! As SVG (`plot/svg.rs`) there is one path for each quad that shows, and what surfaces hide of lines is
-//! dashed: the map of what shows tells which parts these are.
+//! The SVG (`plot/svg.rs`) has one path for each visible quad. Hidden parts of lines are dashed; the visibility
+//! map returns them.
 //!
 //! ![Two surfaces that cross, axes, a curve, markers and labels](../docs/plot.png)
 
@@ -128,7 +128,7 @@ fn marks() -> Vec<Mark> {
     marks
 }
 
-/// Where a point is in the picture.
+/// The position of a point in the picture.
 fn project(point: DVec3) -> DVec2 {
     let ahead = TOWARDS_EYE.normalize();
     let right = DVec3::Z.cross(ahead).normalize();
@@ -142,8 +142,8 @@ fn stroke(canvas: &mut Canvas, a: DVec2, b: DVec2, width: f64, colour: Colour) {
 }
 
 fn dot(canvas: &mut Canvas, at: DVec2, radius: f64, colour: Colour) {
-    let rim = |k: i32| at + DVec2::from_angle(TAU * f64::from(k) / 24.0) * radius;
-    let outline: Vec<[f64; 2]> = (0..24).map(|k| rim(k).to_array()).collect();
+    let point = |k: i32| at + DVec2::from_angle(TAU * f64::from(k) / 24.0) * radius;
+    let outline: Vec<[f64; 2]> = (0..24).map(|k| point(k).to_array()).collect();
     canvas.fill(&outline, |_| colour);
 }
 
@@ -174,7 +174,7 @@ fn glyph(letter: char) -> Vec<[DVec2; 2]> {
 fn write(canvas: &mut Canvas, text: &str, at: DVec2) {
     let step = dvec2(11.0, 0.0);
     let start = at - step * (text.len() as f64 - 0.3) / 2.0 - dvec2(0.0, 7.0);
-    // A light rim first, so that it can be read on anything.
+    // A light outline first, so that the text is readable on any background.
     for (width, colour) in [(5.0, [1.0, 1.0, 1.0, 0.6]), (2.0, INK)] {
         for (k, letter) in text.chars().enumerate() {
             for bar in glyph(letter) {
@@ -314,9 +314,9 @@ fn markers_show_where_no_surface_is_in_front_of_them() {
     assert!(found[0] > 3 && found[1] > 1, "{found:?}");
 }
 
-/// The map says so too, in the same place of the picture.
+/// The visibility map has the same markers at the same positions.
 #[test]
-fn a_vector_picture_has_the_markers_that_show() {
+fn a_vector_picture_has_the_visible_markers() {
     use binspace::drawing::ViewOptions;
 
     let plot = Plot::new().unwrap();
@@ -327,7 +327,7 @@ fn a_vector_picture_has_the_markers_that_show() {
     for marker in &markers {
         let place = plot.marks[marker.point].at;
         let at = project(place);
-        assert!((DVec2::from(marker.at) - at).length() < 2e-3, "{marker:?} {at}");
+        assert!((DVec2::from(marker.position) - at).length() < 2e-3, "{marker:?} {at}");
         // Labels lie beyond the surfaces.
         let is_dot = plot.marks[marker.point].text.is_empty();
         let Some(hidden) = is_dot.then(|| is_hidden(place)).flatten() else { continue };

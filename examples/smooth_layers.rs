@@ -5,8 +5,8 @@
 //! cargo run --release --example smooth_layers -- page.png
 //! ```
 //!
-//! Filled with antialiasing, two pieces of a card blend with the background where they meet, and the cut shows. So each
-//! piece is filled without, and then only the edges of its layer are stroked with antialiasing.
+//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam shows. So each
+//! piece is filled without antialiasing. Then only the edges of its layer are stroked with antialiasing.
 
 #![allow(clippy::print_stdout, reason = "a program")]
 

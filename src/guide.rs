@@ -1,4 +1,5 @@
-//! The guide: a page for each subject, with programs that are tests. For details see the pages of types.
+//! The guide: a page for each subject. Its programs are tests. For details see the pages of types, and the
+//! table of [what works together](crate#what-works-together).
 //!
 //! This module has no code. Its pages are the files in `docs/guide/`.
 
@@ -17,6 +18,7 @@ macro_rules! links {
 [moving]: crate::guide::moving
 [rays]: crate::guide::rays
 [speed]: crate::guide::speed
+[together]: crate#what-works-together
 [verification]: crate::guide::verification
 "
     };
@@ -45,7 +47,7 @@ pages! {
     drawings
     /// Moving polygons, lines and points: [`Overlay`](crate::overlay::Overlay).
     moving
-    /// A tree a frame: [`FrameBuilder`](crate::FrameBuilder), and the module `layers`.
+    /// Compositing, a tree per frame: [`FrameBuilder`](crate::FrameBuilder), and the module `layers`.
     frames
     /// Orders of the visible part of a scene: [`Culling`](crate::Culling), [`Frustum`](crate::Frustum),
     /// [`Order::walk`](crate::Order::walk), and the module `occlusion`.

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3, Vec3A};
 
 /// The largest number of corners of one polygon, about 4 million. Too large: an endless polygon takes more
-/// memory before it is rejected. Too small: coastlines have to be divided.
+/// memory before it is rejected. Too small: the caller has to divide long outlines, such as coastlines.
 pub const MAX_CORNERS: usize = 1 << 22;
 
 /// A point of an input polygon.
@@ -12,7 +12,7 @@ pub trait Point: Copy {
     /// `f32::EPSILON` for coordinates that are, or once were, `f32`.
     const PRECISION: f64;
 
-    /// The point in `f64`.
+    /// Returns the point in `f64`.
     fn to_dvec3(self) -> DVec3;
 }
 
@@ -70,15 +70,15 @@ pub trait Polygon {
     /// A corner.
     type Point: Point;
 
-    /// The corners, in order around the polygon. More than 2²² (4 194 304) are an error, and so is an
-    /// endless iterator.
+    /// Returns the corners, in order around the polygon. More than 2²² corners (4 194 304) are an error, also
+    /// from an endless iterator.
     fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
-    /// The largest distance of a corner from its intended plane. The default tolerance follows it, within
-    /// limits: see [`Tolerance::Default`](crate::Tolerance::Default).
+    /// Returns the largest distance of a corner from its intended plane. The default tolerance depends on it,
+    /// within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
-    /// By default four times [`Point::PRECISION`] of the polygon's largest coordinate, about the rounding
-    /// error of a point multiplied by a matrix.
+    /// By default this is four times [`Point::PRECISION`] times the polygon's largest coordinate: about the
+    /// rounding error of a point multiplied by a matrix.
     fn precision(&self) -> f64 {
         // Not `f64::max`, which takes more instructions because of NaN.
         let larger = |most: f64, c: f64| if c > most { c } else { most };
@@ -90,8 +90,8 @@ pub trait Polygon {
     }
 }
 
-/// Steps of the largest coordinate by which a computed point may be off its plane. Too small: cards that a
-/// matrix put into one plane cut each other. Too large: thin layers are merged.
+/// The distance that a computed point may be off its plane, in steps of the largest coordinate. Too small:
+/// cards that a matrix put into one plane cut each other. Too large: thin layers are merged.
 pub(crate) const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {

@@ -8,8 +8,8 @@ use std::sync::{Mutex, TryLockError};
 
 use crate::Error;
 
-/// The callback is called about each time that this many more pieces have been examined, which takes a
-/// millisecond. Too small: time spent on calls. Too large: cancelling takes longer.
+/// The number of pieces examined between two calls of the callback, about a millisecond of work. Too small:
+/// time is spent on calls. Too large: cancelling takes longer.
 pub(crate) const PULSE: usize = 1 << 16;
 /// The number of pieces (or polygons, corners and edges while polygons are prepared) processed between two
 /// polls for cancellation. Too small: polling takes time. Too large: cancelling takes longer.
@@ -17,19 +17,19 @@ pub(crate) const PIECES_AT_ONCE: usize = 4096;
 /// A search for axis planes takes about as long as examining each piece this many times.
 pub(crate) const SWEEP: usize = 10;
 
-/// The amount that a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ of it, so
-/// that all pieces of a face add up to one face.
+/// The amount that a finished face adds to `Watch::done`. A piece that was cut `n` times adds 2⁻ⁿ times this
+/// amount, so all pieces of a face add up to one face.
 const FACE: u64 = 1 << 32;
 
 /// The progress of a build.
 ///
-/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far.
-/// From then on `total` is the number of faces and does not change, and `done` never decreases. At the end
-/// both are equal. (Queries of a `VisibilityMap` count parts of their work instead.)
+/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far. From
+/// then on `total` is the number of faces and does not change, and `done` never decreases. At the end `done`
+/// equals `total`. (Queries of a `VisibilityMap` count parts of their work instead.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The number of faces in the tree; a partial face counts as that part.
+    /// The number of faces in the tree; a part of a face counts as a fraction.
     pub done: usize,
     /// The number of faces, or of polygons while they are read; 0 in the first call.
     pub total: usize,
@@ -37,8 +37,8 @@ pub struct Progress {
 
 /// Serialises calls to the callback, so that the progress it sees never decreases.
 ///
-/// A thread that finds the callback busy continues without calling it. If it waited it could wait
-/// forever: the callback may run further down this thread's own stack, waiting for the thread pool.
+/// A thread that finds the callback busy continues without calling it. Waiting could last forever: the
+/// callback may run further down this thread's own stack and wait for the thread pool.
 pub(crate) fn one_at_a_time(
     progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
 ) -> impl Fn(&Watch<'_>) -> ControlFlow<()> + Sync {
@@ -97,7 +97,7 @@ impl<'a> Watch<'a> {
             return Err(Error::cancelled());
         }
         if self.callback.is_none() || pieces == 0 {
-            // All threads share the counter, so it is left alone if possible.
+            // All threads share the counter, so avoid writing to it.
             return Ok(());
         }
         let before = self.work.fetch_add(pieces, Ordering::Relaxed);
@@ -203,8 +203,7 @@ mod tests {
         assert_eq!(*heard.lock().unwrap(), expected);
     }
 
-    /// Split by the planes of the first ones, layers become a list of nodes, and each node examines all the
-    /// rest.
+    /// With `Heuristic::First`, layers become a list of nodes, and each node examines all remaining layers.
     #[test]
     fn a_pass_over_a_set_is_work_though_it_cuts_nothing() {
         let layers = (0..2000)
@@ -230,7 +229,7 @@ mod tests {
         });
         assert_eq!(tree.unwrap().len(), 4);
         assert_eq!(last, Some(Progress { done: 4, total: 4 }));
-        // And against the budget, before any is cut.
+        // Pieces also count against the budget, before any piece is cut.
         let build = |most| BuildOptions::DEFAULT.with_max_fragments(most).build([polygon]);
         assert!(build(4).is_ok() && build(3).unwrap_err().kind() == crate::ErrorKind::OverBudget);
     }

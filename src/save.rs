@@ -39,15 +39,13 @@ impl<R: Read> Reader<R> {
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, Error> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
-            return Err(refused(
-                "it is not a binspace file: it begins with other bytes".to_owned(),
-            ));
+            return Err(refused("it is not a binspace file (bad magic)".to_owned()));
         }
         let (name, version) = (reader.bytes("first bytes")?, reader.u32("first bytes")?);
         if name != kind.name {
             let [found, expected] = [&name, &kind.name].map(|name| name.escape_ascii());
             return Err(refused(format!(
-                "it holds a \"{found}\" where a \"{expected}\" is expected"
+                "it contains a \"{found}\", but a \"{expected}\" is expected"
             )));
         }
         if version != kind.version {

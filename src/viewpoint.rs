@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 /// The point from which a picture is seen, or the direction of view of a parallel projection.
 ///
-/// Every value has an order; nothing fails or panics:
+/// Every value of the coordinates gives an order; no call fails or panics:
 ///
 /// | coordinates | count as |
 /// |---|---|
@@ -17,9 +17,9 @@ use smallvec::SmallVec;
 /// | ±∞ in a direction | only the infinite coordinates matter, all equally |
 /// | a direction of zeros | (0, 0, −1), a view from the side of positive z |
 ///
-/// Eyes are rounded to the scene's grid, or, beyond 500 extents, to one part in 2⁶¹ of their distance;
-/// directions to one part in 2⁵². For eyes beyond about 2³⁷⁰ extents only the direction counts, and a
-/// coordinate beyond about 2⁹⁷⁰ extents counts as infinite.
+/// Eyes are rounded to the scene's grid, and beyond 500 extents to one part in 2⁶¹ of their distance.
+/// Directions are rounded to one part in 2⁵². For eyes beyond about 2³⁷⁰ extents only the direction counts,
+/// and a coordinate beyond about 2⁹⁷⁰ extents counts as infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
     /// The point where the eye is.
@@ -29,12 +29,12 @@ pub enum Viewpoint {
 }
 
 impl Viewpoint {
-    /// A viewpoint at a point, the eye.
+    /// Creates a viewpoint at a point, the eye.
     pub fn eye(point: impl Into<DVec3>) -> Self {
         Self::Eye(point.into())
     }
 
-    /// A viewpoint infinitely far away, given the direction in which the viewer looks.
+    /// Creates a viewpoint infinitely far away, given the direction in which the viewer looks.
     pub fn direction(direction: impl Into<DVec3>) -> Self {
         Self::Direction(direction.into())
     }
@@ -79,9 +79,10 @@ impl From<Facing> for Ordering {
 /// difference of its ends, so its parameters are 0 to 1, both included.
 ///
 /// Coordinates are in the polygons' unit. Decisions about a ray are exact for the given coordinates, except
-/// for their smallest digits. In a point these are below 2⁻¹²⁰ of the scene's extent, or of the distance of
-/// the scene or of a point from the origin if that is larger; in a direction, below 2⁻¹²⁰ of its largest
-/// coordinate. Near the origin, no `f64` of more than 2⁻⁶⁸ of the extent has such digits.
+/// for their smallest digits. The ignored digits of a point are below 2⁻¹²⁰ of the scene's extent, or of the
+/// distance of the scene or of a point from the origin if that is larger. The ignored digits of a direction
+/// are below 2⁻¹²⁰ of its largest coordinate. Near the origin, no `f64` of more than 2⁻⁶⁸ of the extent has
+/// such digits.
 ///
 /// | coordinates | the ray |
 /// |---|---|
@@ -90,8 +91,8 @@ impl From<Facing> for Ordering {
 /// | a direction of zeros, or two equal ends | is a point: it meets the polygons that contain it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {
-    /// From a point in a direction, without end. The direction may have any length, which is the unit of
-    /// the parameter.
+    /// From a point in a direction, without end. The direction may have any length; that length is the unit
+    /// of the parameter.
     Endless {
         /// The point where `t` is 0.
         from: DVec3,
@@ -108,22 +109,22 @@ pub enum Ray {
 }
 
 impl Ray {
-    /// The ray from a point in a direction, without end.
+    /// Creates the ray from a point in a direction, without end.
     pub fn new(from: impl Into<DVec3>, direction: impl Into<DVec3>) -> Self {
         Self::Endless { from: from.into(), direction: direction.into() }
     }
 
-    /// The segment between two points, both included.
+    /// Creates the segment between two points, both included.
     pub fn between(from: impl Into<DVec3>, to: impl Into<DVec3>) -> Self {
         Self::Segment { from: from.into(), to: to.into() }
     }
 }
 
-/// A convex region: the points in front of a number of planes, such as the four sides of a camera's view.
+/// A convex region: the points in front of several planes, such as the four sides of a camera's view.
 ///
-/// A plane is a normal, of any length, and an offset: it keeps the points p with `normal.dot(p) >= offset`,
-/// like the front of a [`Node`](crate::Node). Without planes, the region is the whole space. A plane with
-/// an infinite or NaN number keeps everything.
+/// A plane is a normal, of any length, and an offset: the region contains only points p with
+/// `normal.dot(p) >= offset`, the front as of a [`Node`](crate::Node). Without planes, the region is the whole
+/// space. A plane with an infinite or NaN number excludes no point.
 ///
 /// ```
 /// use binspace::Frustum;
@@ -143,7 +144,7 @@ impl Frustum {
     /// No planes: the whole space.
     pub const EVERYWHERE: Self = Self { planes: SmallVec::new_const() };
 
-    /// The points in front of all these planes.
+    /// Creates the region of the points in front of all these planes.
     pub fn new(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Self {
         let mut all = Self::default();
         // Pushes one by one, because a wrong size hint must not allocate memory.
@@ -151,7 +152,7 @@ impl Frustum {
         all
     }
 
-    /// The box between two corners, given by its least and largest coordinates. With a
+    /// Creates the region of a box, given by its least and largest coordinates. With a
     /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet it;
     /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds the fragments that meet it exactly.
     ///
@@ -176,9 +177,9 @@ impl Frustum {
         Self::new([0, 1, 2].map(sides).into_iter().flatten())
     }
 
-    /// The points that a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w: the sides of a picture for a
-    /// projection matrix of OpenGL, Vulkan, Direct3D or WebGPU. Depth is ignored, so there is no near and
-    /// no far plane.
+    /// Creates the region of the points that a matrix maps into −w ≤ x ≤ w and −w ≤ y ≤ w. For a projection
+    /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, this is the view through the picture's four sides. Depth
+    /// is ignored, so there is no near and no far plane.
     ///
     /// Rounding of the matrix may leave out points exactly on the sides: widen it a little.
     pub fn from_matrix(matrix: DMat4) -> Self {
@@ -187,16 +188,16 @@ impl Frustum {
         Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
     }
 
-    /// The planes.
+    /// Returns the planes.
     pub fn planes(&self) -> &[(DVec3, f64)] {
         &self.planes
     }
 
-    /// Whether a box, given by its least and largest coordinates, may have points in the region: whether no
-    /// plane has the whole box behind it.
+    /// Returns whether a box, given by its least and largest coordinates, may have points in the region:
+    /// whether no plane has the whole box behind it.
     ///
-    /// Never wrongly false: the box counts as larger by about 10⁻¹⁵ of its distance from the origin. Also
-    /// true if the box is outside the region, but not behind any single plane.
+    /// The result is never wrongly false: the box counts as larger by about 10⁻¹⁵ of its distance from the
+    /// origin. It is also true for a box that lies outside the region, but behind no single plane.
     pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
         let reach = low.abs().max(high.abs());
         !self.planes.iter().any(|&(normal, offset)| {
@@ -217,7 +218,7 @@ mod frustum_tests {
     #[test]
     fn a_matrix_keeps_what_it_maps_into_the_picture() {
         let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
-        // A perspective of 1.5 radians, half as high again in width, with w = −z.
+        // A perspective of 1.5 radians, whose width is 1.5 times its height, with w = −z.
         let mut perspective = DMat4::from_scale(DVec3::new(1.0 / 1.5, 1.0, -1.0) / 0.75_f64.tan());
         (perspective.z_axis.w, perspective.w_axis.w) = (-1.0, 0.0);
         let frustum = Frustum::from_matrix(perspective * view);

@@ -100,7 +100,7 @@ fn their_polygon(outline: &Outline, index: usize) -> plane_split::Polygon<usize>
     plane_split::Polygon::from_points(points, index).expect("it has an area")
 }
 
-/// A piece as it is painted: its layer, and its corners on the screen.
+/// A painted piece: its layer, and its corners on the screen.
 pub(crate) struct Painted {
     pub(crate) layer: usize,
     pub(crate) corners: Vec<[f64; 2]>,

@@ -7,7 +7,7 @@
 //! ```
 
 #![allow(missing_docs, reason = "a program")]
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what it measures")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 mod build;
 mod clipping;

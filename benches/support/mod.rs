@@ -1,6 +1,6 @@
 //! Shared code of the tables of measured figures: scenes by name, times, rows.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "it prints what is measured")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "prints measurements")]
 
 use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::scene::{BuiltinSpec, Scene, random_triangles};
@@ -176,7 +176,7 @@ pub fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
         .to_vec()
 }
 
-/// A table in Markdown, each row printed as soon as it is measured.
+/// A table in Markdown. Each row is printed when it has been measured.
 pub struct Table(Vec<usize>);
 
 impl Table {

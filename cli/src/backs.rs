@@ -7,7 +7,7 @@ use binspace::view::Camera;
 use binspace::{BspTree, Facing};
 
 use crate::camera;
-use crate::terminal::note;
+use crate::terminal::remark;
 
 /// The longer side, in pixels, of the small picture by which backs are counted.
 const SIDE: u32 = 128;
@@ -23,12 +23,12 @@ pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
     }
     let Some([backs, all]) = count(tree, camera) else { return };
     if backs * MOSTLY[0] > all * MOSTLY[1] {
-        note(&format!(
-            "{}: {} % of what shows is backs of faces, as of rooms seen from outside (`--cull back` \
-             leaves them out) or of faces with clockwise corners",
-            scene.name(),
-            100 * backs / all,
-        ));
+        let share = format!("{} % of the picture is backs of faces", 100 * backs / all);
+        let full = format!(
+            "{share}, as of rooms seen from outside (`--cull back` leaves them out) or of faces with \
+             clockwise corners"
+        );
+        remark(scene.name(), format!("{share} (`--cull back` leaves them out)"), full);
     }
 }
 

@@ -10,7 +10,6 @@ use std::ops::Range;
 
 use binspace::drawing::{Region, VisibilityMap};
 
-use crate::colours::BACKGROUND;
 use crate::drawn::Style;
 
 /// The number of pixels that are summed up at once. Too large: more memory, 32 bytes each. Too small: more
@@ -20,7 +19,11 @@ const AT_ONCE: usize = 1 << 21;
 /// The pixels of a map, row by row, with the colours of its polygons.
 ///
 /// Colours are blended by their numbers, as viewers of vector pictures do, not by their light.
-pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -> Vec<u8> {
+pub(crate) fn picture(
+    map: &VisibilityMap<'_>,
+    background: [u8; 3],
+    rgb: impl Fn(usize) -> [u8; 3],
+) -> Vec<u8> {
     let mut colours: HashMap<usize, [f64; 3]> = HashMap::new();
     for cell in map.cells() {
         let polygon = cell.polygon();
@@ -31,15 +34,20 @@ pub(crate) fn picture(map: &VisibilityMap<'_>, rgb: impl Fn(usize) -> [u8; 3]) -
             band.add(cell.corners(), colours[&cell.polygon()]);
         }
     };
-    pixels(map.size(), add)
+    pixels(map.size(), background, add)
 }
 
 /// The same where polygons are translucent.
-pub(crate) fn blended(size: [u32; 2], regions: &[Region], style: &Style<'_>) -> Vec<u8> {
+pub(crate) fn blended(
+    size: [u32; 2],
+    background: [u8; 3],
+    regions: &[Region],
+    style: &Style<'_>,
+) -> Vec<u8> {
     let on_background = |region: &Region| -> [f64; 3] {
         let blended = style.blended(region.polygons());
         let left = 1.0 - blended[3];
-        std::array::from_fn(|i| 255.0 * blended[i] + left * f64::from(BACKGROUND[i]))
+        std::array::from_fn(|i| 255.0 * blended[i] + left * f64::from(background[i]))
     };
     let colours: Vec<[f64; 3]> = regions.iter().map(on_background).collect();
     let add = |band: &mut Band| {
@@ -49,16 +57,16 @@ pub(crate) fn blended(size: [u32; 2], regions: &[Region], style: &Style<'_>) -> 
             }
         }
     };
-    pixels(size, add)
+    pixels(size, background, add)
 }
 
 /// All pixels, row by row, where a function adds all areas to a part of the picture.
-fn pixels(size: [u32; 2], add: impl Fn(&mut Band)) -> Vec<u8> {
+fn pixels(size: [u32; 2], background: [u8; 3], add: impl Fn(&mut Band)) -> Vec<u8> {
     let [width, height] = size.map(|side| side as usize);
     let rows = (AT_ONCE / width).clamp(1, height);
     let mut pixels = Vec::with_capacity(3 * width * height);
     for top in (0..height).step_by(rows) {
-        let mut band = Band::new(width, top, rows.min(height - top));
+        let mut band = Band::new(background, width, top, rows.min(height - top));
         add(&mut band);
         pixels.extend(band.pixels());
     }
@@ -66,12 +74,13 @@ fn pixels(size: [u32; 2], add: impl Fn(&mut Band)) -> Vec<u8> {
 }
 
 /// The pixels of an empty picture.
-pub(crate) fn blank(size: [u32; 2]) -> Vec<u8> {
-    BACKGROUND.repeat(size.map(|side| side as usize).iter().product())
+pub(crate) fn blank(size: [u32; 2], background: [u8; 3]) -> Vec<u8> {
+    background.repeat(size.map(|side| side as usize).iter().product())
 }
 
 /// Some rows of a picture.
 struct Band {
+    background: [f64; 3],
     width: usize,
     top: usize,
     /// The coverage of a pixel minus that of the pixel before, for the cell that is being added.
@@ -85,9 +94,10 @@ struct Band {
 const UNCHANGED: [usize; 2] = [usize::MAX, 0];
 
 impl Band {
-    fn new(width: usize, top: usize, rows: usize) -> Self {
+    fn new(background: [u8; 3], width: usize, top: usize, rows: usize) -> Self {
         let change = vec![0.0; (width + 2) * rows];
         Self {
+            background: background.map(f64::from),
             width,
             top,
             change,
@@ -105,7 +115,7 @@ impl Band {
             let rows = self.add_side(from, to);
             (first, last) = (first.min(rows.start), last.max(rows.end));
         }
-        let difference: [f64; 3] = std::array::from_fn(|i| rgb[i] - f64::from(BACKGROUND[i]));
+        let difference: [f64; 3] = std::array::from_fn(|i| rgb[i] - self.background[i]);
         for row in first..last {
             let [left, right] = std::mem::replace(&mut self.changed[row], UNCHANGED);
             let mut covered = 0.0;
@@ -159,7 +169,7 @@ impl Band {
 
     fn pixels(&self) -> impl Iterator<Item = u8> {
         let pixel = |sum: &[f64; 3]| {
-            std::array::from_fn::<u8, 3, _>(|i| (f64::from(BACKGROUND[i]) + sum[i]).round() as u8)
+            std::array::from_fn::<u8, 3, _>(|i| (self.background[i] + sum[i]).round() as u8)
         };
         self.sums.iter().flat_map(pixel)
     }
@@ -213,11 +223,11 @@ mod tests {
             &[[0.1, 3.25], [7.9, 3.5], [7.9, 3.75]],
             &[[0.0, 0.0], [0.1, 0.0], [8.0, 5.0], [7.9, 5.0]],
         ];
-        let black = BACKGROUND.map(|channel| f64::from(255 - channel));
+        let (white, black) = ([255; 3], [0.0; 3]);
         for outline in outlines {
             // In two bands.
             for (top, rows) in [(0, 3), (3, 2)] {
-                let mut band = Band::new(8, top, rows);
+                let mut band = Band::new(white, 8, top, rows);
                 band.add(outline.iter().copied(), black);
                 for (i, sum) in band.sums.iter().enumerate() {
                     let area = clipped(outline, i % 8, top + i / 8);

@@ -28,7 +28,7 @@ impl Cull {
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct CullArgs {
-    /// Side of polygons to leave out; without the backs, rooms can be seen from outside
-    #[arg(long, value_name = "SIDE", value_enum, default_value_t)]
+    /// Sides of polygons to leave out: none or back
+    #[arg(long, value_name = "SIDE", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) cull: Cull,
 }

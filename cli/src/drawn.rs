@@ -3,25 +3,39 @@
 use binspace::drawing::{Drawing, EdgeKind, EdgeRun, Paint, Path, Region, Stroke, VectorPicture};
 use binspace::scene::Scene;
 use binspace::view::Camera;
+use clap::ValueEnum;
 
-use crate::colours::{BACKGROUND, Colours};
-use crate::seams::Seams;
+use crate::colours::Colours;
 use crate::shading::shaded;
 use crate::strokes::Strokes;
 
-/// The width of visible lines, in pixels.
-pub(crate) const WIDTH: f64 = 1.0;
-/// The width of hidden lines, in pixels.
+/// The width of hidden lines, as a share of the width of visible ones.
 pub(crate) const HIDDEN_WIDTH: f64 = 0.6;
 
-/// The lengths of the dashes of hidden lines and of their gaps, in pixels, by the lines' depth.
-pub(crate) const fn dashes(depth: u32) -> [f64; 2] {
-    match depth {
+/// The lengths of the dashes of hidden lines and of their gaps, by the lines' depth, for visible lines of a
+/// width.
+pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
+    let lengths = match depth {
         0 | 1 => [3.0, 2.0],
         2 => [2.0, 3.0],
         3 => [1.0, 3.0],
         _ => [1.0, 6.0],
-    }
+    };
+    lengths.map(|length: f64| length * width)
+}
+
+/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that both cover half of a
+/// pixel, a quarter of the background shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Seams {
+    /// Opaque polygons reach a little under later opaque neighbours; translucent ones have seams
+    #[default]
+    Trap,
+    /// SVG only: a path for each region where the same polygons show, with their blended colour; viewers
+    /// add the paths up (`mix-blend-mode: plus-lighter`), which leaves no seam, translucent or not
+    PlusLighter,
+    /// Nothing: paths are the polygons alone
+    None,
 }
 
 /// The source of the colours of paths.
@@ -59,11 +73,6 @@ impl<'a> Style<'a> {
         };
         polygons.iter().rev().fold([0.0; 4], over)
     }
-}
-
-/// A picture to add fills and strokes to.
-pub(crate) fn blank(camera: &Camera) -> VectorPicture {
-    VectorPicture::new(camera.size()).with_background(BACKGROUND)
 }
 
 /// Adds regions, which viewers add up. Regions that look alike are added together.
@@ -132,9 +141,9 @@ fn named(picture: &mut VectorPicture, material: &str, add: impl FnOnce(&mut Vect
 }
 
 /// Adds lines: one path for each kind of edges or, with names, for each run of an edge.
-pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], ids: bool) {
+pub(crate) fn add_strokes(picture: &mut VectorPicture, all: &[Strokes], width: f64, ids: bool) {
     for same in all.chunk_by(|a, b| a.depth == b.depth) {
-        let (depth, stroke) = (same[0].depth, stroke(same[0].depth));
+        let (depth, stroke) = (same[0].depth, stroke(same[0].depth, width));
         let class = match depth {
             0 => "visible".to_owned(),
             1 => "hidden".to_owned(),
@@ -172,10 +181,10 @@ fn add_run(picture: &mut VectorPicture, run: &EdgeRun, ends: &[[f64; 2]], stroke
     picture.group(&names, |picture| picture.add_lines([ends], stroke));
 }
 
-fn stroke(depth: u32) -> Stroke {
+fn stroke(depth: u32, width: f64) -> Stroke {
     if depth == 0 {
-        return Stroke::new(WIDTH, [0; 3]);
+        return Stroke::new(width, [0; 3]);
     }
-    let [dash, gap] = dashes(depth);
-    Stroke::new(HIDDEN_WIDTH, [0; 3]).with_dashes(dash, gap)
+    let [dash, gap] = dashes(depth, width);
+    Stroke::new(HIDDEN_WIDTH * width, [0; 3]).with_dashes(dash, gap)
 }

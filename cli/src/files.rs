@@ -1,11 +1,16 @@
 //! Files that are written completely or not at all.
+//!
+//! Until it is complete, a file has no name. So if the program ends earlier, by a signal, by lack of memory or
+//! killed, it leaves nothing behind. A complete file is copied to a hidden one beside its place,
+//! `.binspace-….part`, which then replaces an existing file at once. Signals wait until that is done. The hidden
+//! file remains only if the program is killed meanwhile, or the machine stops.
 
 use std::fs::{self, File, OpenOptions, Permissions};
-use std::io::{self, BufWriter, IntoInnerError, IsTerminal, StdoutLock, Write};
+use std::io::{self, BufWriter, IntoInnerError, IsTerminal, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
-use crate::unfinished;
+use crate::signals;
 
 /// The most symbolic links that are followed: more count as a circle, as in most systems.
 const MOST_LINKS: usize = 40;
@@ -56,21 +61,6 @@ impl Output {
         }
     }
 
-    /// As [`write`](Self::write); returns the number of bytes written.
-    pub(crate) fn write_counted(
-        self,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<u64, Failure> {
-        let mut bytes = 0;
-        self.write(|out| {
-            let mut counted = Counted { out, bytes: 0 };
-            write(&mut counted)?;
-            bytes = counted.bytes;
-            Ok(())
-        })?;
-        Ok(bytes)
-    }
-
     /// Writes with `write`, and completes the output.
     pub(crate) fn write(
         self,
@@ -83,24 +73,6 @@ impl Output {
                 written.map_err(|error| Failure::of_output(&error))
             }
         }
-    }
-}
-
-/// Counts the bytes written.
-struct Counted<'a> {
-    out: &'a mut dyn Write,
-    bytes: u64,
-}
-
-impl Write for Counted<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.out.write(bytes)?;
-        self.bytes += written as u64;
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
     }
 }
 
@@ -129,7 +101,7 @@ impl NewFile {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
         target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        let writer = BufWriter::new(unfinished::create_in(folder_of(&target))?);
+        let writer = BufWriter::new(tempfile::tempfile_in(folder_of(&target))?);
         let place = Place::Later(existing.map(|data| data.permissions()));
         Ok(Self { writer, target, place })
     }
@@ -144,11 +116,69 @@ impl NewFile {
             Place::Same => writer.flush(),
             Place::Later(permissions) => {
                 let file = writer.into_inner().map_err(IntoInnerError::into_error)?;
-                unfinished::place(file, folder_of(&target), &target, permissions)
+                signals::hold_back(|| put(file, folder_of(&target), &target, permissions))
             }
         });
         written.map_err(|error| unwritable(&target, error))
     }
+}
+
+/// Puts a complete file in its place, with the given permissions, or the usual ones if there are none. A hidden
+/// file in a folder replaces the existing one.
+fn put(
+    mut file: File,
+    folder: &Path,
+    target: &Path,
+    permissions: Option<Permissions>,
+) -> io::Result<()> {
+    let mut part = hidden(permissions.clone().or(mode(0o666))).tempfile_in(folder)?;
+    file.rewind()?;
+    io::copy(&mut file, &mut part)?;
+    if let Some(permissions) = permissions {
+        // Now without the user's mask. Best effort: only the content matters.
+        let _ = part.as_file().set_permissions(permissions);
+    }
+    part.persist(target).map(drop).map_err(|error| error.error)
+}
+
+/// Puts complete files into a new folder with their names; all or none of them. The folder is in another.
+pub(crate) fn place_all(
+    files: Vec<(String, File)>,
+    folder: &Path,
+    target: &Path,
+) -> io::Result<()> {
+    signals::hold_back(|| {
+        // Removed with all its content, unless it becomes the target.
+        let part = hidden(mode(0o777)).tempdir_in(folder)?;
+        for (name, file) in files {
+            put(file, part.path(), &part.path().join(name), None)?;
+        }
+        fs::rename(part.path(), target)?;
+        // Nothing is left under its first name.
+        let _ = part.keep();
+        Ok(())
+    })
+}
+
+/// A hidden file or folder. Its name is short, as the name of the replaced file may have the maximal length.
+fn hidden(permissions: Option<Permissions>) -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".binspace-").suffix(".part");
+    if let Some(permissions) = permissions {
+        builder.permissions(permissions);
+    }
+    builder
+}
+
+/// Permissions, from which the system removes those that the user's mask excludes.
+#[cfg(unix)]
+fn mode(bits: u32) -> Option<Permissions> {
+    Some(std::os::unix::fs::PermissionsExt::from_mode(bits))
+}
+
+#[cfg(not(unix))]
+fn mode(_: u32) -> Option<Permissions> {
+    None
 }
 
 /// The folder that a file is in.
@@ -181,4 +211,27 @@ pub fn make_folder(path: &Path) -> Result<(), Failure> {
     }
     let made = fs::create_dir_all(path);
     made.map_err(|error| Failure::about(path.display(), format!("cannot be created: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_cannot_take_its_place_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        let names = || fs::read_dir(folder.path()).unwrap().count();
+        let file = |content: &str| {
+            let mut file = tempfile::tempfile_in(folder.path()).unwrap();
+            file.write_all(content.as_bytes()).unwrap();
+            file
+        };
+        put(file("content"), folder.path(), &target, None).unwrap();
+        assert_eq!((fs::read_to_string(&target).unwrap().as_str(), names()), ("content", 1));
+        fs::remove_file(&target).unwrap();
+        fs::create_dir(&target).unwrap();
+        assert!(put(file("other"), folder.path(), &target, None).is_err());
+        assert_eq!(names(), 1);
+    }
 }

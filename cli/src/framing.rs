@@ -5,9 +5,6 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-/// The share of the picture that the scene fills.
-const FILL: f64 = 0.92;
-
 /// A perspective camera with the direction of another, moved so that the scene just fills the
 /// picture.
 ///
@@ -15,9 +12,9 @@ const FILL: f64 = 0.92;
 /// plane through the eye and that side. With r, u, b the directions right, up and back, and t the
 /// tangent of half the width: ±(p − eye)·r ≤ t (eye − p)·b, so that eye·b must be at least
 /// (max(p·r + t p·b) + max(−p·r + t p·b)) / 2t; the same holds up and down.
-pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64) -> Result<Camera, Error> {
+pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64, margin: f64) -> Result<Camera, Error> {
     let [width, height] = like.size().map(f64::from);
-    let tangent = (0.5 * fov).tan() * FILL;
+    let tangent = (0.5 * fov).tan() * (1.0 - 2.0 * margin);
     let (right, up, back) = (like.right(), like.up(), -like.forward());
     let sides = [(right, tangent * width / height), (up, tangent)];
     let reaches = sides.map(|(axis, t)| [axis, -axis].map(|side| reach(scene, side / t + back)));
@@ -56,24 +53,49 @@ pub(crate) fn parallel(
     up: DVec3,
     scene: &Scene,
     size: [u32; 2],
+    margin: f64,
 ) -> Result<Camera, Error> {
-    let axes = Camera::parallel(direction, up, DVec3::ZERO, 1.0, size)?;
+    let (axes, centre) = axes_and_centre(direction, up, scene)?;
     let [width, height] = size.map(f64::from);
-    let span = |axis: DVec3| (reach(scene, axis), reach(scene, -axis));
-    let mut centre = DVec3::ZERO;
-    for axis in [axes.right(), axes.up(), axes.forward()] {
-        let (high, low) = span(axis);
-        centre += axis * (0.5 * high - 0.5 * low);
-    }
-    let extent = |axis| span(axis).0 + span(axis).1;
-    let shown = extent(axes.up()).max(extent(axes.right()) * height / width) / FILL;
+    let fill = 1.0 - 2.0 * margin;
+    let shown = extent(scene, axes.up()).max(extent(scene, axes.right()) * height / width) / fill;
     // A scene seen edge-on, or a point, has no extent: show its surroundings.
-    let fallback = extent(axes.forward()).max(centre.length() * 1e-3);
+    let fallback = extent(scene, axes.forward()).max(centre.length() * 1e-3);
     let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
     Camera::parallel(direction, up, centre, shown, size)
 }
 
-/// The extent of the scene in a direction.
+/// The same with a number of pixels for each unit, in a picture as large as that takes.
+pub(crate) fn to_scale(
+    direction: DVec3,
+    up: DVec3,
+    scene: &Scene,
+    scale: f64,
+    margin: f64,
+) -> Result<Camera, Error> {
+    let (axes, centre) = axes_and_centre(direction, up, scene)?;
+    // Numbers too large for an integer become the largest, which is an error of the camera.
+    let side = |axis| (extent(scene, axis) * scale / (1.0 - 2.0 * margin)).ceil().max(1.0) as u32;
+    let size = [side(axes.right()), side(axes.up())];
+    Camera::parallel(direction, up, centre, f64::from(size[1]) / scale, size)
+}
+
+/// A camera along `direction`, for its axes, and the middle of the scene between its limits along them.
+fn axes_and_centre(direction: DVec3, up: DVec3, scene: &Scene) -> Result<(Camera, DVec3), Error> {
+    let axes = Camera::parallel(direction, up, DVec3::ZERO, 1.0, [1, 1])?;
+    let mut centre = DVec3::ZERO;
+    for axis in [axes.right(), axes.up(), axes.forward()] {
+        centre += axis * (0.5 * reach(scene, axis) - 0.5 * reach(scene, -axis));
+    }
+    Ok((axes, centre))
+}
+
+/// The extent of the scene along an axis.
+fn extent(scene: &Scene, axis: DVec3) -> f64 {
+    reach(scene, axis) + reach(scene, -axis)
+}
+
+/// How far the scene reaches in a direction.
 fn reach(scene: &Scene, direction: DVec3) -> f64 {
     let corners = scene.polygons().flatten();
     corners.map(|corner| corner.dot(direction)).fold(f64::MIN, f64::max)

@@ -3,7 +3,7 @@
 //! A wide line is a band along each segment and a disc at each joint and round end. A row of pixels is
 //! sampled at several levels. On each level, the joint coverage of all bands and discs is exact.
 
-use crate::drawn::{HIDDEN_WIDTH, WIDTH, dashes};
+use crate::drawn::{HIDDEN_WIDTH, dashes};
 use crate::strokes::Strokes;
 
 /// Levels in a row of pixels. An edge along the row is off by at most half the distance of two levels. Too
@@ -19,11 +19,11 @@ enum Part {
 
 /// Draws lines in black over RGB pixels. Lines of each depth are drawn together, so that they are no darker
 /// where they meet.
-pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes]) {
+pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes], width: f64) {
     for alike in strokes.chunk_by(|a, b| a.depth == b.depth) {
         let parts = alike.iter().flat_map(|strokes| {
             let depth = strokes.depth;
-            strokes.lines.iter().flat_map(move |line| parts(&line.points, depth))
+            strokes.lines.iter().flat_map(move |line| parts(&line.points, depth, width))
         });
         cover(parts.collect(), size, |at, covered| {
             for channel in &mut pixels[3 * at..3 * at + 3] {
@@ -34,16 +34,16 @@ pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes]) {
 }
 
 /// The parts of a line through points, given in pixels.
-fn parts(points: &[[f64; 2]], depth: u32) -> Vec<Part> {
+fn parts(points: &[[f64; 2]], depth: u32, width: f64) -> Vec<Part> {
     let mut parts = Vec::new();
     if depth == 0 {
-        let radius = WIDTH / 2.0;
+        let radius = width / 2.0;
         add_bands(points, radius, &mut parts);
         parts.extend(points.iter().map(|&centre| Part::Disc { centre, radius }));
         return parts;
     }
-    let radius = HIDDEN_WIDTH / 2.0;
-    for dash in dashed(points, dashes(depth)) {
+    let radius = HIDDEN_WIDTH * width / 2.0;
+    for dash in dashed(points, dashes(depth, width)) {
         add_bands(&dash, radius, &mut parts);
         let joints = &dash[1..dash.len() - 1];
         parts.extend(joints.iter().map(|&centre| Part::Disc { centre, radius }));
@@ -185,9 +185,9 @@ fn add([from, to]: [f64; 2], covered: &mut [f64]) {
 mod tests {
     use super::*;
 
-    fn covered(points: &[[f64; 2]], depth: u32, size: [u32; 2]) -> Vec<f64> {
+    fn covered(points: &[[f64; 2]], depth: u32, width: f64, size: [u32; 2]) -> Vec<f64> {
         let mut found = vec![0.0; (size[0] * size[1]) as usize];
-        cover(parts(points, depth), size, |at, covered| found[at] = covered);
+        cover(parts(points, depth, width), size, |at, covered| found[at] = covered);
         found
     }
 
@@ -215,15 +215,15 @@ mod tests {
             &[[5.5, 5.5], [5.5, 5.5000001]],
         ];
         const EACH: i32 = 100;
-        for line in lines {
-            let found = covered(line, 0, [12, 9]);
+        for (line, width) in lines.into_iter().flat_map(|line| [(line, 1.0), (line, 2.5)]) {
+            let found = covered(line, 0, width, [12, 9]);
             let mut sum = 0.0;
             for (at, &found) in found.iter().enumerate() {
                 let corner = [at % 12, at / 12].map(|c| c as f64);
                 let inside = (0..EACH * EACH).filter(|k| {
                     let part = |k: i32| (f64::from(k) + 0.5) / f64::from(EACH);
                     let point = [corner[0] + part(k % EACH), corner[1] + part(k / EACH)];
-                    distance(point, line) <= WIDTH / 2.0
+                    distance(point, line) <= width / 2.0
                 });
                 let expected = inside.count() as f64 / f64::from(EACH * EACH);
                 assert!((found - expected).abs() < 0.025, "{line:?} {at}: {found} {expected}");
@@ -241,10 +241,11 @@ mod tests {
         assert_eq!(dashed(&line, [3.0, 2.0]), expected);
         // As long as the dashes, and as wide as hidden lines.
         for depth in 1..=4 {
-            let [dash, gap] = dashes(depth);
-            let area: f64 = covered(&[[2.0, 3.3], [2.0 + 5.0 * (dash + gap), 3.3]], depth, [90, 9])
-                .iter()
-                .sum();
+            let [dash, gap] = dashes(depth, 1.0);
+            let area: f64 =
+                covered(&[[2.0, 3.3], [2.0 + 5.0 * (dash + gap), 3.3]], depth, 1.0, [90, 9])
+                    .iter()
+                    .sum();
             assert!((area - 5.0 * dash * HIDDEN_WIDTH).abs() < 0.02 * area, "{depth}: {area}");
         }
     }
@@ -261,8 +262,8 @@ mod tests {
         let along = [[1.5, 2.5], [6.5, 2.5]];
         let mut once = vec![200; 3 * 8 * 5];
         let mut twice = once.clone();
-        draw(&mut once, [8, 5], &[strokes("border", along)]);
-        draw(&mut twice, [8, 5], &[strokes("border", along), strokes("crease", along)]);
+        draw(&mut once, [8, 5], &[strokes("border", along)], 1.0);
+        draw(&mut twice, [8, 5], &[strokes("border", along), strokes("crease", along)], 1.0);
         assert_eq!(once, twice);
         assert!(once.contains(&0) && once.contains(&200));
     }

@@ -7,36 +7,17 @@ use binspace::internals::Faces;
 use binspace::scene::Scene;
 use binspace::{BspTree, Error, Heuristic, Preparation};
 
-use crate::args::{BuildArgs, LimitArgs, SceneArgs};
+use crate::args::{BuildArgs, IsGiven, LimitArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::measure;
 use crate::scene_arg::{self, Loaded};
-use crate::terminal::note;
+use crate::terminal::remark;
 use crate::units::count;
 
 /// The largest number of faces that a note names.
 const NAMED: usize = 3;
 /// The message for a scene of which no face is left.
 pub const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
-
-/// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name
-/// everything that was left out.
-pub(crate) fn scene_and_tree(
-    scene: &SceneArgs,
-    build: &BuildArgs,
-) -> Result<(Scene, BspTree), Failure> {
-    let (scene, tree, _) = timed_scene_and_tree(scene, build)?;
-    Ok((scene, tree))
-}
-
-/// The same, with the seconds that it took to build the tree, or to read its file.
-pub(crate) fn timed_scene_and_tree(
-    scene: &SceneArgs,
-    build: &BuildArgs,
-) -> Result<(Scene, BspTree, f64), Failure> {
-    let Made { scene, tree, seconds, .. } = make(scene, build)?;
-    Ok((scene, tree, seconds))
-}
 
 /// A scene and its tree.
 pub(crate) struct Made {
@@ -50,16 +31,17 @@ pub(crate) struct Made {
     pub(crate) stored_name: String,
 }
 
-/// The same, with how it was made.
+/// Loads a scene and builds its tree, which has at least one fragment. Notes to the user name everything that
+/// was left out.
 pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure> {
     let mut begin = Instant::now();
     let Loaded { scene, tree, stored_name } = scene_arg::load(&scene.name, scene.seed)?;
-    let heuristic = build.heuristic.unwrap_or_default();
+    let heuristic = build.heuristic;
     let options = build.limits.options(heuristic);
     let is_built = tree.is_none();
     let tree = match tree {
         Some(tree) => {
-            refuse_options(scene.name(), build.heuristic.is_some(), &build.limits)?;
+            refuse_options(scene.name(), build.is_given)?;
             tree
         }
         None => {
@@ -68,10 +50,10 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
         }
     };
     let seconds = begin.elapsed().as_secs_f64();
-    note_preparation(&scene, tree.faces(), tree.preparation());
     if is_built {
         note_tolerance(&scene, &build.limits, &tree);
     }
+    note_preparation(&scene, tree.faces(), tree.preparation());
     if tree.is_empty() {
         return Err(Failure::about(scene.name(), NOTHING_LEFT));
     }
@@ -81,10 +63,9 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
 /// An error if build options are given for a tree in a file, even if they are the default ones.
 pub(crate) fn refuse_options(
     name: impl Display,
-    has_heuristic: bool,
-    limits: &LimitArgs,
+    IsGiven(is_given): IsGiven,
 ) -> Result<(), Failure> {
-    if !has_heuristic && limits.tolerance.is_none() && limits.max_fragments.is_none() {
+    if !is_given {
         return Ok(());
     }
     let problem = "its tree is built already: leave out --heuristic, --tolerance and \
@@ -103,30 +84,32 @@ pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     note_found(scene, prepared.dropped(found.polygons), found);
     let duplicates = prepared.duplicates();
     if duplicates > 0 {
-        let faces = count(duplicates, "face");
-        note(&format!("{}: {faces} given more than once: the last one shows", scene.name()));
+        let faces = format!("{} given more than once", count(duplicates, "face"));
+        remark(scene.name(), &faces, format!("{faces}: the last one is visible"));
     }
 }
 
 /// Notes the dropped and triangulated faces; `dropped` are the numbers of the dropped faces.
 pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
-    let faces = |number: usize| count(number, "face");
-    let dropped = (found.dropped > 0).then(|| {
-        format!("{} without area dropped: {}", faces(found.dropped), some(scene, dropped, found))
-    });
-    let triangulated = (found.triangulated > 0)
-        .then(|| format!("{} not convex or not planar, triangulated", faces(found.triangulated)));
-    let crossing = (found.crossing > 0).then(|| {
-        let number = faces(found.crossing);
-        format!("of these, {number} with crossing edges: the area covered is a guess")
-    });
-    for problem in [dropped, triangulated, crossing].into_iter().flatten() {
-        note(&format!("{}: {problem}", scene.name()));
+    if found.triangulated > 0 {
+        let faces = count(found.triangulated, "face");
+        let full = format!("{faces} not convex or not planar, triangulated");
+        remark(scene.name(), format!("{faces} triangulated"), full);
+    }
+    if found.crossing > 0 {
+        let brief = format!("{} with crossing edges", count(found.crossing, "face"));
+        let full = format!("of these, {brief}: the area covered is a guess");
+        remark(scene.name(), brief, full);
+    }
+    if found.dropped > 0 {
+        let faces = count(found.dropped, "face");
+        let full = format!("{faces} without area dropped: {}", some(scene, dropped, found));
+        remark(scene.name(), format!("{} dropped", found.dropped), full);
     }
 }
 
-/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if the file's
-/// decimals decided that.
+/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if it is more than the
+/// usual 1e-9 of the extent because of the file's decimals.
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
     let quads = scene.polygons().filter(|polygon| polygon.points().len() > 3).count();
     let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
@@ -141,31 +124,28 @@ pub(crate) fn note_length(
     found: &Preparation,
     quads: usize,
 ) {
+    let taken = short(tolerance);
     if 2 * found.bent > quads {
-        note(&format!(
-            "{}: {} of {} with four corners or more are bent by at most {}, as by a rounding: \
-             `--tolerance {}` would keep them whole (it is {})",
-            scene.name(),
+        let advice = format!("--tolerance {}", short(raised(found.bent_by)));
+        let full = format!(
+            "{} of {} with four corners or more are bent by at most {}, as by a rounding: \
+             `{advice}` would keep them whole (it is {taken})",
             found.bent,
             count(quads, "face"),
             short(found.bent_by),
-            short(raised(found.bent_by)),
-            short(tolerance),
-        ));
-    } else if scene.precision() > 0.0 && limits.tolerance.is_none() {
-        let bound = match tolerance / scene.precision() {
-            ..0.999 => ", 1e-5 of the extent and the largest by default",
-            1.001.. => ", 1e-9 of the extent and the least by default",
-            _ => "",
-        };
-        note(&format!(
-            "{}: its coordinates are precise to {}, so the tolerance is {}{bound}, unless you give \
+        );
+        let brief = format!("tolerance {taken}, `{advice}` would keep {} whole", found.bent);
+        remark(scene.name(), brief, full);
+    } else if tolerance < 1.001 * scene.precision() && limits.tolerance.is_none() {
+        let is_bound = tolerance < 0.999 * scene.precision();
+        let bound = if is_bound { ", 1e-5 of the extent and the largest by default" } else { "" };
+        let full = format!(
+            "its coordinates are precise to {}, so the tolerance is {taken}{bound}, unless you give \
              `--tolerance`",
-            scene.name(),
             // The precision is four units in the last decimal.
             short(0.25 * scene.precision()),
-            short(tolerance),
-        ));
+        );
+        remark(scene.name(), format!("tolerance {taken} (rounded input)"), full);
     }
 }
 

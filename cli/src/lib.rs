@@ -11,7 +11,7 @@ mod commands;
 mod coverage;
 mod cull;
 mod drawn;
-mod examples;
+mod dxf;
 pub mod failure;
 pub mod files;
 mod format;
@@ -28,15 +28,11 @@ pub mod progress;
 mod samples;
 mod saved_file;
 pub mod scene_arg;
-mod seams;
 mod shading;
 mod signals;
-mod standard_input;
 mod strokes;
-mod svg;
 mod table;
 pub mod terminal;
-mod unfinished;
 pub mod units;
 mod upright;
 pub mod values;
@@ -70,13 +66,15 @@ pub fn program<Arguments: Parser>(
     run: impl FnOnce(&Arguments) -> Result<Outcome, Failure>,
 ) -> ExitCode {
     memory::fail_when_exhausted();
-    let result = match Arguments::try_parse() {
+    let arguments = values::with_joined_vectors(std::env::args_os());
+    let result = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => run(&arguments),
         Err(answer) if answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             terminal::say(answer.render().ansi()).map(|()| Outcome::Done)
         }
         Err(answer) => print(&answer),
     };
+    terminal::print_remarks();
     match result {
         // The reader of the output has closed it: not an error.
         Ok(Outcome::Done) | Err(Failure::ClosedPipe) => ExitCode::SUCCESS,
@@ -90,6 +88,7 @@ pub fn program<Arguments: Parser>(
 }
 
 fn run(cli: &Cli) -> Result<Outcome, Failure> {
+    cli.general.apply()?;
     match &cli.command {
         Command::Demo(args) => commands::demo::run(args),
         Command::Order(args) => commands::order::run(args),
@@ -101,6 +100,7 @@ fn run(cli: &Cli) -> Result<Outcome, Failure> {
         Command::Export(args) => commands::export::run(args),
         Command::Build(args) => commands::build::run(args),
         Command::Scenes => commands::scenes::run(),
+        Command::Generate { folder } => args::generate(folder).map(|()| Outcome::Done),
     }
 }
 

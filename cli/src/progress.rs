@@ -7,12 +7,14 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::terminal::is_quiet;
+
 /// Phases shorter than this are not shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A phase of the work: ends when it is dropped.
 ///
-/// Nothing is written where standard error is not a terminal.
+/// Nothing is written where standard error is not a terminal, or if only errors are asked for.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
@@ -46,7 +48,8 @@ impl Progress {
             bar.set_style(style.progress_chars("=> "));
         }
         bar.set_message(message);
-        let alarm = std::io::stderr().is_terminal().then(|| {
+        let is_shown = !is_quiet() && std::io::stderr().is_terminal();
+        let alarm = is_shown.then(|| {
             let (sender, receiver) = mpsc::channel();
             let late = bar.clone();
             // Without a thread to show it, there is no progress to see.

@@ -2,12 +2,12 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io::Read;
+use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use binspace::BspTree;
 use binspace::internals::open_regular;
-use binspace::scene::{Builtin, BuiltinSpec, Scene};
+use binspace::scene::{Builtin, BuiltinSpec, ObjReport, Scene};
+use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
 use crate::files::STANDARD;
@@ -15,8 +15,7 @@ use crate::formats::{self, Kind, MeshKind};
 use crate::memory;
 use crate::progress::Progress;
 use crate::saved_file;
-use crate::standard_input;
-use crate::terminal::note;
+use crate::terminal::{note, remark};
 
 /// A scene under the user's name for it, and its tree if the file holds one.
 #[derive(Debug)]
@@ -48,6 +47,8 @@ fn stored_name(scene: &Scene) -> String {
     name.map_or_else(|| scene.name().into(), OsStr::to_string_lossy).into_owned()
 }
 
+/// The number of bytes requested at a time from standard input.
+const CHUNK: usize = 1 << 20;
 /// How names of files end.
 const ENDINGS: [&str; 7] = ["obj", "bsp", "stl", "ply", "off", "glb", "gltf"];
 
@@ -64,7 +65,7 @@ pub(crate) enum Source {
 pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
     let name = asked.to_string_lossy();
     match source(asked)? {
-        Source::StandardInput => standard_input::scene(),
+        Source::StandardInput => standard_input(),
         Source::Builtin(spec) => {
             memory::check(&name, spec.polygons())?;
             let _progress = Progress::spinner(format!("generating {name}"));
@@ -106,13 +107,10 @@ fn mesh(kind: MeshKind, path: &Path) -> Result<Scene, Failure> {
     let unreadable = |error| Failure::about(&name, format!("cannot be read: {error}"));
     let mut file = open_regular(path).map_err(unreadable)?;
     memory::check_file(&name, file.metadata().map_err(unreadable)?.len())?;
-    let progress = Progress::spinner(format!("reading {name}"));
+    let _progress = Progress::spinner(format!("reading {name}"));
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(unreadable)?;
-    let scene = kind.read(&name, &bytes, path.parent())?;
-    drop(progress);
-    memory::check(&name, scene.len())?;
-    Ok(scene)
+    checked(kind.read(&name, &bytes, path.parent())?)
 }
 
 fn obj(path: &Path, beginning: &[u8]) -> Result<Scene, Failure> {
@@ -120,18 +118,85 @@ fn obj(path: &Path, beginning: &[u8]) -> Result<Scene, Failure> {
     if let Ok(file) = path.metadata() {
         memory::check_file(&name, file.len())?;
     }
-    let progress = Progress::spinner(format!("reading {name}"));
-    let read = Scene::read_obj(path);
+    let _progress = Progress::spinner(format!("reading {name}"));
+    of_obj(&name, beginning, Scene::read_obj(path))
+}
+
+/// The scene of an OBJ file, with a note on the omitted data.
+fn of_obj(
+    name: &str,
+    beginning: &[u8],
+    read: Result<(Scene, ObjReport), Error>,
+) -> Result<Scene, Failure> {
     let (scene, mut report) =
-        read.map_err(|error| formats::not_obj(&name, beginning, error.to_string()))?;
-    drop(progress);
-    memory::check(&name, scene.len())?;
+        read.map_err(|error| formats::not_obj(name, beginning, error.to_string()))?;
     // They are among the faces without area, which are named once the tree is built.
     report.degenerate_faces = 0;
     if !report.is_clean() {
-        note(&format!("{name}: {report}"));
+        remark(name, &report, &report);
     }
+    checked(scene)
+}
+
+/// A scene, if there is memory for its tree.
+fn checked(scene: Scene) -> Result<Scene, Failure> {
+    memory::check(scene.name(), scene.len())?;
     Ok(scene)
+}
+
+/// Reads a file of any kind from standard input, and notes the omitted data.
+fn standard_input() -> Result<Loaded, Failure> {
+    if io::stdin().is_terminal() {
+        note("reading a scene from the terminal, up to an end of file (Ctrl-D)");
+    }
+    let name = "standard input";
+    let _progress = Progress::spinner(format!("reading {name}"));
+    let bytes = standard_input_bytes(name)?;
+    let beginning = &bytes[..bytes.len().min(formats::BEGINNING)];
+    match Kind::of(beginning, bytes.len() as u64, Path::new("")) {
+        Kind::Saved => Ok(Loaded::saved(name, saved_file::read(name, &bytes[..])?)),
+        Kind::Other(kind) => Err(formats::refused(name, kind)),
+        Kind::Mesh(kind) => Ok(checked(kind.read(name, &bytes, None)?)?.into()),
+        Kind::Obj => {
+            let mut read = Scene::from_obj(name, &bytes, |_| None);
+            if let Ok((_, report)) = &mut read {
+                note_libraries(name, report);
+            }
+            Ok(of_obj(name, beginning, read)?.into())
+        }
+    }
+}
+
+/// Notes that material libraries beside standard input are not found, in place of their materials.
+fn note_libraries(name: &str, report: &mut ObjReport) {
+    let mut libraries = std::mem::take(&mut report.missing_libraries);
+    libraries.append(&mut report.outside_libraries);
+    if !libraries.is_empty() {
+        report.missing_materials.clear();
+        let full = format!(
+            "it has no folder to find material libraries in, so all is grey; name the file to have \
+             the colours of {}",
+            libraries.join(", ")
+        );
+        remark(name, "grey without its material libraries", full);
+    }
+}
+
+/// All of standard input. Too little memory for it, or for the scene in it, is an error as soon as it
+/// shows.
+fn standard_input_bytes(name: &str) -> Result<Vec<u8>, Failure> {
+    let mut bytes: Vec<u8> = Vec::new();
+    let mut input = io::stdin().lock();
+    loop {
+        let problem = |_| Failure::about(name, "too little memory to read it");
+        bytes.try_reserve(CHUNK).map_err(problem)?;
+        // Fits the existing buffer, so that reading itself allocates nothing.
+        let read = input.by_ref().take(CHUNK as u64).read_to_end(&mut bytes);
+        if read.map_err(|error| Failure::about(name, format!("cannot be read: {error}")))? == 0 {
+            return Ok(bytes);
+        }
+        memory::check_file(name, bytes.len() as u64)?;
+    }
 }
 
 pub(crate) fn source(name: &OsStr) -> Result<Source, Failure> {

@@ -39,11 +39,6 @@ fn normal_to_viewer(polygon: &[DVec3], camera: &Camera) -> DVec3 {
     if normal.dot(to_viewer) < 0.0 { -normal } else { normal }
 }
 
-/// A colour in SVG.
-pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::shaded;

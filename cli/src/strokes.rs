@@ -21,13 +21,14 @@ pub(crate) enum EdgeChoice {
 }
 
 /// How hidden parts of edges are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Hidden {
     /// Dashed, and thinner
     Dashed,
     /// Dashed the more sparsely the more polygons lie in front: one, two, three, or more
     Layers,
     /// Not at all
+    #[default]
     None,
 }
 

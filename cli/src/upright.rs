@@ -1,10 +1,10 @@
-//! Whether a scene from a file looks as if z pointed up.
+//! Which way is up in files that do not say it.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 
 use crate::args::UpArgs;
-use crate::terminal::note;
+use crate::terminal::remark;
 
 /// The largest distance from 0 of the lowest point of something on the ground, as a share of its height. Too
 /// small: rounded files are missed. Too large: things that hang somewhat above 0 count as well.
@@ -24,16 +24,24 @@ const LAYERS: f64 = 0.98;
 /// The sine of the angle within which a face counts as perpendicular to z is below this.
 const PERPENDICULAR: f64 = 0.2;
 
-/// Notes that a file seems to be z-up, unless the user has given the up direction.
-pub(crate) fn note_z_up(scene: &Scene, up: &UpArgs) {
-    let is_file = !scene.is_empty() && scene.line(0).is_some();
-    if let (true, None, Some(reason)) = (is_file, up.up, sign_of_z_up(scene)) {
-        note(&format!(
-            "{}: it looks as if z pointed up, as {reason}; y does unless you give `--up z` (or \
-             `--up y`, to be spared this note)",
-            scene.name()
-        ));
+/// The direction that points up in pictures: the scene's, or z if it is an OBJ file that looks like that. (OBJ
+/// files do not say which way is up.)
+pub(crate) fn up_of(scene: &Scene) -> DVec3 {
+    taken(scene).map_or(scene.up(), |_| DVec3::Z)
+}
+
+/// Notes that z was taken for up, unless the user has given the up direction.
+pub(crate) fn note_up(scene: &Scene, up: &UpArgs) {
+    if let (None, Some(reason)) = (up.given(), taken(scene)) {
+        let full = format!("z is taken for up, as {reason}; `--up y` or `--up z` decides");
+        remark(scene.name(), format!("z is taken for up, as {reason}"), full);
     }
+}
+
+/// Why z is taken for the up direction of a file, if it is.
+fn taken(scene: &Scene) -> Option<&'static str> {
+    let is_silent = scene.up() == DVec3::Y && !scene.is_empty() && scene.line(0).is_some();
+    is_silent.then(|| sign_of_z_up(scene)).flatten()
 }
 
 /// Why a scene looks as if z pointed up, if it does. One of two signs suffices:

@@ -1,15 +1,40 @@
-//! Parses and checks the values of options: vectors, sizes, angles.
+//! Parses and checks the values of options: vectors, sizes, angles, colours.
+
+use std::ffi::OsString;
 
 use binspace::Heuristic;
 use binspace::glam::DVec3;
 use binspace::view::Camera;
+
+/// The options that take a vector.
+const VECTORS: [&str; 5] = ["--eye", "--direction", "--target", "--up", "--order"];
+
+/// Joins the numbers of a vector to one argument: `--eye 9 -4 3` to `--eye=9,-4,3`.
+pub(crate) fn with_joined_vectors(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let arguments: Vec<OsString> = arguments.collect();
+    let mut joined = Vec::with_capacity(arguments.len());
+    let mut rest = &arguments[..];
+    while let [first, others @ ..] = rest {
+        joined.push(first.clone());
+        rest = others;
+        let is_vector = VECTORS.iter().any(|option| first == *option);
+        let numbers = others.iter().take(3).map_while(|number| number.to_str());
+        let numbers: Vec<&str> = numbers.map(|number| number.trim_end_matches(',')).collect();
+        let count = numbers.iter().take_while(|number| number.parse::<f64>().is_ok()).count();
+        if let (true, 2.., Some(last)) = (is_vector, count, joined.last_mut()) {
+            *last = format!("{}={}", first.to_string_lossy(), numbers[..count].join(",")).into();
+            rest = &others[count..];
+        }
+    }
+    joined
+}
 
 /// A point: three finite numbers separated by commas.
 pub(crate) fn point(text: &str) -> Result<DVec3, String> {
     let parts: Vec<&str> = text.split(',').collect();
     let &[x, y, z] = &parts[..] else {
         let count = if text.is_empty() { 0 } else { parts.len() };
-        return Err(format!("expected three numbers X,Y,Z, not {count}"));
+        return Err(format!("expected three numbers, as in 9,-4,3 or 9 -4 3, not {count}"));
     };
     Ok(DVec3::new(finite(x)?, finite(y)?, finite(z)?))
 }
@@ -23,17 +48,52 @@ pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     Ok(vector)
 }
 
-/// A direction upwards: an axis, or any direction.
-pub(crate) fn up(text: &str) -> Result<DVec3, String> {
+/// The direction that points up; `None` for the one that [`up_of`](crate::upright::up_of) a scene is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Up(pub(crate) Option<DVec3>);
+
+/// A direction upwards: an axis, any direction, or `auto`.
+pub(crate) fn up(text: &str) -> Result<Up, String> {
+    if text == "auto" {
+        return Ok(Up(None));
+    }
     let (name, sign) = text.strip_prefix('-').map_or((text, 1.0), |name| (name, -1.0));
     let axis = match name {
         "x" => DVec3::X,
         "y" => DVec3::Y,
         "z" => DVec3::Z,
-        _ if name.contains(',') => return direction(text),
-        _ => return Err("expected an axis (x, y, z, -x, …) or a vector X,Y,Z".to_owned()),
+        _ if name.contains(',') => return direction(text).map(|up| Up(Some(up))),
+        _ => return Err("expected auto, an axis (x, y, z, -x, …) or a vector X,Y,Z".to_owned()),
     };
-    Ok(axis * sign)
+    Ok(Up(Some(axis * sign)))
+}
+
+/// A background: a colour, or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
+
+/// A colour as in SVG and CSS, by its name if it is a usual one, or `none`.
+pub(crate) fn background(text: &str) -> Result<Background, String> {
+    let wrong = "expected a colour such as #ffeecc, white or black, or none";
+    let colour = match text {
+        "none" => return Ok(Background(None)),
+        "white" => [255; 3],
+        "black" => [0; 3],
+        _ => {
+            let digits = text.strip_prefix('#').unwrap_or(text);
+            let is_hex = digits.chars().all(|digit| digit.is_ascii_hexdigit());
+            let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_hex).ok_or(wrong)?;
+            let channels = |bits: u32, scale: u32| {
+                [2, 1, 0].map(|i| (scale * (number >> (bits * i) & ((1 << bits) - 1))) as u8)
+            };
+            match digits.len() {
+                3 => channels(4, 17),
+                6 => channels(8, 1),
+                _ => return Err(wrong.to_owned()),
+            }
+        }
+    };
+    Ok(Background(Some(colour)))
 }
 
 /// A picture's size: `640x480`.
@@ -61,6 +121,19 @@ pub(crate) fn field_of_view(text: &str) -> Result<f64, String> {
         return Err("expected an angle from 0.001 to 179 degrees".to_owned());
     }
     Ok(degrees.to_radians())
+}
+
+/// A share of 0 to 45 percent, as a number up to 0.45.
+pub(crate) fn margin(text: &str) -> Result<f64, String> {
+    match finite(text)? {
+        percent @ 0.0..=45.0 => Ok(percent / 100.0),
+        _ => Err("expected 0 to 45 percent".to_owned()),
+    }
+}
+
+/// A length of more than 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected more than 0".to_owned())
 }
 
 /// A length of 0 or more.
@@ -116,10 +189,41 @@ mod tests {
     }
 
     #[test]
+    fn three_numbers_after_an_option_are_one_vector() {
+        let joined = |line: &str| -> String {
+            let words = with_joined_vectors(line.split(' ').map(OsString::from));
+            words.iter().map(|word| word.to_str().unwrap()).collect::<Vec<_>>().join(" ")
+        };
+        for (line, expected) in [
+            ("draw --eye 9 -4 3 s.obj", "draw --eye=9,-4,3 s.obj"),
+            ("--eye 1, 2, 3 --eye 4 5 6e1", "--eye=1,2,3 --eye=4,5,6e1"),
+            ("--eye 9,-4,3 s.obj --up z", "--eye 9,-4,3 s.obj --up z"),
+            // Too few: that is said of the option.
+            ("--eye 9 -4 s.obj", "--eye=9,-4 s.obj"),
+            ("--size 9 4 3 --eye=1,2,3 1", "--size 9 4 3 --eye=1,2,3 1"),
+            ("--target 1", "--target 1"),
+        ] {
+            assert_eq!(joined(line), expected);
+        }
+    }
+
+    #[test]
+    fn backgrounds_are_colours_or_none() {
+        let colour = |text| background(text).unwrap().0;
+        assert_eq!(colour("#ffeecc"), Some([255, 238, 204]));
+        assert_eq!([colour("fec"), colour("#ffeecc")], [Some([255, 238, 204]); 2]);
+        assert_eq!([colour("none"), colour("black")], [None, Some([0; 3])]);
+        for text in ["", "#", "#12345", "grey!", "+1234f", "#ééé"] {
+            assert!(background(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
     fn up_is_an_axis_or_a_vector() {
-        assert_eq!(up("z"), Ok(DVec3::Z));
-        assert_eq!(up("-y"), Ok(DVec3::NEG_Y));
-        assert_eq!(up("-1,0,2"), Ok(DVec3::new(-1.0, 0.0, 2.0)));
+        assert_eq!(up("auto"), Ok(Up(None)));
+        assert_eq!(up("z"), Ok(Up(Some(DVec3::Z))));
+        assert_eq!(up("-y"), Ok(Up(Some(DVec3::NEG_Y))));
+        assert_eq!(up("-1,0,2"), Ok(Up(Some(DVec3::new(-1.0, 0.0, 2.0)))));
         assert!(up("w").is_err() && up("").is_err() && up("0,0,0").is_err());
     }
 

@@ -1,13 +1,13 @@
-//! A picture to paint convex polygons on, one over the other, as the examples need it.
+//! A picture on which the examples paint convex polygons, one over the other.
 
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 
-/// Samples of a pixel across and down, for smooth edges.
+/// Samples along each side of a pixel, for antialiased edges.
 const SAMPLES: usize = 4;
 
-/// Red, green, blue, and how much of what is below they hide; from 0 to 1.
+/// Red, green, blue and opacity, from 0 to 1.
 pub(crate) type Colour = [f64; 4];
 
 pub(crate) struct Canvas {
@@ -23,7 +23,7 @@ impl Canvas {
     }
 
     /// Paints a convex polygon, given in pixels, in the colour of each of its points. Polygons that
-    /// share an edge, bit for bit, leave no sample of it out and paint none twice.
+    /// share an edge, bit for bit, paint every sample on it exactly once.
     pub(crate) fn fill(&mut self, outline: &[[f64; 2]], colour: impl Fn([f64; 2]) -> Colour) {
         let outline: Vec<[f64; 2]> =
             outline.iter().map(|point| point.map(|x| x * SAMPLES as f64 - 0.5)).collect();
@@ -61,7 +61,7 @@ impl Canvas {
     }
 }
 
-/// Where a line y = constant enters and leaves a convex outline.
+/// The x at which a line y = constant enters and leaves a convex outline.
 fn span(outline: &[[f64; 2]], y: f64) -> [f64; 2] {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for (i, &a) in outline.iter().enumerate() {

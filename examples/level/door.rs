@@ -4,7 +4,7 @@ use binspace::glam::DVec3;
 
 use crate::rooms::{Kind, Quad};
 
-/// Where a door hangs: a point on the floor, and the way to the other side of the doorway.
+/// The position of a door: a point on the floor, and the vector to the other side of the doorway.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Door {
     hinge: DVec3,

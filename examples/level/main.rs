@@ -1,5 +1,4 @@
-//! A walk through a level of rooms with a door that swings: what is in view, what hides what, and who
-//! sees whom.
+//! A walk through a level of rooms with a door that swings: culling, occlusion and sight lines.
 //!
 //! ```sh
 //! cargo run --release --example level -- docs/level.png
@@ -7,19 +6,18 @@
 //!
 //! The level is a tree that is built once. For each frame
 //!
-//! - **culling**: the tree is walked from front to back. A subtree is skipped if its box is outside of
-//!   the camera's frustum, or if a mask of the picture's pixels says that all it may cover is covered.
-//!   Of closed bodies the backs are left out. What is left owns the pixels of the picture, and no visit
-//!   depends on how large the rest of the level is;
-//! - **the door** moves: it is in an overlay, which cuts it by the planes of the tree and gives one order
-//!   of both. The tree stays as it is;
-//! - **a sight line** from a guard to the camera is free if neither the level nor the door is in its way:
-//!   one question to the overlay.
+//! - **culling**: the tree is walked from front to back. A subtree is skipped if its box is outside the
+//!   camera's frustum, or if a mask shows that all pixels that it may cover are covered. Back faces of
+//!   closed bodies are left out. The remaining fragments own the pixels of the picture. The number of
+//!   visits does not depend on the size of the rest of the level;
+//! - **the door** moves, so it is in an overlay, which splits it by the planes of the tree and returns one
+//!   order of both. The tree is not changed;
+//! - **a sight line** from a guard to the camera is free if neither the level nor the door blocks it. One
+//!   query to the overlay answers this.
 //!
-//! The picture shows a frame, and beside it a map: bright is what was painted, dark what was never
-//! looked at.
+//! The picture shows a frame, and beside it a map: painted polygons are bright, unvisited ones dark.
 //!
-//! ![A frame inside the rooms, and a map of what was looked at](../../docs/level.png)
+//! ![A frame inside the rooms, and a map of the visited polygons](../../docs/level.png)
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -49,7 +47,7 @@ const PICTURE: usize = 2;
 const VIEW: [u32; 2] = [640, 480];
 const MAP: f64 = 480.0;
 
-/// What stays, and what moves in it.
+/// The static level, and the moving door.
 struct Level {
     polygons: Vec<(Kind, Quad)>,
     tree: BspTree,
@@ -57,13 +55,13 @@ struct Level {
     overlay: Overlay,
 }
 
-/// What a frame found.
+/// The result of a frame.
 struct Frame {
     /// The fragments that own a pixel, front to back.
     seen: Vec<u32>,
-    /// The subtrees and fragments that the walk came to.
+    /// The number of subtrees and fragments that the walk visited.
     visits: usize,
-    /// What is painted, back to front: the numbers of what is seen, and of the door's pieces.
+    /// The painted fragments, back to front: visible fragments, and the pieces of the door.
     order: Vec<u32>,
 }
 
@@ -86,15 +84,15 @@ impl Level {
         self.open(angle)?;
         let mut order = Vec::new();
         self.overlay.order(&self.tree, camera.viewpoint())?.write_into(&mut order);
-        // Of the tree what is seen, and all of the door: behind a wall, the wall is painted over it.
+        // Visible fragments of the tree, and the whole door: if it is behind a wall, the wall covers it.
         let mut is_painted = vec![false; self.tree.len()];
         seen.iter().for_each(|&fragment| is_painted[fragment as usize] = true);
         order.retain(|&number| is_painted.get(number as usize).copied().unwrap_or(true));
         Ok(Frame { seen, visits, order })
     }
 
-    /// The fragments of the tree that own a pixel, front to back, and how many parts were looked at.
-    /// What the door hides is among them.
+    /// The fragments of the tree that own a pixel, front to back, and the number of visited parts. Fragments
+    /// that only the door hides are included.
     fn walk(&self, camera: &Camera) -> Result<(Vec<u32>, usize), Box<dyn Error>> {
         let Self { polygons, tree, .. } = self;
         let frustum = camera.frustum();
@@ -123,7 +121,7 @@ impl Level {
         Ok((seen, visits))
     }
 
-    /// Whether two points see each other, past the door as it is now.
+    /// Whether two points see each other past the door in its current position.
     fn is_in_sight(&self, from: DVec3, to: DVec3) -> Result<bool, binspace::Error> {
         Ok(!self.overlay.is_occluded(&self.tree, Ray::between(from, to))?)
     }
@@ -145,7 +143,7 @@ fn camera(frame: usize) -> Result<Camera, Box<dyn Error>> {
     Ok(Camera::perspective(eye, eye + look, DVec3::Z, 1.05, VIEW)?)
 }
 
-/// How far the door is open in a frame, in radians.
+/// The angle of the open door in a frame, in radians.
 fn angle(frame: usize) -> f64 {
     FRAC_PI_2 * frame as f64 / (FRAMES - 1) as f64
 }
@@ -182,7 +180,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
-fn a_frame_looks_at_little_and_misses_nothing() {
+fn a_frame_visits_few_parts_and_misses_none() {
     let mut level = Level::new().unwrap();
     let parts = level.tree.nodes().len() + level.tree.len();
     for number in 0..FRAMES {
@@ -218,7 +216,7 @@ fn door_pixels(camera: &Camera, outlines: impl Iterator<Item = (bool, Vec<DVec3>
     pixels.map(|pixel| canvas.pixel(pixel)[0] > 128).collect()
 }
 
-/// The picture is that of a tree of everything, built for this frame alone.
+/// The picture equals the picture of one tree of the level and the door, built for this frame.
 #[test]
 fn the_door_shows_where_it_would_in_a_tree_of_its_own_frame() {
     let mut level = Level::new().unwrap();

@@ -1,4 +1,4 @@
-//! The picture: a frame, and a map of what was looked at.
+//! The picture: a frame, and a map of the visited polygons.
 
 use std::f64::consts::FRAC_PI_8;
 
@@ -23,7 +23,7 @@ fn colour(kind: Kind) -> [f64; 3] {
 /// The colour of the door.
 const DOOR: [f64; 3] = [0.55, 0.22, 0.20];
 
-/// The frame as it is seen, on the left: what the camera sees of the level, and the door.
+/// Paints the frame on the left: the visible part of the level, and the door.
 pub(crate) fn paint_view(canvas: &mut Canvas, level: &Level, camera: &Camera, frame: &Frame) {
     let Viewpoint::Eye(eye) = camera.viewpoint() else { return };
     for &number in &frame.order {
@@ -41,7 +41,7 @@ pub(crate) fn paint_view(canvas: &mut Canvas, level: &Level, camera: &Camera, fr
     }
 }
 
-/// The level from above, on the right: what was painted is bright.
+/// Paints the level from above on the right. Painted polygons are bright.
 pub(crate) fn paint_map(canvas: &mut Canvas, level: &Level, camera: &Camera, frame: &Frame) {
     let Level { tree, polygons, .. } = level;
     let scale = (MAP - 20.0) / (ROOMS as f64 * ROOM);

@@ -2,7 +2,7 @@
 
 use binspace::glam::{DVec3, dvec3};
 
-/// What a polygon is.
+/// The kind of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Floor,
@@ -25,7 +25,7 @@ pub(crate) fn rooms(side: usize) -> Vec<(Kind, Quad)> {
     let mut level = Vec::new();
     let mut dice = 1_u64;
     let mut roll = |faces: u64| {
-        // Knuth's generator; the upper bits are the good ones.
+        // Knuth's generator; its upper bits have the better quality.
         dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (dice >> 33) % faces
     };

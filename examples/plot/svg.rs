@@ -1,5 +1,5 @@
-//! The plot as a vector picture: one path for each quad that shows, then lines, dashed where surfaces hide
-//! them, and the markers and labels that show.
+//! The plot as a vector picture: one path for each visible quad, then lines, dashed where surfaces hide them,
+//! and the visible markers and labels.
 
 use super::{INK, Line, Plot, SIZE, TOWARDS_EYE, UNIT, project};
 use binspace::drawing::{Hidden, Paint, Stroke, VectorPicture, ViewOptions, polylines};
@@ -44,12 +44,12 @@ pub(crate) fn picture(plot: &Plot) -> Result<VectorPicture, Box<dyn Error>> {
         }
     }
     let dot = Paint::from([255, 214, 77]).with_stroke(Stroke::new(1.5, rgb(INK)));
-    // A light rim below, so that it can be read on anything.
+    // A light outline below, so that the text is readable on any background.
     let label = Paint::from(rgb(INK)).with_stroke(Stroke::new(3.0, [255; 3]).with_opacity(0.6));
     for marker in map.markers(&plot.overlay)?.into_iter().filter(|marker| marker.is_visible) {
         match &*plot.marks[marker.point].text {
-            "" => picture.add_marker(marker.at, 5.7, dot),
-            text => picture.add_label(marker.at, text, 16.0, label),
+            "" => picture.add_marker(marker.position, 5.7, dot),
+            text => picture.add_label(marker.position, text, 16.0, label),
         }
     }
     Ok(picture)

@@ -174,7 +174,7 @@ impl Overlay {
         let points = views.iter().map(|view| self.numbers.point(view.point));
         Ok(Markers {
             point: array1(py, points.collect()),
-            at: array2(py, views.iter().map(|view| view.at).collect())?,
+            at: array2(py, views.iter().map(|view| view.position).collect())?,
             is_visible: array1(py, views.iter().map(|view| view.is_visible).collect()),
         })
     }

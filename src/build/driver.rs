@@ -26,9 +26,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If a coordinate is infinite or NaN; if one polygon has more than 2²² corners, all polygons together
-    /// have 2²⁸ or more, or the tree would have more than 2²⁵ fragments; or if memory runs out. The error
-    /// names the polygon that caused it, if any.
+    /// If a coordinate is infinite or NaN, if one polygon has more than 2²² corners, if all polygons together
+    /// have 2²⁸ corners or more, if the tree would have more than 2²⁵ fragments, or if memory runs out. The
+    /// error names the polygon that caused it, if any.
     pub fn build<P: Polygon>(polygons: impl IntoIterator<Item = P>) -> Result<Self, Error> {
         BuildOptions::DEFAULT.build(polygons)
     }
@@ -50,13 +50,13 @@ impl BuildOptions {
     /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
     ///
     /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
-    /// may call it, but never two at once: a thread that finds it busy continues with its work. So the
-    /// callback may be slow, and may use the same thread pool.
+    /// may call it, but never two threads at once: a thread that finds it busy continues with its work. So
+    /// the callback may be slow, and may use the same thread pool.
     ///
-    /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops
-    /// after its current pass over a set of pieces. That takes milliseconds, or tenths of a second
-    /// in sets of some 100 000 pieces. When all sets are divided, the tree is laid out in memory,
-    /// which takes about as long and cannot be cancelled.
+    /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops after its
+    /// current pass over a set of pieces. A pass takes milliseconds, or tenths of a second in sets of some
+    /// 100 000 pieces. When all sets are divided, the tree is laid out in memory; this takes about as long as
+    /// a pass and cannot be cancelled.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -98,7 +98,7 @@ fn tree<P: Polygon>(
     tree_of_faces(options, faces, preparation, watch)
 }
 
-/// Builds a tree of prepared faces, or of their parts in a cell if they have one.
+/// Builds a tree of prepared faces, or of their parts in their cell if they belong to one.
 pub(super) fn tree_of_faces(
     options: &BuildOptions,
     mut faces: Faces,
@@ -155,7 +155,7 @@ fn prepared<P: Polygon>(
     Ok((faces, preparation))
 }
 
-/// Builds a tree of prepared faces, with their tolerance instead of that of the options.
+/// Builds a tree of prepared faces, with their tolerance instead of the options' tolerance.
 ///
 /// # Errors
 ///
@@ -283,16 +283,16 @@ fn extend<P: Polygon>(
 
 impl BuildOptions {
     /// Divides a scene into cells, each with about the same number of the given samples, such as one corner
-    /// of every polygon, or of some polygons. Takes O(n log cells) time for n samples.
+    /// of every polygon, or of some polygons. It takes O(n log cells) time for n samples.
     ///
     /// Each plane goes through a sample, and divides the samples on the axis of their largest extent. The
-    /// same samples, in any order, give the same cells. Every cell exists, but some may be empty: with
-    /// fewer samples than cells, or most of them in one place, planes lie where there is room for them. 0
-    /// cells count as 1.
+    /// same samples, in any order, give the same cells. Every cell exists, but some may be empty: with fewer
+    /// samples than cells, or most samples in one place, planes lie where there is room for them. 0 cells
+    /// count as 1.
     ///
-    /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines
-    /// the grid to which their corners are rounded. The tolerance of these options is that of all cells;
-    /// the default follows the extent.
+    /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines the
+    /// grid to which the corners of polygons are rounded. The tolerance of these options applies to all
+    /// cells; the default depends on the extent.
     ///
     /// # Errors
     ///
@@ -314,9 +314,9 @@ impl BuildOptions {
         Partition::new(extent, &room, self.tolerance, samples, cells)
     }
 
-    /// Builds the tree of a cell, from at least the polygons that [reach](Partition::reached_by) it.
-    /// Coplanar polygons keep their order, so it must be the same for all cells. The tree's polygon numbers
-    /// are places in this list.
+    /// Builds the tree of a cell, from at least the polygons that [reach](Partition::reached_by) it. Coplanar
+    /// polygons keep their order, so pass the polygons in the same order for all cells. The tree's polygon
+    /// numbers are indices among these polygons.
     ///
     /// The partition's tolerance and bounds replace those of the options.
     ///
@@ -359,11 +359,10 @@ impl BuildOptions {
 }
 
 impl Partition {
-    /// The same counts as in the [preparations](BspTree::preparation) of the cells' trees, but with each
-    /// polygon counted once, however many cells it reaches: for totals of a scene, whose polygons may be
-    /// given in several lists. [`dropped`](crate::Preparation::dropped) polygons are those without area.
-    /// Takes as long as the preparation in [`build_cell`](BuildOptions::build_cell), and cannot be
-    /// cancelled.
+    /// Counts as in the [preparations](BspTree::preparation) of the cells' trees, but with each polygon
+    /// counted once, however many cells it reaches. The counts of several lists add up to the totals of a
+    /// scene. [`dropped`](crate::Preparation::dropped) polygons are those without area. Takes as long as the
+    /// preparation in [`build_cell`](BuildOptions::build_cell), and cannot be cancelled.
     ///
     /// # Errors
     ///
@@ -376,8 +375,8 @@ impl Partition {
         prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
     }
 
-    /// Whether a tree can be one of this cell: on the partition's grid, with its tolerance, and cut to the
-    /// cell. The polygons of the tree are not compared.
+    /// Returns whether a tree can belong to this cell: whether it is on the partition's grid, with its
+    /// tolerance, and cut to the cell. The polygons of the tree are not compared.
     ///
     /// # Panics
     ///

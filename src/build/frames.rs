@@ -22,13 +22,13 @@ use crate::tree::parts::{Parts, RawNode};
 /// Builds a tree for every frame, in reused memory.
 ///
 /// Use it if polygons move every frame and each tree is drawn once or twice, as in a compositor of layers.
-/// Its trees are as exact as those of [`BspTree::build`], but made for one view. Planes of small sets are
-/// chosen in less time, so the fragments may differ. The rounded positions of cut vertices are stored
-/// rather than computed at each reading. The layout with which
-/// [`back_to_front_into`](BspTree::back_to_front_into) writes many orders is left out, so an order takes a
-/// few times longer, also for a clone of such a tree. Once its lists have grown to the size of a scene, a
-/// frame of few layers allocates nothing, except for the boxes of frames that are queried or culled (see
-/// [`BspTree::bounds`]). The lists do not shrink; to free their memory, make another builder.
+/// Its trees are as exact as the trees of [`BspTree::build`], but made for one view. Planes of small sets are
+/// chosen in less time, so the fragments may differ. The rounded positions of cut vertices are stored rather
+/// than computed at each reading. The layout that makes [`back_to_front_into`](BspTree::back_to_front_into)
+/// fast is left out, so an order takes a few times longer, also for a clone of such a tree. Once the
+/// builder's lists have grown to the size of a scene, a frame of few layers allocates nothing, except for the
+/// boxes of frames that are queried or culled (see [`BspTree::bounds`]). The lists do not shrink; to free
+/// their memory, make another builder.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};
@@ -52,7 +52,7 @@ use crate::tree::parts::{Parts, RawNode};
 pub struct FrameBuilder {
     options: BuildOptions,
     tree: BspTree,
-    // Lists that are reused for the next frame.
+    // Lists reused for the next frame.
     preparer: Preparer,
     builder: Builder,
     planes: Vec<PreparedPlane>,
@@ -64,7 +64,7 @@ pub struct FrameBuilder {
 type Arrange<'a> = &'a mut dyn FnMut(&mut Faces) -> Result<(), Error>;
 
 impl FrameBuilder {
-    /// A builder with these options and an empty tree.
+    /// Creates a builder with these options and an empty tree.
     pub fn new(options: BuildOptions) -> Self {
         Self {
             options,
@@ -86,7 +86,7 @@ impl FrameBuilder {
     ///
     /// # Errors
     ///
-    /// As for [`BuildOptions::build`]. The tree is empty then.
+    /// As for [`BuildOptions::build`]. After an error the tree is empty.
     pub fn build<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -140,14 +140,14 @@ impl FrameBuilder {
         Ok(())
     }
 
-    /// The last tree built.
+    /// Returns the last tree built.
     pub fn tree(&self) -> &BspTree {
         &self.tree
     }
 }
 
 impl Clone for FrameBuilder {
-    /// A builder with the same options and tree, and no spare memory.
+    /// Copies the options and the tree, but no spare memory.
     fn clone(&self) -> Self {
         Self { tree: self.tree.clone(), ..Self::new(self.options.clone()) }
     }

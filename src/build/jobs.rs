@@ -22,8 +22,8 @@ pub(super) struct Job {
     pub(super) depth: usize,
 }
 
-/// Whether one side of a plane becomes a separate job, by the numbers of pieces on both sides: only where
-/// both are large is there work for another thread.
+/// Whether one side of a plane becomes a separate job, given the numbers of pieces on both sides. Another
+/// thread is worth using only if both sides are large.
 pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
     back.min(front) >= JOB
 }
@@ -64,7 +64,7 @@ fn build_and_spawn<'s>(
     outputs.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(output);
 }
 
-/// Builds a job, and all jobs handed over by it and by these, and joins them.
+/// Builds a job, and all jobs that it and its successors hand over, and joins their outputs.
 pub(super) fn run(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Result<Parts, Error> {
     #[cfg(feature = "parallel")]
     if job.pieces.len() >= JOB && crate::parallel_map::are_running() {
@@ -151,7 +151,7 @@ impl Output {
         self.gaps.push(gap);
     }
 
-    /// Its end, as a place for the output of a job.
+    /// The end of this output, as a place for the output of a job.
     fn end(&self, job: usize) -> Gap {
         let Parts { nodes, records, vertices, .. } = &self.parts;
         Gap { nodes: nodes.len(), records: records.len(), vertices: vertices.len(), job }
@@ -172,8 +172,8 @@ impl Output {
     }
 }
 
-/// Joins the outputs of all jobs. The first is that of the root; gaps in the outputs refer to the
-/// others by their index.
+/// Joins the outputs of all jobs. The first output is the root's; gaps in the outputs refer to the other
+/// outputs by index.
 fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     if outputs.len() == 1 {
         return Ok(outputs.pop().unwrap_or_default().parts);
@@ -186,8 +186,8 @@ fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     reserve(&mut whole.parts.vertices, sum(|output| output.parts.vertices.len()))?;
     reserve(&mut whole.parts.positions, sum(|output| output.parts.positions.len()))?;
     let start = |job| (Gap { nodes: 0, records: 0, vertices: 0, job }, 0);
-    // The outputs that are partly copied: from where to continue, and the next gap. A stack rather than
-    // recursion, because jobs can be nested deeply.
+    // The partly copied outputs: where to continue, and the next gap. A stack rather than recursion, because
+    // jobs can be nested deeply.
     let mut stack = vec![start(0)];
     while let Some((from, next)) = stack.pop() {
         let output = &outputs[from.job];
@@ -207,14 +207,14 @@ fn assemble(mut outputs: Vec<Output>) -> Result<Parts, Error> {
     Ok(whole.parts)
 }
 
-/// Jobs after one of them failed.
+/// Jobs after one job has failed.
 #[cfg(all(test, feature = "parallel"))]
 mod threads_tests {
     use std::ops::ControlFlow;
 
     use crate::{BuildOptions, Heuristic};
 
-    /// The depth that one side stays below, and the other exceeds.
+    /// The depth that one side does not reach and the other side exceeds.
     const MOST: usize = 100;
     /// The number of squares on the shallow side.
     const MANY: u32 = 1 << 15;
@@ -224,8 +224,8 @@ mod threads_tests {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(y, z)| [x, y, z])
     }
 
-    /// Split by the planes of the first ones, the squares in front become a list, and those behind a tree
-    /// without long branches.
+    /// With `Heuristic::First`, the squares in front become a list, and the squares behind a tree without
+    /// long branches.
     fn squares() -> impl Iterator<Item = [[f64; 3]; 4]> {
         let list = (1..2000).map(f64::from);
         // Equally often from each half, each quarter, and so on.
@@ -258,7 +258,8 @@ mod threads_tests {
         assert!(calls > 5 && tree.unwrap().stats().depth_max < MOST, "{calls}");
     }
 
-    /// Whichever job fails, and however many stop because of it, the error is that of the first.
+    /// Whichever job fails, and however many jobs stop because of it, the error of the failed job is
+    /// returned.
     #[test]
     fn what_an_error_has_stopped_does_not_hide_it() {
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(MOST);

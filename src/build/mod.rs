@@ -1,6 +1,6 @@
 //! Building a tree.
 //!
-//! `driver` has the steps from polygons to a tree. `subtree` divides a set of pieces by the planes that
+//! `driver` contains the steps from polygons to a tree. `subtree` divides a set of pieces by the planes that
 //! `choose` finds. `jobs` spreads large sets over threads and joins the results.
 
 pub(crate) mod choose;

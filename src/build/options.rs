@@ -29,19 +29,19 @@ pub struct BuildOptions {
     /// How partition planes are chosen. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
     /// The coplanar tolerance: a polygon counts as lying on a plane if it reaches no further than this from
-    /// it. Default: [`Tolerance::Default`], which follows the precision of the polygons.
+    /// the plane. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
     pub tolerance: Tolerance,
-    /// The largest number of fragments of a tree, and of polygons that it is built from. More is an error.
-    /// Too many input polygons are rejected before the build starts; if the iterator's size hint is too
-    /// large, after 2²⁰ polygons. Default: 2²⁵ (33 554 432 fragments, about 5 GB). More than 2²⁹ − 1 counts
-    /// as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
+    /// The largest number of fragments of a tree, and of polygons that it is built from. More fragments or
+    /// polygons are an error. Too many polygons are rejected before the build starts, or after 2²⁰ polygons
+    /// if the iterator's size hint is too large. Default: 2²⁵ (33 554 432 fragments, about 5 GB). More than
+    /// 2²⁹ − 1 counts as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
     pub max_fragments: usize,
-    /// The largest number of nodes on a path from the root. More is an error. Default: unlimited; no code
-    /// recurses over the tree, so a deep tree cannot overflow the stack.
+    /// The largest number of nodes on a path from the root. A longer path is an error. Default: unlimited; no
+    /// code recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
     /// Two opposite corners of a box that the grid of exact coordinates must contain besides the polygons,
-    /// such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). It counts as part of the
-    /// scene for its extent, for instance in the default tolerance. Default: none.
+    /// such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). The scene's extent
+    /// includes this box, for instance in the default tolerance. Default: no box.
     pub bounds: Option<[DVec3; 2]>,
     pub(super) chooser: Option<GivenChooser>,
 }
@@ -101,17 +101,17 @@ impl BuildOptions {
 
     /// Sets your own heuristic: a function that chooses the plane that divides a set of pieces.
     ///
-    /// It is called once for each set of two or more pieces. If it returns `None` or a plane that does not
-    /// divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the set if
-    /// it leaves all pieces on one side, or names a piece, axis or coordinate that does not exist. So for
-    /// every function the tree is exact, its build ends, and budgets and cancellation work.
+    /// The function is called once for each set of two or more pieces. If it returns `None` or a plane that
+    /// does not divide the set, [`heuristic`](Self::heuristic) chooses instead. A plane does not divide the
+    /// set if it leaves all pieces on one side, or names a piece, axis or coordinate that does not exist.
+    /// With any function the tree is exact, its build ends, and budgets and cancellation work.
     ///
-    /// Several threads call it at the same time, in any order. If its result depends only on the set, the
-    /// tree is the same with any number of threads. If it panics, so does the build.
+    /// Several threads call the function at the same time, in any order. If its result depends only on the
+    /// set, the tree is the same with any number of threads. If the function panics, so does the build.
     ///
-    /// It also chooses for a [`FrameBuilder`](crate::FrameBuilder) with these options, for the cells of a
-    /// [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files of trees store
-    /// the planes but not the function.
+    /// The function also chooses planes for a [`FrameBuilder`](crate::FrameBuilder) with these options, for
+    /// the cells of a [`partition`](crate::partition), and when the tree is [extended](Self::extend). Files
+    /// of trees store the planes but not the function.
     ///
     /// ```
     /// use binspace::choose::SplitPlane;
@@ -152,8 +152,9 @@ impl Default for BuildOptions {
 /// Naylor, “On visible surface generation by a priori tree structures”, 1980), and *free planes*,
 /// which here are perpendicular to an axis and go through a corner of a polygon.
 ///
-/// No heuristic lets a plane cut a polygon whose own plane is the same within the coplanar tolerance: the
-/// plane of the larger polygon divides the set instead. Free planes may cut both.
+/// No heuristic lets the plane of one polygon cut another polygon that lies in the same plane within the
+/// coplanar tolerance: the plane of the larger polygon divides the set instead. Free planes may cut both
+/// polygons.
 ///
 /// Your own heuristic has priority: [`BuildOptions::with_chooser`].
 ///
@@ -163,7 +164,7 @@ impl Default for BuildOptions {
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). It compares nothing, and gives up to 14 times as many fragments as a scored heuristic.
+    /// 1980). It compares no planes, and makes up to 14 times as many fragments as a scored heuristic.
     First,
     /// The plane of a random polygon; the same seed gives the same tree. The expected number of
     /// fragments is O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient
@@ -172,16 +173,16 @@ pub enum Heuristic {
         /// Seed of the pseudo-random sequence.
         seed: u64,
     },
-    /// The polygon's plane that cuts the fewest polygons (Fuchs, Abram and Grant, “Near real-time shaded
+    /// The plane of a polygon that cuts the fewest polygons (Fuchs, Abram and Grant, “Near real-time shaded
     /// display of rigid objects”, 1983).
     FewestSplits,
-    /// The polygon's plane with the smallest difference between the numbers of polygons in front and
-    /// behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone makes no
-    /// good tree.
+    /// The plane of a polygon with the smallest difference between the numbers of polygons in front and
+    /// behind. Naylor (“Constructing good partitioning trees”, 1993) explains why balance alone makes no good
+    /// tree.
     Balanced,
-    /// The polygon's plane with the lowest weighted sum of splits and imbalance, less a bonus: the
-    /// trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning
-    /// trees”, 1987).
+    /// The plane of a polygon with the lowest weighted sum of splits and imbalance, minus a bonus: the
+    /// trade-off of Thibault and Naylor (“Set operations on polyhedra using binary space partitioning trees”,
+    /// 1987).
     Weighted {
         /// Cost of each polygon that the plane cuts. Default 8.
         splits: f64,
@@ -202,23 +203,23 @@ pub enum Heuristic {
     /// construction of SAH-based bounding volume hierarchies”, 2007). The plane of a polygon splits the set
     /// if all its polygons lie in one plane, or if no free plane separates any of them.
     FreePlanes,
-    /// The best of both kinds of planes by one cost. The default: the fewest fragments on most scenes. The
-    /// cost is the library's own; polygons' planes are compared by successive halving (Karnin, Koren and
-    /// Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+    /// The best plane of both kinds by one cost. The default: the fewest fragments on most scenes. The cost
+    /// is the library's own. Polygons' planes are compared by successive halving (Karnin, Koren and Somekh,
+    /// “Almost optimal exploration in multi-armed bandits”, 2013).
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
-    /// estimates the work left on both sides, n^1.25 for n polygons in front and n^1.25 for n behind, where
-    /// a polygon that the plane cuts counts on both. The plane of a large polygon gets a reward, because a
-    /// wall or floor that is not used early is cut repeatedly.
+    /// estimates the remaining work: n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A
+    /// polygon that the plane cuts counts on both sides. The plane of a large polygon gets a reward, because
+    /// a wall or floor that is not used early is cut repeatedly.
     ///
     /// A free plane that cuts nothing has priority; otherwise the best plane is used. In sets of up to 255
     /// polygons, a plane without cuts is preferred to any plane with cuts; below 64, no free plane that
     /// cuts is tried. If only planes at the boundary of a set cut nothing, as in a convex body, a single
     /// search separates its outer polygons one after the other.
     ///
-    /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four of
-    /// them in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,
-    /// or one that cuts one or two polygons that cross the plane's own polygon.
+    /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
+    /// planes in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,
+    /// or a plane that cuts only one or two polygons, which cross the plane's own polygon.
     #[default]
     Auto,
 }
@@ -264,7 +265,7 @@ impl fmt::Display for Heuristic {
 impl FromStr for Heuristic {
     type Err = Error;
 
-    /// Parses what `Display` writes. Parameters may be left out, or follow a colon (`sampled:8`).
+    /// Parses the output of `Display`. Parameters may be left out, or follow a colon (`sampled:8`).
     fn from_str(text: &str) -> Result<Self, Error> {
         let name = text.split(['(', ':']).next().unwrap_or_default();
         let takes = match name {

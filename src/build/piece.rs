@@ -1,4 +1,4 @@
-//! Pieces of faces while the tree is built, and how one is cut in two.
+//! Pieces of faces while the tree is built, and the cutting of a piece in two.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::Error;
 use crate::exact::{Faces, PreparedPlane, Side, Vertex, VertexKind, split};
 use crate::memory::reserve;
 
-/// A piece of a face on its way down the tree.
+/// A piece of a face that has not reached its node yet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     /// The bounding box in lattice units, from rounded vertices.
@@ -53,9 +53,9 @@ impl Piece {
         piece
     }
 
-    /// The painting order of pieces on one plane: that of their faces. (Pieces of one face do not meet
-    /// there; they come in the order of their vertices, so that an unstable sort, which needs no memory,
-    /// has one result.)
+    /// The painting order of pieces on one plane: the order of their faces. (Pieces of one face do not meet
+    /// there. They are sorted by their vertices, so that an unstable sort, which needs no memory, has only
+    /// one result.)
     #[inline]
     pub(crate) fn rank(&self) -> (u32, u32) {
         (self.face, self.start)
@@ -81,19 +81,19 @@ impl Piece {
         }
     }
 
-    /// The number of its vertices in the arena.
+    /// The number of the piece's vertices in the arena.
     pub(crate) fn cut_len(&self) -> usize {
         self.len as usize
     }
 
-    /// Its vertices in the arena; `None` if it was never cut.
+    /// The piece's vertices in the arena; `None` if it was never cut.
     #[inline]
     pub(crate) fn cut_vertices<'a>(&self, arena: &'a [Vertex]) -> Option<&'a [Vertex]> {
         let start = self.start as usize;
         (self.len > 0).then(|| &arena[start..start + self.len as usize])
     }
 
-    /// Its side of a plane.
+    /// The side of a plane on which the piece lies.
     #[inline]
     pub(crate) fn side(&self, faces: &Faces, plane: &PreparedPlane, arena: &[Vertex]) -> Side {
         plane.classify(faces, self.face, self.cut_vertices(arena))
@@ -167,14 +167,15 @@ impl Piece {
 pub(crate) struct Division {
     /// The plane; `None` if the pieces are not classified yet.
     pub(crate) plane: Option<PreparedPlane>,
-    /// One for each piece.
+    /// The side of each piece.
     pub(crate) sides: Vec<Side>,
     /// The number of pieces on each side, by the side's number.
     counts: [usize; 4],
 }
 
 impl Division {
-    /// Classifies the pieces against a plane. Stops early, and returns false, if it cuts more than `most`.
+    /// Classifies the pieces against a plane. Stops early and returns false if it cuts more than `most`
+    /// pieces.
     pub(crate) fn classify(
         &mut self,
         faces: &Faces,

@@ -23,7 +23,7 @@ pub(super) type HandOver<'h> = &'h mut dyn FnMut(Job) -> Result<usize, Error>;
 /// The smallest arena, in vertices, that is compacted. Too small: time to copy. Too large: memory.
 const COMPACT: usize = 1 << 13;
 
-/// The data shared by all jobs of a build.
+/// The data that all jobs of a build share.
 pub(in crate::build) struct Shared<'a> {
     faces: &'a Faces,
     options: &'a BuildOptions,
@@ -72,7 +72,8 @@ struct Pending {
     arena: usize,
     /// The number of nodes above it.
     depth: usize,
-    /// Whether peeling has just been tried on this set. If so, a small set is divided by a plane first.
+    /// Whether peeling has just been tried on this set. If so, and the set is small, a plane divides it
+    /// first.
     is_peeled: bool,
     /// The other job that builds it, if any.
     job: Option<usize>,
@@ -172,8 +173,8 @@ impl Builder {
         self.emit(shared, start, pending.depth + 1, hand_over)
     }
 
-    /// Removes the vertices of pieces that have since been cut. So the arena stays within twice the size
-    /// that the sets still to be divided need, however often one piece is cut.
+    /// Removes the vertices of pieces that have since been cut. So the arena is at most twice as large as the
+    /// remaining sets need, however often one piece is cut.
     fn compact(&mut self, shared: &Shared<'_>) -> Result<(), Error> {
         let mut arena = Vec::new();
         // The pieces of sets that other jobs build have been removed.
@@ -232,7 +233,7 @@ impl Builder {
         let Self { division, own, front, spanning, pieces, arena, splitter, .. } = self;
         let Some(plane) = &division.plane else { return Ok(()) };
         let cuts = division.count(Side::Spanning);
-        // The budget is checked before the cuts, so that a set with too many is stopped in time.
+        // The budget is checked before the cuts, so that a set with too many pieces is stopped in time.
         shared.budget.count(cuts)?;
         shared.rules.watch.work(cuts * CUT)?;
         own.clear();
@@ -373,17 +374,17 @@ fn is_leaf(pieces: &[Piece]) -> bool {
 /// Cutting a piece counts as the work of classifying this many.
 const CUT: usize = 64;
 
-/// The faces whose planes were given up for a set. None is tried again, so the search ends.
+/// The faces whose planes were rejected for a set. No plane is tried twice, so the search ends.
 type Tried = SmallVec<[u32; 4]>;
 
 /// Classifies a set by a plane, or by a replacement: polygons that are treated as coplanar do not cut each
 /// other.
 ///
-/// The corners of a small polygon are rounded by as much as those of a large one, so its plane is less
-/// certain: extended across a large polygon in the same plane, it can leave the tolerance on both sides.
-/// The small polygon is within the tolerance of the large one's plane, which divides the set instead. In
-/// frames this is also done if the small one's plane passes beside the large polygon and cuts nothing: it
-/// would come between the large one and others of its plane.
+/// The corners of small and large polygons are rounded by the same amount, so the plane of a small polygon is
+/// less certain: extended across a large polygon in the same plane, it can leave the tolerance on both sides.
+/// The small polygon is within the tolerance of the large polygon's plane, which divides the set instead. In
+/// frames this is also done if the small polygon's plane passes beside the large polygon and cuts nothing: it
+/// would separate the large polygon from others in its plane.
 fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -397,8 +398,7 @@ fn settle(
             set.divide(plane, usize::MAX, division);
         }
         let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-        // In frames the plane may not pass beside a piece that is larger than its own; in other trees it
-        // may.
+        // Only in trees of frames, the plane may not pass beside a piece that is larger than its own.
         let least = match rules.tuning.frames {
             Some(_) => {
                 let own = set.pieces.iter().filter(|piece| piece.face == face);

@@ -10,7 +10,7 @@ use super::quadtree::Tile;
 use crate::Error;
 use crate::progress::Watch;
 
-/// A side of a cell, and where it begins.
+/// A side of a cell, and its first corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     /// The half that the cell lies in.
@@ -18,22 +18,23 @@ pub(super) struct Side {
     pub(super) start: Corner,
 }
 
-/// Where two sides of a cell meet, rounded.
+/// The corner where two sides of a cell meet, rounded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub(super) at: [f64; 2],
-    /// It is not further from where it should be. Infinite where two lines are nearly one.
+    /// A bound on the distance from the exact corner; infinite if the two lines are nearly the same.
     pub(super) radius: f64,
 }
 
-/// Corners that are less certain, in pixels, are computed from integers.
+/// Corners with a larger radius, in pixels, are computed from integers. Too small: integers compute more
+/// corners. Too large: integers decide more sides.
 const FINE: f64 = 1e-6;
 
-/// A convex polygon with an inside, by its sides: each begins where the side before it ends, and lies
-/// to the left of the way from x to y.
+/// A convex polygon with area, by its sides. Each side begins at the end of the previous side; they turn in
+/// the direction from the x axis to the y axis, which is clockwise in the picture.
 ///
-/// The corners are where lines meet, and never computed but to look at them: however often a cell is
-/// cut, it is as exact as its lines.
+/// A corner is defined by the two lines that meet there, and rounded only to be read. So a cell is as exact
+/// as its lines, however often it is cut.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub(super) sides: SmallVec<[Side; 5]>,
@@ -61,8 +62,8 @@ impl Cell {
         Self::rectangle(lines, low, high)
     }
 
-    /// The part of the cell in all of the halves, if it has one. The rest of it goes to `outside`, in
-    /// convex parts.
+    /// The part of the cell in all halves, if any. The remaining parts are appended to `outside`, each
+    /// convex.
     pub(super) fn within(
         &self,
         lines: &LineTable<'_>,
@@ -74,7 +75,7 @@ impl Cell {
         Ok(part.map(|part| part.unwrap_or_else(|| self.clone())))
     }
 
-    /// Whether any of the cell is in all of the halves.
+    /// Whether any part of the cell is in all halves.
     pub(super) fn meets(
         &self,
         lines: &LineTable<'_>,
@@ -84,8 +85,8 @@ impl Cell {
         Ok(self.common(lines, halves, None, watch)?.is_some())
     }
 
-    /// As [`within`](Self::within): `Some(None)` is all of the cell. (Cells are large, and most calls
-    /// end before one is made.)
+    /// Like [`within`](Self::within), but `Some(None)` is the whole cell. (Cells are large, and most calls
+    /// end before a cell is made.)
     fn common(
         &self,
         lines: &LineTable<'_>,
@@ -93,7 +94,7 @@ impl Cell {
         mut outside: Option<&mut Vec<Self>>,
         watch: &Watch<'_>,
     ) -> Result<Option<Option<Self>>, Error> {
-        // Most cells lie outside of one of the halves: that is found out before any is cut.
+        // Most cells lie outside one of the halves: test this before any cut.
         let mut near: SmallVec<[HalfPlane; 8]> = SmallVec::new();
         for &half in halves {
             watch.work(self.corners_work())?;
@@ -130,7 +131,7 @@ impl Cell {
         if self.sides.len() > FEW_CORNERS { self.sides.len() } else { 0 }
     }
 
-    /// A box around it.
+    /// A box around the cell.
     pub(super) fn around(&self) -> Rect {
         let mut around = NOWHERE;
         for Corner { at, radius } in self.sides.iter().map(|side| side.start) {
@@ -142,9 +143,9 @@ impl Cell {
         around
     }
 
-    /// On which side of a half's line each corner lies. Floats tell it where the line's value at the rounded
-    /// corner is larger than its error and what it can change by on the way from there to the corner: the
-    /// length of the way times that of the slope.
+    /// The side of a half's line on which each corner lies. Floats decide if the line's value at the rounded
+    /// corner is larger than its error plus its possible change between the rounded and the exact corner:
+    /// their distance times the length of the slope.
     pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
@@ -160,7 +161,7 @@ impl Cell {
         self.sides.iter().enumerate().map(|(i, side)| sign(i, side)).collect()
     }
 
-    /// The part whose corners have a sign, with a new side along the line.
+    /// The part of the cell whose corners have a sign, with a new side along the line.
     pub(super) fn part(
         &self,
         lines: &LineTable<'_>,
@@ -170,7 +171,7 @@ impl Cell {
     ) -> Self {
         let n = self.sides.len();
         let next = |i: usize| if i + 1 == n { 0 } else { i + 1 };
-        // The cell is convex: the way around it enters the part once, and leaves it once.
+        // The cell is convex, so its outline enters the part once and leaves it once.
         let enters = |&i: &usize| signs[i] != keep && signs[next(i)] == keep;
         let mut i = (0..n).find(enters).unwrap_or(0);
         let Side { half: entry, start } = self.sides[i];
@@ -189,7 +190,7 @@ impl Cell {
         Self { sides }
     }
 
-    /// Twice its area, in square pixels, rounded.
+    /// Twice the cell's area, in square pixels, rounded.
     pub(super) fn double_area(&self) -> f64 {
         let at = |i: usize| self.sides[i].start.at;
         let origin = at(0);
@@ -203,24 +204,24 @@ impl Cell {
     }
 }
 
-/// The side of which both ends are on a line.
+/// The side whose two ends are on a line.
 pub(super) fn side_on_line(signs: &[Ordering]) -> Option<usize> {
     let next = |i: usize| if i + 1 == signs.len() { 0 } else { i + 1 };
     (0..signs.len()).find(|&i| signs[i].is_eq() && signs[next(i)].is_eq())
 }
 
 impl Corner {
-    /// Where two lines meet.
+    /// Computes the corner where two lines meet.
     ///
-    /// With a and b the lines' slopes and e the way from there to the point that is computed, a·e and b·e are
-    /// the exact values at that point: at most the rounded ones and the lines' errors, α and β. So e = (β a⊥
-    /// − α b⊥) / (a × b), and
+    /// Let a and b be the lines' slopes, and e the vector from the exact corner to the computed point. Then a·e
+    /// and b·e are the exact values of the lines at that point: at most α and β, the rounded values plus the
+    /// lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and
     /// |e| ≤ (|α| |b| + |β| |a|) / |a × b|.
     ///
-    /// The products of a × b are off by a rounding each, and so is their difference: by 2 roundings of their
-    /// sizes, where 8 are taken away. If parts of the slopes are off by s and t, a × b is off by s (|b₁| +
-    /// |b₂|) + t (|a₁| + |a₂|) + 2 s t, of which a sum of two parts is at most 1.4 of a line's `slope`; 2 are
-    /// taken away. A hundredth is added for the roundings of the bound itself.
+    /// The products of a × b and their difference are rounded: by 2 roundings of their sizes, where 8 are
+    /// subtracted. If parts of the slopes are off by s and t, a × b is off by
+    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two parts is at most 1.4 times a line's `slope`;
+    /// twice the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
@@ -254,12 +255,12 @@ pub(super) fn are_apart([low, high]: &Rect, [from, to]: &Rect) -> bool {
     (0..2).any(|axis| to[axis] < low[axis] || from[axis] > high[axis])
 }
 
-/// Whether a box is in another.
+/// Whether a box is inside another box.
 pub(super) fn is_within([low, high]: &Rect, [from, to]: &Rect) -> bool {
     (0..2).all(|axis| from[axis] <= low[axis] && high[axis] <= to[axis])
 }
 
-/// The box of nothing: apart from all others.
+/// The empty box: apart from all other boxes.
 pub(super) const NOWHERE: Rect = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
 
 /// Whether a box has no points.
@@ -267,7 +268,7 @@ pub(super) fn is_empty([low, high]: &Rect) -> bool {
     (0..2).any(|axis| low[axis] > high[axis])
 }
 
-/// What two boxes have in common; if they are apart, an empty box.
+/// The intersection of two boxes; if they are apart, an empty box.
 pub(super) fn common(a: &Rect, b: &Rect) -> Rect {
     let axes = [0, 1];
     [axes.map(|i: usize| a[0][i].max(b[0][i])), axes.map(|i: usize| a[1][i].min(b[1][i]))]
@@ -284,8 +285,8 @@ mod tests {
     use crate::view::Camera;
     use glam::DVec3;
 
-    /// Corners are where lines of a picture meet in integers, as near as they say; and where floats tell on
-    /// which side of a third line one is, it is there.
+    /// Corners are within their radius of the intersections in integers. If floats decide the side of a third
+    /// line on which a corner is, the side is right.
     #[test]
     fn corners_are_as_near_as_they_say_and_on_the_sides_that_floats_tell() {
         let mut random = SplitMix64::new(3);
@@ -308,7 +309,7 @@ mod tests {
                     }
                     let corner = Corner::of(lines, [a, b]);
                     let off = (corner.at[0] - at[0]).hypot(corner.at[1] - at[1]);
-                    // That is itself rounded three times.
+                    // The exact meeting itself is rounded three times.
                     assert!(off <= corner.radius + 3e-13, "{off:e}, {corner:?}");
                     corners += 1;
                     rough += usize::from(corner.radius > 1e-9);

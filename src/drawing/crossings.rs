@@ -1,4 +1,4 @@
-//! Intersections: which faces go through one another, and where that is visible.
+//! Intersections: pairs of faces that cross each other, and the visible parts of their lines.
 
 use std::cmp::Ordering;
 
@@ -20,50 +20,50 @@ use crate::{Error, parallel_map};
 /// A side of a cell on the line of a cut.
 #[derive(Clone, Copy, Debug)]
 struct CutSide {
-    /// On which the line is positive.
+    /// The half on which the line is positive.
     line: HalfPlane,
     face: u32,
-    /// The edge of its face that lies there, inside the polygon, which goes on across it.
+    /// The face's edge on this line, if the polygon continues across that edge.
     inner: Option<FaceEdge>,
     /// Whether the cell is where the line is negative.
     is_negative: bool,
-    /// Where it begins and ends along the line, and in the picture.
+    /// The ends, as places along the line and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }
 
-/// The common part of two such sides: a visible part of a crossing.
+/// The common part of two cut sides: a visible part of a crossing.
 #[derive(Clone, Copy, Debug)]
 struct CommonSide {
     line: HalfPlane,
-    /// The lower number first. Of two faces that meet at the line it is the one of the lower number, though the
-    /// other shows.
+    /// The faces, the lower number first. Of two faces of one polygon that meet at the line, this is the
+    /// lower number, even if the other face is visible.
     faces: [u32; 2],
-    /// Where it begins and ends along the line, and in the picture.
+    /// The ends, as places along the line and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }
 
-/// Whether two faces go through one another in a line: by the line and the faces.
+/// Whether two faces cross each other in a line: by the line and the faces.
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
     /// Returns the lines in which polygons intersect: runs of [`EdgeKind::Crossing`], each once, with the
-    /// polygon of the lower number first. An edge that only touches another polygon is in
-    /// [`edges`](Self::edges) instead.
+    /// polygon of the lower number first. [`edges`](Self::edges) returns edges that only touch another
+    /// polygon.
     ///
-    /// A point is on a visible crossing if both polygons are visible at it, one on each side. This is as
-    /// exact as the map: only the ends of runs are rounded. Along an edge that triangulation made, a polygon
-    /// is crossed where the other one lies between the two triangles there; a corner no further from a plane
-    /// than the tolerance is treated as on it.
+    /// A point is on a visible crossing if both polygons are visible at it, one on each side. Crossings are
+    /// as exact as the map: only the ends of runs are rounded. Along an edge that triangulation made, another
+    /// polygon crosses if it lies between the two triangles there. A corner no further from a plane than the
+    /// tolerance is treated as on the plane.
     ///
     /// Except with [`Hidden::Skip`], hidden runs are returned too: where each of two polygons has corners on
     /// both sides of the other, further from it than the tolerance. If a polygon has several faces, each pair
-    /// of faces then has runs of its own.
+    /// of faces then has separate runs.
     ///
-    /// O(n log n) for n cells of opaque polygons; with opacities, for the parts in which
-    /// [`regions`](Self::regions) are found as well. With hidden runs, for n faces as well, unless there are
-    /// many with overlapping boxes, as at the tip of a cone of many faces.
+    /// O(n log n) for n cells of opaque polygons; with opacities, n includes the parts in which
+    /// [`regions`](Self::regions) are found. With hidden runs, n includes the faces, and many overlapping
+    /// boxes of faces, as at the tip of a cone, take more time.
     ///
     /// # Errors
     ///
@@ -84,7 +84,7 @@ impl VisibilityMap<'_> {
             sort_by(&mut common, watch, |a, b| {
                 key(a).cmp(&key(b)).then(a.places[0].total_cmp(&b.places[0]))
             })?;
-            // Of two translucent polygons they are found from either side.
+            // Crossings of two translucent polygons are found from either side.
             let mut joined: Vec<CommonSide> = Vec::new();
             for side in common {
                 match joined.last_mut() {
@@ -108,8 +108,8 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The common parts of sides of cells, where the cells lie on opposite sides of a line in which their
-    /// faces go through one another; line by line: two phases.
+    /// The common parts of sides of cells that lie on opposite sides of a line in which their faces cross
+    /// each other, line by line. Takes two phases.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -137,9 +137,9 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made them: several planes
-    /// may have cut along one line, and cells beyond a border of a tile or a third polygon's edge were not
-    /// cut again.
+    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made the sides: several
+    /// planes may have cut along one line, and cells beyond a border of a tile or a third polygon's edge were
+    /// not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -154,7 +154,7 @@ impl VisibilityMap<'_> {
                     continue;
                 }
                 let inner = match edges.get(&(face, line)) {
-                    // A polygon that ends there does not go through another.
+                    // A polygon that ends at the line does not cross another polygon there.
                     Some(None) => continue,
                     Some(inner) => *inner,
                     None => None,
@@ -190,7 +190,8 @@ impl VisibilityMap<'_> {
         Ok(bends)
     }
 
-    /// The edges of faces that lie on some lines, by face and line, `None` for those of outlines: a phase.
+    /// The edges of faces that lie on some lines, by face and line; `None` for edges of outlines. Takes one
+    /// phase.
     fn edges_on(
         &self,
         is_wanted: impl Fn(HalfPlane) -> bool,
@@ -212,7 +213,7 @@ impl VisibilityMap<'_> {
         Ok(edges)
     }
 
-    /// The ends of a side in the order in which they are along a line, and where that is.
+    /// The ends of a side in order along a line, and their places on the line.
     fn along(&self, line: HalfPlane, mut ends: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         let [_, kx, ky] = self.primitives.lines.rounded(line).k;
         let place = |[x, y]: [f64; 2]| (y * kx - x * ky) / kx.hypot(ky);
@@ -222,7 +223,7 @@ impl VisibilityMap<'_> {
         (ends.map(place), ends)
     }
 
-    /// Whether two faces go through one another in the line between cells of theirs.
+    /// Whether two faces cross each other in the line between their cells.
     fn do_cross(&self, a: &CutSide, b: &CutSide, inner: &InnerEdges, known: &mut Known) -> bool {
         let (lines, faces) = (&self.primitives.lines, self.primitives.lines.frame.faces);
         if faces.polygon(a.face) == faces.polygon(b.face) {
@@ -235,13 +236,13 @@ impl VisibilityMap<'_> {
         }
         *known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
-                // Of the edges of both only those on this line: others may end on it.
+                // Only edges on this line: others may end on it.
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
                 return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
             }
             let [one, other] = [one, other].map(|face| lines.frame.sheet(PlaneId::face(face)));
             let cut = one.cut(&other);
-            // Faces of one plane have no line of intersection.
+            // Faces in one plane have no line of intersection.
             let is_line = cut.iter().any(|c| c.sign().is_ne());
             is_line && compare(&cut, &lines.exact(a.line)).is_eq()
         })
@@ -275,13 +276,14 @@ impl CommonSide {
     }
 }
 
-/// The number of pairs in one job of a thread.
+/// The number of pairs in one job of a thread. Too small: overhead per job. Too large: threads wait for each
+/// other.
 const SHARE: usize = 256;
 
-/// Two faces, and the line in which they go through one another.
+/// Two faces, and the line in which they cross each other.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
-    /// As those of [`CommonSide`].
+    /// As in [`CommonSide`].
     faces: [u32; 2],
     segment: ProjectedSegment,
 }
@@ -325,7 +327,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// The crossings of pairs that go through one another in the picture: a phase.
+/// The crossings of pairs of faces in the picture. Takes one phase.
 fn crossings_of(
     pairs: &[Pair],
     primitives: &Primitives<'_>,
@@ -352,8 +354,7 @@ fn crossings_of(
     Ok(parallel_map::map(shares, share)?.into_iter().flatten().collect())
 }
 
-/// Where two faces go through one another: where both are in the picture, the line along which they are as far
-/// away.
+/// The crossing of two faces: the part of the line of equal depth at which both faces are in the picture.
 fn straight(
     faces: [u32; 2],
     primitives: &Primitives<'_>,
@@ -365,7 +366,7 @@ fn straight(
     Ok(common.and_then(|common| ProjectedSegment::crossing(lines, faces, &common)))
 }
 
-/// Where a face goes through a polygon along an edge inside it.
+/// The crossing of a face and a polygon along an edge inside the polygon.
 fn bent(
     bend: &Bend,
     primitives: &Primitives<'_>,
@@ -375,7 +376,7 @@ fn bent(
     let lines = &primitives.lines;
     let faces = lines.frame.faces;
     let segment = ProjectedSegment::new(lines, faces.ends(face, k));
-    // Along a border of the picture, there is nothing on the other side.
+    // A line along a border of the picture has only one side in the picture.
     let Some(segment) = segment.filter(|segment| segment.picture.is_eq()) else { return Ok(None) };
     let common = match other_edge {
         Some(k) => ProjectedSegment::new(lines, faces.ends(other, k)).map(|along| {
@@ -397,15 +398,15 @@ const FEW: usize = 16;
 /// A box in the scene: its least and its largest coordinates.
 type Aabb = [[f64; 3]; 2];
 
-/// A part of the scene with the faces that may reach into it.
+/// A part of the scene, with the faces that may reach into it.
 struct Block {
     bounds: Aabb,
     faces: Vec<u32>,
     growth: Growth,
 }
 
-/// Pairs of faces of different polygons, with corners on both sides of one another's planes and further from
-/// these than the tolerance, that may go through one another: a phase.
+/// Pairs of faces of different polygons that may cross each other: each has corners on both sides of the
+/// other's plane, further from it than the tolerance. Takes one phase.
 fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
@@ -446,7 +447,7 @@ fn straddling(
 }
 
 impl Faces {
-    /// Whether a face has corners on both sides of another's plane, further from it than the tolerance.
+    /// Whether a face has corners on both sides of another face's plane, further from it than the tolerance.
     pub(super) fn straddles(&self, face: u32, other: u32) -> bool {
         let prepared = PreparedPlane::new(self, PlaneId::face(other));
         let mut sides = self.corners(face).iter().map(|at| prepared.side_beyond(self, at));
@@ -456,7 +457,7 @@ impl Faces {
 }
 
 impl Block {
-    /// Both halves, across the longest side; `None` of one that is not halved.
+    /// The two halves of the block, across its longest side; `None` if the block is not halved.
     fn halves(&self, boxes: &[Aabb], watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
         if self.faces.len() <= FEW || self.growth.is_too_much() {
             return Ok(None);
@@ -502,28 +503,29 @@ fn are_apart([low, high]: &Aabb, [from, to]: &Aabb) -> bool {
     (0..3).any(|axis| to[axis] < low[axis] || from[axis] > high[axis])
 }
 
-/// A face, and which of its edges.
+/// A face, and the number of its edge.
 pub(super) type FaceEdge = (u32, u32);
 
-/// The edges inside polygons, each of two faces. Of polygons that cross themselves or run along an edge
-/// twice, edges of their outlines may be among them.
+/// The edges inside polygons, each shared by two faces. For polygons that cross themselves or traverse an
+/// edge twice, some edges of their outlines may be included.
 pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 
-/// Where two polygons go through one another along an edge inside one of them.
+/// The crossing of two polygons along an edge inside one of them.
 pub(super) struct Bend {
     pub(super) edge: FaceEdge,
-    /// A face of the other polygon, and its edge there if that is bent, too.
+    /// A face of the other polygon, and its edge there if the other polygon is bent, too.
     pub(super) other: u32,
     pub(super) other_edge: Option<u32>,
-    /// A face of each polygon, the lower number first: of two that meet there, that of the lower number.
+    /// A face of each polygon, the lower number first. Of two faces of one polygon that meet there, this is
+    /// the lower number.
     pub(super) faces: [u32; 2],
 }
 
 impl InnerEdges {
     pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
-        // Edges of which one face was met. Inner edges are first paired with inner edges. On the other side
-        // of an unpaired one, the edge may be the outline's.
+        // Edges of which one face has been visited. Inner edges are first paired with inner edges. On the
+        // other side of an unpaired edge, the edge may belong to the outline.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
             for numbered in each(watch, VISITED, &faces.numbered) {
@@ -548,25 +550,25 @@ impl InnerEdges {
         Ok(Self(across))
     }
 
-    /// The face on the other side of an edge, and which of its edges it is.
+    /// The face on the other side of an edge, and the edge's number in that face.
     pub(super) fn across(&self, edge: FaceEdge) -> Option<FaceEdge> {
         self.0.get(&edge).copied()
     }
 
-    /// Where two polygons go through one another along an edge inside one of them, by a face of each: where
-    /// the faces on either side of the edge lie on opposite sides of the other polygon.
+    /// The crossing of two polygons along an edge inside one of them, given a face of each: the faces on the
+    /// two sides of the edge lie on opposite sides of the other polygon.
     pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
         if self.0.is_empty() {
             return None;
         }
-        // Triangulation makes triangles.
+        // Faces with inner edges are triangles.
         let edges = |face: u32| (0..3).map(move |k| (face, k));
         let mut of_one = edges(one).filter_map(|edge| self.bend_at(faces, edge, other));
         let mut of_other = edges(other).filter_map(|edge| self.bend_at(faces, edge, one));
         of_one.next().or_else(|| of_other.next())
     }
 
-    /// The same for an edge of a polygon, and a face of the other.
+    /// Like [`bend`](Self::bend), given an edge of one polygon and a face of the other.
     pub(super) fn bend_at(&self, faces: &Faces, edge: FaceEdge, other: u32) -> Option<Bend> {
         let across = self.across(edge)?;
         let ends = faces.ends(edge.0, edge.1);
@@ -588,7 +590,7 @@ impl InnerEdges {
                 is_crossed && [edge, across].iter().any(|edge| faces.straddles(other, edge.0))
             });
         };
-        // The other has an edge there as well: it is bent too, or ends.
+        // The other polygon has an edge there as well: it is bent, too, or ends there.
         let behind = self.across((other, k)).filter(|behind| is_on(behind.0))?;
         let along = way(faces, edge);
         let is_between = |x| is_between(faces, along, [edge, across], x);
@@ -598,7 +600,7 @@ impl InnerEdges {
     }
 }
 
-/// On which side of a face's plane a point lies, further from it than the tolerance.
+/// The side of a face's plane on which a point lies, further from it than the tolerance.
 fn side(faces: &Faces, face: u32, point: &[f64; 3]) -> Ordering {
     PreparedPlane::new(faces, PlaneId::face(face)).side_beyond(faces, point)
 }
@@ -615,15 +617,15 @@ fn third(faces: &Faces, (face, k): FaceEdge) -> [f64; 3] {
     corners[(k as usize + 2) % corners.len()]
 }
 
-/// Whether, turning to the left around a line, one comes from the first of two triangles at the line to a third
-/// before one comes to the second; `None` if the third lies on one of the two.
+/// Whether a half-plane that turns to the left around a line, from the first of two triangles at the line,
+/// reaches a third triangle before the second; `None` if the third triangle lies on one of the two.
 fn is_between(
     faces: &Faces,
     along: DVec3,
     [from, to]: [FaceEdge; 2],
     third_edge: FaceEdge,
 ) -> Option<bool> {
-    // Whether one triangle lies to the left of another: by the plane that runs with the line.
+    // Whether one triangle lies to the left of another, by the plane through the line.
     let turn = |a: FaceEdge, b: FaceEdge| {
         let side = side(faces, a.0, &third(faces, b));
         if way(faces, a).dot(along) > 0.0 { side } else { side.reverse() }

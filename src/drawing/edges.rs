@@ -17,15 +17,15 @@ use crate::progress::Watch;
 impl VisibilityMap<'_> {
     /// Returns the edges of polygons that show a side to the camera, clipped to the picture. Each edge is
     /// divided into visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are
-    /// sorted by polygon, then by edge, then from the beginning of the edge to its end.
+    /// sorted by polygon, then by edge, then from the start of the edge to its end.
     ///
     /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
     /// not hide it (though another part of a polygon that is not planar may). Polygons share an edge if both
-    /// of its corners are the same. Edges that triangulation made inside a polygon are left out, except
+    /// its corners are the same. Edges that triangulation made inside a polygon are left out, except
     /// silhouettes: a polygon that is not planar may be seen from its front on one side of such an edge, and
-    /// from behind on the other. Edges at which all polygons are seen exactly edge-on are left out too, and
-    /// those along a border of the picture with all polygons on its other side.
-    /// [`crossings`](Self::crossings) has the lines in which polygons go through one another.
+    /// from behind on the other side. Also left out are edges at which all polygons are seen exactly edge-on,
+    /// and edges along a border of the picture with all polygons outside it. [`crossings`](Self::crossings)
+    /// returns the lines in which polygons intersect.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
     ///
@@ -52,9 +52,8 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// Runs, each with the number of its segment, as far as they are wanted. With [`Hidden::Count`], hidden
-    /// ones are cut where the number of polygons in front of them changes, of faces that are not the
-    /// segment's own: a phase.
+    /// The requested runs, each with the number of its segment. With [`Hidden::Count`], hidden runs are cut
+    /// where the number of polygons in front changes, not counting the segment's own faces. Takes one phase.
     pub(super) fn runs(
         &self,
         mut list: Vec<(EdgeRun, u32)>,
@@ -90,7 +89,7 @@ impl VisibilityMap<'_> {
         Ok(layered)
     }
 
-    /// Adds to each edge the places where it is visible: a phase.
+    /// Adds to each edge the places where it is visible. Takes one phase.
     fn collect(
         &self,
         all: &mut [SharedEdge],
@@ -98,7 +97,7 @@ impl VisibilityMap<'_> {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let primitives = &self.primitives;
-        // Which edges of a face lie on a line.
+        // The edges of a face that lie on a line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         let faces = primitives.lines.frame.faces;
         for face in 0..faces.len() as u32 {
@@ -132,7 +131,7 @@ impl VisibilityMap<'_> {
         Ok(())
     }
 
-    /// Gives the runs of an edge, in the direction of that of its faces which they are told of, unless no
+    /// Passes the runs of an edge to a function, in the direction of the face that they name, unless no
     /// polygon shows a side there.
     fn add_runs(&self, edge: &SharedEdge, give: impl FnMut(EdgeRun)) {
         let Some(segment) = &edge.segment else { return };
@@ -143,7 +142,7 @@ impl VisibilityMap<'_> {
         let fronts = sides.iter().position(|side| side.is_gt());
         let Some(owner) = fronts.or_else(|| sides.iter().position(shows)) else { return };
         let mut numbered = sides.iter().enumerate();
-        // Of an edge along a border of the picture, none may be in the picture.
+        // An edge along a border may have no polygon inside the picture.
         if !numbered.any(|(i, side)| shows(side) && edge.is_in_picture(faces, i, *side)) {
             return;
         }
@@ -161,9 +160,9 @@ impl VisibilityMap<'_> {
         runs.into_iter().for_each(give)
     }
 
-    /// All edges of faces that are drawn, and the number of each by face and edge of it. Of the edges that
-    /// triangulation made, those alone where a polygon that is not planar turns away: a silhouette would have
-    /// gaps without them.
+    /// All edges of faces that are drawn, and the number of each by face and edge. Edges that triangulation
+    /// made are included only where a polygon that is not planar turns away: without these, a silhouette
+    /// would have gaps.
     fn shared_edges(&self, watch: &Watch<'_>) -> Result<(Vec<SharedEdge>, Numbers), Error> {
         let primitives = &self.primitives;
         let faces = primitives.lines.frame.faces;
@@ -189,7 +188,7 @@ impl VisibilityMap<'_> {
                 let number = if faces.outline_edge(face, k).is_some() {
                     *by_points.entry(points).or_insert(new)
                 } else {
-                    // Each once, with the second of its faces.
+                    // Each edge once, with the second of its faces.
                     let before = inner.across((face, k)).filter(|other| {
                         *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
                     });
@@ -215,43 +214,43 @@ impl VisibilityMap<'_> {
 /// The cost of the sides of a cell, in pieces that a build examines.
 const SIDES: usize = 16;
 
-/// The number of an edge, by a face and which of its edges it is.
+/// The number of an edge, by a face and the edge's number in it.
 type Numbers = Table<FaceEdge, u32>;
 
 /// An edge of at least one face.
 #[derive(Debug)]
 struct SharedEdge {
-    /// Faces, and which of their edges it is.
+    /// The faces that have the edge, each with the edge's number in the face.
     faces: SmallVec<[FaceEdge; 2]>,
-    /// The edge of the first of the faces in the picture; `None` if that does not show it as a line.
+    /// The first face's edge in the picture; `None` if the picture does not show it as a line.
     segment: Option<ProjectedSegment>,
-    /// The visible parts: intervals of places along it.
+    /// The visible parts: intervals of places along the edge.
     visible: Vec<[f64; 2]>,
 }
 
 impl Faces {
-    /// Where a face's edge `k` begins and ends.
+    /// The ends of a face's edge `k`.
     pub(super) fn ends(&self, face: u32, k: u32) -> [[f64; 3]; 2] {
         let corners = self.corners(face);
         let next = if k as usize + 1 == corners.len() { 0 } else { k as usize + 1 };
         [corners[k as usize], corners[next]]
     }
 
-    /// Where a face's edge `k` begins, as given.
+    /// The start of a face's edge `k`, as given.
     fn given_start(&self, face: u32, k: u32) -> [f64; 3] {
         self.given_corner(self.corner_range(face).start as u32 + k)
     }
 }
 
 impl SharedEdge {
-    /// Whether two of the faces run along it in opposite ways.
+    /// Whether two of the faces traverse the edge in opposite directions.
     fn is_turned(&self, faces: &Faces, one: usize, other: usize) -> bool {
         let [a, b] = [one, other].map(|i| faces.given_start(self.faces[i].0, self.faces[i].1));
         a != b
     }
 
-    /// Whether the face that has this number at the edge, and shows this side, is beside it in the picture.
-    /// (A face whose front is seen is where its edges are negative.)
+    /// Whether the face with this number at the edge, which shows this side, is inside the picture at the
+    /// edge. (A face whose front is seen is where its edges are negative.)
     fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
         let is_turned = self.is_turned(faces, 0, number);
         let inside = if is_turned { side } else { side.reverse() };
@@ -261,7 +260,7 @@ impl SharedEdge {
     /// The kind of the edge, by the sides that its faces show.
     fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
-        // Where two polygons have their fronts on one side, they run along the edge in opposite ways.
+        // If two polygons have their fronts on the same side, they traverse the edge in opposite directions.
         let is_folded = !self.is_turned(faces, 0, 1);
         let second = if is_folded { sides[1].reverse() } else { sides[1] };
         if sides[0] != second || sides[0].is_eq() {
@@ -281,16 +280,17 @@ impl SharedEdge {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
-    /// The polygon shares this edge with no other polygon, or with more than one.
+    /// The polygon shares this edge with no other polygon, or with more than one other.
     Border,
-    /// One polygon at the edge is seen from its front and the other from behind, or one of them edge-on. The
-    /// same may hold for two parts of one polygon that is not planar. Seen from the eye, a body ends there.
-    /// (If the fronts of the two are on different sides of the surface, one of them counts as reversed.)
+    /// One polygon at the edge is seen from its front and the other from behind, or one of the two is seen
+    /// edge-on. Two parts of one polygon that is not planar can also form a silhouette. Seen from the eye, a
+    /// body ends there. (If the fronts of the two polygons are on different sides of the surface, one polygon
+    /// counts as reversed.)
     Silhouette,
-    /// Two polygons meet at this angle, in radians: 0 where they lie in one plane, π where one is folded
+    /// Two polygons meet at this angle, in radians: 0 if they lie in one plane, π if one polygon is folded
     /// back on the other.
     Crease(f64),
-    /// The polygon intersects another one, with this number, there.
+    /// The polygon intersects the polygon with this number.
     Crossing(usize),
 }
 
@@ -300,18 +300,18 @@ pub enum EdgeKind {
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, within that polygon, of the corner where the edge begins; `None` for a crossing, and for a
+    /// The number, in that polygon, of the corner where the edge begins; `None` for a crossing, and for a
     /// silhouette inside a polygon that is not planar.
     pub edge: Option<u32>,
     /// The kind of the line.
     pub kind: EdgeKind,
-    /// Where the run begins and ends in the picture, in pixels: in the direction in which the polygon runs
-    /// along the edge. A crossing has either direction.
+    /// The start and the end of the run in the picture, in pixels, in the direction in which the polygon
+    /// traverses the edge. A crossing has either direction.
     pub ends: [[f64; 2]; 2],
-    /// Whether it is visible.
+    /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
-    /// visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of the run; `None` unless they were [counted](Hidden::Count). It is 0
+    /// for a visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 

@@ -1,8 +1,9 @@
-//! Orders of polygons in which each comes before the polygons that are visible above it, with few exceptions.
+//! Orders of polygons in which each polygon precedes the polygons that are visible above it, with few
+//! exceptions.
 //!
-//! An opaque polygon that is drawn whole has to come before each opaque one that is visible where it would be
-//! painted too; a piece of a translucent one, before or after each that is visible there, by their depths.
-//! Where a third polygon hides both, no order is needed.
+//! An opaque polygon that is drawn whole must precede each opaque polygon that is visible in the area that it
+//! paints. A piece of a translucent polygon must precede or follow each polygon that is visible there, by
+//! their depths. Where a third polygon hides both, no order is needed.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -15,27 +16,27 @@ use crate::progress::Watch;
 /// An order of nodes.
 #[derive(Debug)]
 pub(super) struct Ordered {
-    /// All nodes; for each pair, `below` comes first unless it is clipped and `above` is opaque.
+    /// All nodes; for each pair, `below` precedes `above` unless `below` is clipped and `above` is opaque.
     pub(super) order: Vec<u32>,
-    /// Nodes of which only the visible part is drawn: they need not come before any opaque node.
+    /// Nodes of which only the visible part is drawn: they need not precede any opaque node.
     pub(super) is_clipped: Vec<bool>,
 }
 
-/// Of a large component, one in this many nodes is clipped at once. Too small: more nodes are clipped, and
-/// restored one by one. Too large: components are searched many times.
+/// Of a large component, 1/`CLIPPED_AT_ONCE` of the nodes are clipped at once. Too small: more nodes are
+/// clipped, and restored one by one. Too large: components are searched many times.
 const CLIPPED_AT_ONCE: usize = 64;
 
-/// At least this many pairs are examined in each component to give nodes back, or this many times all of its
-/// pairs. Too small: more nodes stay clipped. Too large: components of many thousand nodes take long.
+/// At least this many pairs are examined in each component to restore nodes, or this many times the number of
+/// its pairs. Too small: more nodes stay clipped. Too large: components of many thousand nodes take long.
 const EXAMINED: usize = 1 << 22;
 const EXAMINED_PER_PAIR: usize = 32;
 
-/// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle goes through translucent
-/// nodes alone.
+/// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle may consist of translucent
+/// nodes only.
 ///
-/// Cycles are opened by cutting out nodes: greedily those with the most pairs on both sides. Then those are
-/// given back that close no cycle, as far as searches for cycles come in a time proportional to that of the
-/// pairs. (To clip as few as possible is hard: R. M. Karp, "Reducibility among combinatorial problems",
+/// Cycles are opened by clipping nodes: greedily the nodes with the most pairs on both sides. Then nodes that
+/// close no cycle are restored, while the searches for cycles take time proportional to the number of pairs.
+/// (Clipping a minimal number of nodes is NP-hard: R. M. Karp, "Reducibility among combinatorial problems",
 /// 1972.)
 pub(super) fn order(
     nodes: usize,
@@ -50,8 +51,8 @@ pub(super) fn order(
     Ok(Ordered { order, is_clipped: graph.is_clipped })
 }
 
-/// Whether each node is in a cycle, by sorted pairs; then the number of its strongly connected
-/// component, that of one of its nodes.
+/// For each node, given sorted pairs: whether it is in a cycle, and the number of its strongly connected
+/// component, which is the number of one of its nodes.
 pub(super) fn cycles(
     nodes: usize,
     pairs: &[Pair],
@@ -67,41 +68,42 @@ pub(super) fn cycles(
 /// The first and the last place of a visible polygon's pieces in the tree's back-to-front order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranks {
-    /// The places of all its pieces.
+    /// The places of all pieces.
     pub(super) all: [u32; 2],
-    /// The places of its visible pieces.
+    /// The places of the visible pieces.
     pub(super) shown: [u32; 2],
 }
 
 impl Ranks {
-    /// Whether the polygon is in one piece.
+    /// Whether the polygon has only one piece.
     const fn is_one(&self) -> bool {
         self.all[0] == self.all[1]
     }
 
-    /// Whether all pieces of this polygon come before the visible pieces of another.
+    /// Whether all pieces of this polygon precede the visible pieces of another polygon.
     const fn is_before(&self, above: &Self) -> bool {
         self.all[1] < above.shown[0]
     }
 
-    /// Whether only some pieces of this polygon come before visible pieces of another.
+    /// Whether only some pieces of this polygon precede visible pieces of another polygon.
     const fn is_around(&self, above: &Self) -> bool {
         self.all[0] < above.shown[1] && !self.is_before(above)
     }
 }
 
-/// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the pairs that are
-/// wanted.
+/// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the requested
+/// pairs.
 ///
 /// If `below` has to be drawn before `above`, one of its pieces is behind a visible piece of `above`. Then
-/// all of its pieces are (`is_before`), or the places of the two interleave (`is_around`). Pairs of the first
-/// kind need not be found. A chain of nodes, one for each place in the tree's order at which a polygon ends,
-/// implies all of them, and more, as most of those polygons do not overlap. The chain alone has no cycle,
-/// because the place of the last piece increases along it. Pairs of the second kind are found. One of their
-/// polygons is in several pieces.
+/// all its pieces are behind (`is_before`), or the places of the two polygons interleave (`is_around`). Pairs
+/// of the first kind need not be found: a chain of nodes, one for each place in the tree's order at which a
+/// polygon ends, implies all of them. It implies more pairs than necessary, because most of these polygons do
+/// not overlap. The chain alone has no cycle, because the place of the last piece increases along it. Pairs
+/// of the second kind are found. One of their polygons has several pieces.
 ///
 /// An order of the strongly connected components of both kinds together keeps all pairs between components.
-/// Within a component, the chain may demand more than the picture needs. There all pairs are found instead.
+/// Inside a component, the chain may demand more pairs than the picture needs, so there all pairs are found
+/// instead.
 pub(super) fn order_by_rank(
     ranks: &[Ranks],
     mut pairs: impl FnMut(Wanted<'_>) -> Result<Vec<Pair>, Error>,
@@ -110,7 +112,7 @@ pub(super) fn order_by_rank(
     let count = ranks.len();
     let of = |node: u32| &ranks[node as usize];
     let cut = ranks.iter().filter(|ranks| !ranks.is_one()).count();
-    // If most polygons are in several pieces, nearly all are in one component.
+    // If most polygons have several pieces, nearly all polygons are in one component.
     if 2 * cut > count {
         let firsts: Vec<u32> = ranks.iter().map(|ranks| ranks.shown[0]).collect();
         return order(count, &pairs(Wanted::ALL)?, &firsts, &|_| true, watch);
@@ -165,14 +167,14 @@ pub(super) fn order_by_rank(
     for (position, &group) in (0..).zip(&outer) {
         positions[group as usize] = position;
     }
-    // Stable: within a component, the order of its own pairs.
+    // A stable sort: inside a component, the order of its own pairs remains.
     let position = |node: u32| positions[group(node) as usize];
     sort_by(&mut order, watch, |&a, &b| position(a).cmp(&position(b)))?;
     Ok(Ordered { order, is_clipped })
 }
 
 impl Graph<'_> {
-    /// Clips nodes until there is no cycle.
+    /// Clips nodes until no cycle remains.
     fn open_cycles(&mut self) -> Result<(), Error> {
         let all: Vec<u32> = (0..self.is_clipped.len() as u32).collect();
         let first = self.components(&all)?;
@@ -205,7 +207,8 @@ impl Graph<'_> {
         Ok(())
     }
 
-    /// The number of pairs within the component that end at a node, times that of those that begin.
+    /// For each node, the number of pairs in the component that end at it, times the number of pairs that
+    /// begin at it.
     fn degrees(&mut self, nodes: &[u32]) -> Result<Vec<(u64, u32)>, Error> {
         let mut counts = std::mem::take(&mut self.search.counts);
         for &node in nodes {
@@ -230,7 +233,7 @@ impl Graph<'_> {
         Ok(degrees)
     }
 
-    /// Takes back those of the clipped nodes that close no cycle: all cycles are within `nodes`.
+    /// Restores the clipped nodes that close no cycle: all cycles are inside `nodes`.
     fn give_back(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
         for &node in nodes {
             self.component[node as usize] = nodes[0];
@@ -249,7 +252,8 @@ impl Graph<'_> {
         Ok(())
     }
 
-    /// Whether a node would close a cycle if it were given back; or `left` pairs are not enough to tell.
+    /// Whether a node would close a cycle if it were restored; also true if `left` pairs are not enough to
+    /// decide.
     fn closes_cycle(
         &mut self,
         start: u32,
@@ -283,8 +287,8 @@ impl Graph<'_> {
         Ok(is_closed)
     }
 
-    /// All nodes, those of lower rank first where there is a choice (A. B. Kahn, "Topological sorting of
-    /// large networks", 1962).
+    /// Sorts all nodes, with lower ranks first where the pairs leave a choice (A. B. Kahn, "Topological
+    /// sorting of large networks", 1962).
     fn sorted(&self, rank: &[u32]) -> Result<Vec<u32>, Error> {
         let nodes = self.is_clipped.len();
         let mut waits: Vec<u32> = vec![0; nodes];
@@ -324,7 +328,7 @@ struct Graph<'p> {
     starts: Vec<u32>,
     is_clipped: Vec<bool>,
     is_opaque: &'p dyn Fn(u32) -> bool,
-    /// Whether something translucent has to come after each node.
+    /// Whether a translucent node has to follow each node.
     is_seen_through: Vec<bool>,
     /// The strongly connected component of each node, among those that are searched.
     component: Vec<u32>,
@@ -332,23 +336,23 @@ struct Graph<'p> {
     watch: &'p Watch<'p>,
 }
 
-/// What a search for components knows of each node.
+/// The data of a search for components.
 #[derive(Default)]
 struct Search {
-    /// The number of nodes that were met before it.
+    /// For each node, the number of nodes visited before it.
     number: Vec<u32>,
-    /// The least number that it leads to.
+    /// For each node, the least number that it leads to.
     least: Vec<u32>,
     is_on_stack: Vec<bool>,
-    /// From which node it was reached last, in the search for a cycle.
+    /// For each node, the node from which the search for a cycle reached it last.
     reached: Vec<u32>,
-    /// How many pairs begin and end at it.
+    /// For each node, how many pairs begin and end at it.
     counts: Vec<[u32; 2]>,
 }
 
-/// No component, and of nodes that are not searched, no number.
+/// No component; for nodes that are not searched, no number.
 const NONE: u32 = u32::MAX;
-/// The number of nodes that are searched, but were not met so far.
+/// The number of nodes that are searched, but were not visited yet.
 const UNMET: u32 = u32::MAX - 1;
 
 impl<'p> Graph<'p> {
@@ -379,29 +383,30 @@ impl<'p> Graph<'p> {
 }
 
 impl Graph<'_> {
-    /// What a node comes before.
+    /// The nodes that have to follow a node.
     fn above(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
         let [start, end] = [node, node + 1].map(|node| self.starts[node as usize] as usize);
         self.pairs[start..end].iter().map(|pair| pair.above)
     }
 
-    /// How many nodes that is.
+    /// The number of nodes that have to follow a node.
     fn above_count(&self, node: u32) -> u32 {
         self.starts[node as usize + 1] - self.starts[node as usize]
     }
 
-    /// Whether nothing has to come after a node, as it is clipped.
+    /// Whether no node has to follow a node, because it is clipped.
     fn is_last(&self, node: u32) -> bool {
         self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
 
-    /// Whether the order has to keep a pair: the visible part of a clipped node lies under no opaque node.
+    /// Whether the order has to keep a pair. It need not for a clipped node below an opaque node, because the
+    /// clipped node's visible part lies under no opaque node.
     fn holds(&self, Pair { below, above }: Pair) -> bool {
         !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
 
-    /// The strongly connected components of several nodes among these (R. Tarjan, "Depth-first search
-    /// and linear graph algorithms", 1972). Their numbers are left in `component`.
+    /// The strongly connected components of more than one node among some nodes (R. Tarjan, "Depth-first
+    /// search and linear graph algorithms", 1972). Writes their numbers to `component`.
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
         let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
@@ -442,7 +447,8 @@ impl Graph<'_> {
                 }
                 if let Some((next, above)) = unmet {
                     *at = next;
-                    // A node is met when its first pair is looked at, so one without pairs as well.
+                    // A node is numbered when its first pair is examined, so a node without pairs is pushed
+                    // as well.
                     path.push((above, self.starts[above as usize]));
                     continue;
                 }
@@ -470,7 +476,7 @@ impl Graph<'_> {
     }
 }
 
-/// Which pairs of polygons are to be found.
+/// The pairs of polygons to find.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'w> {
     /// Only pairs with a marked polygon, so that most are not compared.
@@ -493,13 +499,13 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// The pair of what a function has for both.
+    /// The pair of the results of a function.
     pub(super) fn map(self, of: impl Fn(u32) -> u32) -> Self {
         Self { below: of(self.below), above: of(self.above) }
     }
 }
 
-/// The pairs between what nodes belong to, sorted, each once.
+/// The pairs between groups of nodes, sorted, each once.
 pub(super) fn contracted<'p>(
     pairs: impl Iterator<Item = &'p Pair>,
     of: impl Fn(u32) -> u32,
@@ -511,25 +517,27 @@ pub(super) fn contracted<'p>(
     Ok(pairs)
 }
 
-/// Groups of nodes in an order that keeps all pairs: an order of a graph without cycles that stays one
-/// while nodes are joined (D. J. Pearce, P. H. J. Kelly, "A dynamic topological sort algorithm for
+/// Groups of nodes in an order that keeps all pairs: a topological order of a directed acyclic graph that is
+/// updated while nodes are joined (D. J. Pearce, P. H. J. Kelly, "A dynamic topological sort algorithm for
 /// directed acyclic graphs", 2006).
 #[derive(Debug)]
 pub(super) struct Groups {
-    /// Nodes lead to the node that names their group.
+    /// For each node, a node on the path to the node that names its group.
     leader: Vec<u32>,
     /// The place of each group in the order.
     place: Vec<u32>,
-    /// The nodes of other groups that have to come after each group, and before it; some are repeated.
+    /// For each group, the nodes of other groups that have to follow it (`after`) or precede it (`before`);
+    /// some are repeated.
     after: Vec<Vec<u32>>,
     before: Vec<Vec<u32>>,
-    /// In which search each group was met last.
+    /// For each group, the last search that visited it.
     met: Vec<u64>,
     search: u64,
 }
 
-/// Searches for joins end after this many groups, without a join. Too small: more pieces. Too large: many
-/// times the time in heaps of crossing polygons, for up to a sixth fewer pieces; other scenes do not change.
+/// Searches for joins end after this many groups, without a join. Too small: more pieces. Too large: a
+/// multiple of the time for many crossing polygons, with up to a sixth fewer pieces; other scenes do not
+/// change.
 const BUDGET: usize = 300;
 
 #[derive(Clone, Copy)]
@@ -539,7 +547,7 @@ enum Way {
 }
 
 impl Groups {
-    /// Each node by itself, in the order of their numbers: of each pair, `below` is the lower number.
+    /// A group for each node, in the order of their numbers: in each pair, `below` is the lower number.
     pub(super) fn new(nodes: usize, pairs: impl Iterator<Item = Pair>) -> Self {
         let numbers: Vec<u32> = (0..nodes as u32).collect();
         let (mut after, mut before) = (vec![vec![]; nodes], vec![vec![]; nodes]);
@@ -557,7 +565,7 @@ impl Groups {
         }
     }
 
-    /// The group of a node, by one of its nodes.
+    /// The group of a node: the number of one of the group's nodes.
     pub(super) fn group(&mut self, node: u32) -> u32 {
         let mut at = node;
         while self.leader[at as usize] != at {
@@ -568,8 +576,8 @@ impl Groups {
         at
     }
 
-    /// Makes one group of those of two nodes, if neither has to come before a third that has to come
-    /// before the other, as far as a search of limited length can tell.
+    /// Joins the groups of two nodes, if a search of limited length proves that no third group has to be
+    /// between them.
     pub(super) fn join(&mut self, a: u32, b: u32, watch: &Watch<'_>) -> Result<(), Error> {
         watch.work(VISITED)?;
         let [a, b] = [self.group(a), self.group(b)];
@@ -583,9 +591,9 @@ impl Groups {
         Ok(())
     }
 
-    /// Adds a pair of nodes, unless `above` has to come before `below`. Whether it was added. The search has
-    /// no limit: in a grid of 900 crossing triangles, the limit of joins would refuse a third of 39 000
-    /// pairs, nearly all of them without need. All searches take less than a sixtieth of the drawing's time.
+    /// Adds a pair of nodes, unless `above` has to precede `below`. Returns whether it was added. The search
+    /// has no limit: in a grid of 900 crossing triangles, the limit of joins would reject a third of 39 000
+    /// pairs, nearly all without need. All searches take less than a sixtieth of the drawing's time.
     pub(super) fn add(&mut self, pair: Pair, watch: &Watch<'_>) -> Result<bool, Error> {
         watch.work(VISITED)?;
         let [below, above] = [self.group(pair.below), self.group(pair.above)];
@@ -600,9 +608,8 @@ impl Groups {
         Ok(true)
     }
 
-    /// Moves `b`, which comes after `a`, to the place directly before `a`, with all pairs kept; returns
-    /// whether it did. It does not if pairs require `a` before `b`, or if a search of `most` groups cannot
-    /// exclude that.
+    /// Moves `b`, which follows `a`, to the place directly before `a`, and keeps all pairs. Returns false,
+    /// without a move, if pairs require `a` before `b`, or if a search of `most` groups cannot exclude that.
     fn bring_together(
         &mut self,
         a: u32,
@@ -612,8 +619,8 @@ impl Groups {
     ) -> Result<bool, Error> {
         let Some(after) = self.reach([a, b], Way::After, most, watch)? else { return Ok(false) };
         let Some(before) = self.reach([b, a], Way::Before, most, watch)? else { return Ok(false) };
-        // The first places go to the groups that have to come before, in their order. Then come the two
-        // groups, then the groups that have to come after.
+        // First the groups that have to precede, in their order; then the two groups; then the groups that
+        // have to follow.
         let groups = [&before[..], &[b, a], &after[..]].concat();
         let mut places: Vec<u32> = groups.iter().map(|&group| self.place[group as usize]).collect();
         places.sort_unstable();
@@ -623,8 +630,8 @@ impl Groups {
         Ok(true)
     }
 
-    /// The groups between two that are reached from the first, in their order; `None` if the second is one of
-    /// them, or if there are more than `most`.
+    /// The groups between two groups that are reached from the first, in their order; `None` if the second is
+    /// reached, or if there are more than `most`.
     fn reach(
         &mut self,
         [from, to]: [u32; 2],
@@ -646,7 +653,7 @@ impl Groups {
             let mut is_met = false;
             watch.work(neighbours.len() * VISITED)?;
             for node in &mut neighbours {
-                // Lists name groups, as they are now, so that the next search is shorter.
+                // Replace nodes by their current groups, so that the next search is shorter.
                 *node = self.group(*node);
                 let (group, place) = (*node as usize, self.place[*node as usize]);
                 is_met |= *node == to;
@@ -698,8 +705,8 @@ mod order_tests {
 
     use super::*;
 
-    /// Between two calls of the callback few pairs are looked at, and before the first and after the last
-    /// one, though all pairs begin at one node. The function `is_opaque`, called for each pair, counts its
+    /// Few pairs are examined between two calls of the callback, before the first and after the last call,
+    /// though all pairs begin at one node. The function `is_opaque` is called for each pair and counts its
     /// calls.
     #[test]
     fn between_two_calls_few_pairs_are_looked_at() {
@@ -771,7 +778,7 @@ mod join_tests {
                 groups.join(a, b, &Watch::default()).unwrap();
                 assert_eq!(groups.group(a) == groups.group(b), one == other || !closes);
                 *if closes { &mut refused } else { &mut joined } += usize::from(one != other);
-                // Every pair is in order still.
+                // Every pair is still in order.
                 for pair in &pairs {
                     let [x, y] = [pair.below, pair.above].map(|node| groups.group(node) as usize);
                     assert!(x == y || groups.place[x] < groups.place[y]);
@@ -811,11 +818,11 @@ mod join_tests {
         assert!(added > 500 && moved > 500 && refused > 500, "{added} {moved} {refused}");
     }
 
-    /// The search goes through all that lies between: more than it may.
+    /// The search would visit all nodes in between: more than it may.
     #[test]
     fn searches_end_at_their_budget() {
         for (between, expected) in [(BUDGET - 2, true), (BUDGET + 2, false)] {
-            // The first comes before all but the last.
+            // The first precedes all except the last.
             let last = between as u32 + 1;
             let pairs: Vec<Pair> = (1..last).map(|above| Pair { below: 0, above }).collect();
             let mut groups = Groups::new(between + 2, pairs.into_iter());

@@ -1,13 +1,13 @@
-//! The lines of a picture: what made each, its number, on which side of one two others meet, and where.
+//! The lines of a picture: their origins and numbers, their intersections, and the side of a line on which
+//! two other lines meet.
 //!
-//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels,
-//! with k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the
-//! plane through both and the eye. The cut of a face f by a plane h is where a ray meets both: with
-//! κ the value of a plane at the eye (of parallel rays, its slope along them) and φ its value along a
-//! ray, k = κ_f φ_h − κ_h φ_f.
+//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
+//! k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the plane through both points and the eye. The cut of a
+//! face f by a plane h consists of the rays that meet both in one point. With κ the value of a plane at the
+//! eye (for parallel rays, its slope along them) and φ its value along a ray, k = κ_f φ_h − κ_h φ_f.
 //!
-//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361; the
-//! determinant of three lines has less than 1088.
+//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361 bits; the
+//! determinant of three lines has less than 1088 bits.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -24,9 +24,10 @@ use crate::raster::{RayOrigin, Rays, Sheet, edge};
 
 /// The number of no point.
 pub(super) const NO_POINT: u32 = u32::MAX;
-/// Faces of more corners are not searched for one that a line goes through.
+/// Faces with more corners are not searched for a corner that a line goes through. Too small: more
+/// intersections are computed in integers. Too large: the search takes longer.
 const FEW: usize = 8;
-/// Borders of tiles are not so far out, in steps.
+/// More than the distance of any tile's border from the origin, in steps.
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// The lines of a picture: of the edges of all faces that it may show, and of the cuts of their pieces.
@@ -37,9 +38,9 @@ pub(super) struct LineTable<'t> {
     pub(super) reach: [f64; 2],
     keys: Vec<Key>,
     rounded: Vec<Rounded>,
-    /// Points that each line is known to go through; [`NO_POINT`] for none.
+    /// Points that each line is known to go through; [`NO_POINT`] for a missing point.
     pub(super) through: Vec<[u32; 2]>,
-    /// The half of each key on which it is positive.
+    /// For each key, the half on which it is positive.
     halves: Table<Key, HalfPlane>,
     /// All lines, by where they are.
     feet: LineIndex,
@@ -47,14 +48,14 @@ pub(super) struct LineTable<'t> {
     cuts: Table<HalfPlane, ()>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
-    /// The numbers of where corners were moved to.
+    /// The numbers of the points to which corners were moved.
     moved: Table<u32, u32>,
-    /// A corner of each number, and where it is.
+    /// For each point number, a corner there and its position.
     corners: Vec<(u32, [f64; 3])>,
 }
 
 impl<'t> LineTable<'t> {
-    /// No lines yet.
+    /// An empty table.
     pub(super) fn new(frame: ViewFrame<'t>) -> Self {
         let reach = frame.rays.size().map(|side| f64::from(side) + 1.0);
         Self {
@@ -73,7 +74,7 @@ impl<'t> LineTable<'t> {
     }
 
     /// The half of a line on which its key is positive. The line is added if it is new; it goes through the
-    /// points.
+    /// given points.
     fn half(&mut self, key: Key, points: [u32; 2]) -> Result<HalfPlane, Error> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
@@ -81,7 +82,7 @@ impl<'t> LineTable<'t> {
         self.new_half(key, self.rounded_of(key), points)
     }
 
-    /// The same of a key that is new.
+    /// The half of a key that is new.
     fn new_half(
         &mut self,
         key: Key,
@@ -96,9 +97,9 @@ impl<'t> LineTable<'t> {
         Ok(half)
     }
 
-    /// The half of a line that has no key yet. What makes one line of the picture, as edges of walls side by
-    /// side, cuts along them, and borders of tiles, has one half: else sides of cells would not be known to
-    /// lie on one line, and it would be found out again and again that they meet everywhere.
+    /// The half of a line that has no key yet. Collinear edges, cuts and borders of tiles share one half, for
+    /// instance edges of walls side by side. Otherwise sides of cells would not be known to be collinear, and
+    /// integers would have to decide this repeatedly.
     fn half_of_line(
         &mut self,
         key: Key,
@@ -140,7 +141,7 @@ impl<'t> LineTable<'t> {
         is_near.then(|| HalfPlane::beyond(axis, steps.round() as i64))
     }
 
-    /// Points through which a line is known to go, if there is room for them.
+    /// Stores points that a line is known to go through, if there is room for them.
     fn remember(&mut self, line: u32, points: [u32; 2]) {
         let known = &mut self.through[line as usize];
         for point in points.into_iter().filter(|&point| point != NO_POINT) {
@@ -161,7 +162,7 @@ impl<'t> LineTable<'t> {
         Ok(number)
     }
 
-    /// The half of a face's edge `k` on which the face lies, by whether its κ is positive.
+    /// The half of a face's edge `k` on which the face lies, given whether its κ is positive.
     pub(super) fn edge(
         &mut self,
         face: u32,
@@ -178,7 +179,7 @@ impl<'t> LineTable<'t> {
         if let Some(axis) = flattened
             && !(certain.contains(&a) && certain.contains(&b))
         {
-            // The upright plane faces outwards where the face's normal runs with the axis.
+            // The upright plane faces outwards if the face's normal has a positive component along the axis.
             let normal = faces.plane(PlaneId::face(face)).normal()[axis];
             let flip = is_positive == (normal > 0);
             let mut points = [a, b];
@@ -206,7 +207,7 @@ impl<'t> LineTable<'t> {
         Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
     }
 
-    /// The half of a face's cut by a plane on which a piece lies that is behind the plane, or in front; by
+    /// The half of a face's cut by a plane on which a piece behind the plane, or in front of it, lies, given
     /// whether the face's κ is positive.
     pub(super) fn cut(
         &mut self,
@@ -230,8 +231,9 @@ impl<'t> LineTable<'t> {
         Ok(half.flipped(is_positive == (behind != swapped)))
     }
 
-    /// Corners of a face that are known to lie on a plane that cuts it: those of the other face, or with
-    /// the coordinate of an axis plane. (Of faces whose corners all lie on their planes, and are few.)
+    /// Corners of a face that are known to lie on a plane that cuts it: corners shared with the plane's face,
+    /// or with the coordinate of an axis plane. (Only for faces with few corners that all lie on their
+    /// planes.)
     fn on_cut(&mut self, face: u32, plane: PlaneId) -> [u32; 2] {
         let faces = self.frame.faces;
         let own = faces.corners(face);
@@ -267,8 +269,8 @@ impl<'t> LineTable<'t> {
         number
     }
 
-    /// The number of the point onto which a corner was moved that was off its face's plane. Edges of no
-    /// other face end there.
+    /// The number of the point to which a corner off its face's plane was moved. No edge of another face ends
+    /// there.
     fn moved(&mut self, corner: u32) -> u32 {
         if let Some(&number) = self.moved.get(&corner) {
             return number;
@@ -284,14 +286,14 @@ impl<'t> LineTable<'t> {
         self.cuts.contains_key(&half.positive())
     }
 
-    /// Whether the cut of a face by another's plane, the lower number first, is known to have been made along
-    /// a half's line.
+    /// Whether the cut of a face by another face's plane, the lower number first, is known to have been made
+    /// along a half's line.
     pub(super) fn is_cut_of(&self, half: HalfPlane, [one, other]: [u32; 2]) -> bool {
         let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
-    /// What made a line first.
+    /// The first origin of a line.
     fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
     }
@@ -322,22 +324,22 @@ impl LineTable<'_> {
         }
     }
 
-    /// How much the parts of a line's slope may be off.
+    /// The largest error of the parts of a line's slope.
     pub(super) fn slope_error(&self, line: &Rounded) -> f64 {
         line.error / self.reach[0].min(self.reach[1])
     }
 
-    /// The edge from one lattice point to another in floats, whether its line is one of these or not.
+    /// The edge from one lattice point to another in floats, whether or not its line is in the table.
     pub(super) fn rounded_edge(&self, ends: [[f64; 3]; 2]) -> Rounded {
         rounded_edge(&self.frame, ends, self.reach)
     }
 
-    /// A line in floats that is none of these.
+    /// A line in floats that is not in the table.
     pub(super) fn rounded_other(&self, exact: &ExactLine) -> Rounded {
         Rounded::new(exact, self.reach)
     }
 
-    /// Whether a point is in the picture or at most a pixel beyond: where errors are bounded.
+    /// Whether a point is in the picture or at most a pixel beyond it: there errors are bounded.
     pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
     }
@@ -357,20 +359,22 @@ impl LineTable<'_> {
 }
 
 /// The origin of a line. Equal keys are equal lines, up to their direction. Lines of different keys may be
-/// equal too, except those of edges: all edges on one line have its first key.
+/// equal too, except lines of edges: all collinear edges have the same key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
     Edge([u32; 2]),
-    /// A face's edge from its corner to the next, one of which was moved onto the face's plane, or may have
-    /// been.
+    /// A face's edge from a corner to the next, if one of the two was moved onto the face's plane, or may
+    /// have been moved.
     Upright(u32, u32),
-    /// The cut of a face by a plane: of two faces' planes, of the lower by the higher.
+    /// The cut of a face by a plane. If the plane is a face's, the face of the lower number is cut by the
+    /// plane of the higher.
     Cut(u32, PlaneId),
 }
 
 impl Key {
-    /// The line in floats, in a picture that reaches so far. Points have the numbers of these corners.
+    /// The line in floats, in a picture with these largest coordinates. Point numbers are indices of
+    /// `corners`.
     pub(super) fn rounded(
         self,
         frame: &ViewFrame<'_>,
@@ -387,7 +391,7 @@ impl Key {
             }
             Self::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
         };
-        // Lines are looked at up to a pixel beyond the picture that the error is for.
+        // Lines are evaluated up to a pixel beyond the picture that the error is for.
         let rounded = Rounded::scaled(k, 4.0 * error);
         if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, corners), reach) }
     }
@@ -405,7 +409,7 @@ impl Key {
     }
 }
 
-/// The edge from one lattice point to another in floats, in a picture that reaches so far.
+/// The edge from one lattice point to another in floats, in a picture with these largest coordinates.
 pub(super) fn rounded_edge(frame: &ViewFrame<'_>, ends: [[f64; 3]; 2], reach: [f64; 2]) -> Rounded {
     let (k, error) = edge(&frame.rays, ends);
     let rounded = Rounded::scaled(k, 4.0 * error);
@@ -425,7 +429,7 @@ fn upright(frame: &ViewFrame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
     ([corners[k as usize], corners[next]], axis)
 }
 
-/// A table whose keys are made of numbers. Nothing depends on the order of its entries.
+/// A table whose keys consist of numbers. Nothing depends on the order of its entries.
 pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
@@ -469,32 +473,32 @@ impl Hasher for Mixer {
     }
 }
 
-/// The point of a line that is next to the middle of the picture, and the cosine of twice the line's angle:
-/// the same for both directions. Of a line that the picture shows, they are off by less than a
-/// [`MARGIN`] of a [`STEP`].
+/// The point of a line that is nearest to the middle of the picture, and the cosine of twice the line's
+/// angle: the same for both directions. For a line in the picture, these are off by less than [`MARGIN`]
+/// times [`STEP`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     point: [f64; 2],
     cosine: f64,
 }
 
-/// The numbers of lines, by their feet; those of one place in an order of lines that is exact: in a picture
-/// that shows a scene from very far, all are in one place.
+/// The numbers of lines, by the places of their feet. Inside a place, lines are sorted exactly, because in a
+/// picture of a scene from very far away all lines are in one place.
 #[derive(Debug, Default)]
 struct LineIndex(Table<Place, SmallVec<[u32; 2]>>);
 
 type Place = [i64; 3];
 
-/// The size of a place, in pixels and of the cosine. Too small: feet of one line are in several places. Too
-/// large: more lines are compared in integers.
+/// The size of a place, in pixels and in units of the cosine. Too small: feet of one line are in several
+/// places. Too large: more lines are compared in integers.
 const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-/// Feet are looked for in neighbouring places if they are nearer to these than this share of a step. (Values
-/// of lines that the picture shows are off by less than 2⁻³¹ pixels, feet by less than four times as much:
-/// 2⁻⁹ of a step.)
+/// A foot is also searched in a neighbouring place if it is nearer to that place than this share of a step.
+/// (Values of lines in the picture are off by less than 2⁻³¹ pixels, and feet by less than four times as
+/// much: 2⁻⁹ of a step.) Too small: equal lines are not found. Too large: more places are searched.
 const MARGIN: f64 = 1.0 / 256.0;
 
 impl Foot {
-    /// That of a line in a picture of this size.
+    /// The foot of a line in a picture of this size.
     pub(super) fn of(line: &Rounded, size: [f64; 2]) -> Self {
         let [_, kx, ky] = line.k;
         let middle = size.map(|side| 0.5 * side);
@@ -512,7 +516,7 @@ impl Foot {
         self.numbers().map(step_of)
     }
 
-    /// The places where a line may be whose foot this is.
+    /// The places where a line with this foot may be.
     fn places(&self) -> impl Iterator<Item = Place> {
         let [xs, ys, cosines] = self.numbers().map(|number| {
             let [low, high] = [-STEP, STEP].map(|step| step_of(number + step * MARGIN));
@@ -524,8 +528,8 @@ impl Foot {
 }
 
 impl LineIndex {
-    /// The line with this foot that a comparison of lines with another one says is the same; or else where to
-    /// [`add`](Self::add) that one.
+    /// Returns the line with this foot that is equal to the sought line, by a comparison of lines; otherwise
+    /// the place at which to [`add`](Self::add) the sought line.
     pub(super) fn search(
         &self,
         foot: &Foot,
@@ -557,15 +561,15 @@ fn step_of(number: f64) -> i64 {
 pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
 pub(super) const STEP_BITS: u32 = 24;
 
-/// A line, and which of its sides is meant.
+/// One side of a line.
 ///
-/// The last bit is set for the side on which the line is negative. Above it is the number of the line; or,
-/// with the first bit set, the axis and place of a tile's border, so that borders need no list.
+/// The last bit is set for the side on which the line is negative. The bits above it are the number of the
+/// line; or, if the first bit is set, the axis and place of a tile's border, so that borders need no list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct HalfPlane(u64);
 
 const BORDER: u64 = 1 << 63;
-/// Borders are this many steps from where their number is 0, so that all numbers are positive.
+/// Added to the place of a border, so that all numbers are positive.
 const OFFSET: i64 = 1 << 60;
 
 impl HalfPlane {
@@ -579,7 +583,7 @@ impl HalfPlane {
         Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
     }
 
-    /// The same for all halves of a line.
+    /// A number that both halves of a line share.
     pub(super) const fn line(self) -> u64 {
         self.0 >> 1
     }
@@ -594,13 +598,13 @@ impl HalfPlane {
         if self.0 & BORDER == 0 { Some((self.0 >> 1) as u32) } else { None }
     }
 
-    /// The axis of a border, and where it is.
+    /// The axis of a border, and its position in steps.
     pub(super) const fn border(self) -> (usize, i64) {
         let number = (self.0 & !BORDER) >> 1;
         ((number & 1) as usize, (number >> 1) as i64 - OFFSET)
     }
 
-    /// Whether the side is meant on which the line is negative.
+    /// Whether this is the side on which the line is negative.
     pub(super) const fn is_negative(self) -> bool {
         self.0 & 1 == 1
     }
@@ -612,8 +616,8 @@ impl HalfPlane {
 }
 
 impl LineTable<'_> {
-    /// On which side of a half's line the point lies where two others meet, the second turning to the
-    /// left of the first as seen from their halves: exact.
+    /// The exact side of a half's line on which two other lines meet; the second turns to the left of the
+    /// first as seen from their halves.
     #[cold]
     pub(super) fn exact_side(&self, half: HalfPlane, [first, second]: [HalfPlane; 2]) -> Ordering {
         let lines = [first, second, half];
@@ -625,7 +629,7 @@ impl LineTable<'_> {
         if flips % 2 == 1 { side.reverse() } else { side }
     }
 
-    /// On which side of a line, which may be none of these, the point lies where two others meet: exact.
+    /// The exact side of a line on which two other lines meet. The line need not be in the table.
     #[cold]
     pub(super) fn exact_side_of(&self, line: &ExactLine, corner: [HalfPlane; 2]) -> Ordering {
         let [a, b] = corner.map(|half| self.exact(half));
@@ -633,7 +637,7 @@ impl LineTable<'_> {
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
     }
 
-    /// Where two lines meet, from integers, and how far off that may be by rounding.
+    /// The point where two lines meet, from integers, and a bound on its rounding error.
     #[cold]
     pub(super) fn exact_meeting(&self, halves: [HalfPlane; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));
@@ -653,31 +657,31 @@ impl LineTable<'_> {
 /// The coefficients of a line.
 pub(super) type ExactLine = [Int<6>; 3];
 
-/// What all lines of a picture share: its rays, and the faces.
+/// The data that all lines of a picture share: its rays, and the faces.
 #[derive(Debug)]
 pub(super) struct ViewFrame<'t> {
     pub(super) rays: Rays,
     pub(super) faces: &'t Faces,
 }
 
-/// A plane as the rays meet it.
+/// A plane, as a function of the rays.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ImagePlane {
     kappa: Int<4>,
     phi: [Int<3>; 3],
 }
 
-/// A point of the scene in the picture: a weight, which is positive ahead of the eye, and that many times
-/// its coordinates.
+/// A point of the scene in homogeneous coordinates of the picture: a weight, positive ahead of the eye, and
+/// the coordinates times the weight.
 pub(super) type Image = [Int<4>; 3];
 
 impl ViewFrame<'_> {
-    /// A plane of the scene, as the rays meet it.
+    /// A plane of the scene, as a function of the rays.
     pub(super) fn sheet(&self, plane: PlaneId) -> ImagePlane {
         self.sheet_of(&self.faces.plane(plane))
     }
 
-    /// The plane through two lattice points and along an axis, as the rays meet it.
+    /// The plane through two lattice points and along an axis, as a function of the rays.
     pub(super) fn upright(&self, [a, b]: [[f64; 3]; 2], axis: usize) -> ImagePlane {
         self.sheet_of(&Plane::upright(a, b, axis))
     }
@@ -698,12 +702,12 @@ impl ViewFrame<'_> {
         ImagePlane { kappa, phi: [first, right, down].map(|v| plane.along(v)) }
     }
 
-    /// Where a lattice point is in the picture.
+    /// The position of a lattice point in the picture.
     pub(super) fn image(&self, point: [f64; 3]) -> Image {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let point = point.map(|c| c as i64);
-        // With `base`, `right` and `down`, or `right`, `down` and the direction, as axes: G. Cramer's rule.
-        // (Both are right-handed: cameras look along right × down.)
+        // Cramer's rule, with `base`, `right` and `down`, or `right`, `down` and the direction, as axes.
+        // (Both bases are right-handed: cameras look along right × down.)
         match pencil {
             RayOrigin::From { eye, shift } => {
                 let duals = [product(right, down), product(down, base), product(base, right)];
@@ -717,8 +721,8 @@ impl ViewFrame<'_> {
         }
     }
 
-    /// The edge from one lattice point to another. In the picture it leads along (k₂, −k₁). Of a face whose
-    /// front is seen, the inside is where its edges are negative.
+    /// The edge from one lattice point to another. Its direction in the picture is (k₂, −k₁). Inside a face
+    /// whose front is seen, the face's edges are negative.
     pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ExactLine {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let integer = |p: [f64; 3]| p.map(|c| c as i64);
@@ -741,14 +745,14 @@ impl ViewFrame<'_> {
 }
 
 impl ImagePlane {
-    /// Where the plane is seen from: `Greater` is the side from which its κ is positive. A face whose
-    /// front is seen has a positive one from an eye, a negative one along parallel rays.
+    /// The side from which the plane is seen: `Greater` if its κ is positive. A face whose front is seen has
+    /// a positive κ from an eye, and a negative κ along parallel rays.
     pub(super) fn side(&self) -> Ordering {
         self.kappa.sign()
     }
 
-    /// The line in which the rays meet both planes. In front of the other plane, rays that meet a
-    /// face's plane ahead have the sign of its κ.
+    /// The line of the rays that meet both planes in one point. If a ray meets a face's plane ahead, at a
+    /// point in front of the other plane, the line has the sign of the face's κ at that ray.
     pub(super) fn cut(&self, other: &Self) -> ExactLine {
         std::array::from_fn(|i| {
             let ahead: Int<6> = self.kappa.times(&other.phi[i]);
@@ -758,7 +762,7 @@ impl ImagePlane {
     }
 }
 
-/// On which side of a third line two lines meet, times the sign of the turn from the first to the
+/// The side of a third line on which two lines meet, times the sign of the turn from the first line to the
 /// second.
 pub(super) fn orientation([a, b, c]: [&ExactLine; 3]) -> Ordering {
     let minor =
@@ -767,15 +771,14 @@ pub(super) fn orientation([a, b, c]: [&ExactLine; 3]) -> Ordering {
     (term(0, minor(1, 2)) + term(1, minor(2, 0)) + term(2, minor(0, 1))).sign()
 }
 
-/// On which side of a line a point is that is ahead of the eye.
+/// The side of a line on which a point ahead of the eye lies.
 pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
     let term = |i: usize| -> Int<11> { line[i].times(&image[i]) };
     (term(0) + term(1) + term(2)).sign()
 }
 
-/// An order of lines: those that are one, in whatever direction, are equal. Lines are compared by the first
-/// of their coefficients in an order, slopes first, that is not 0, and then by the ratios of the others to
-/// it.
+/// A total order of lines, regardless of their direction. Lines are compared by the first of their
+/// coefficients that is not 0, slopes first, and then by the ratios of the other coefficients to it.
 pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
     let order = [1, 2, 0];
     let [first, second] = [a, b].map(|line| order.iter().position(|&i| line[i].sign().is_ne()));
@@ -791,12 +794,12 @@ pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
     ratios.fold(Ordering::Equal, Ordering::then)
 }
 
-/// Whether two numbers for one line have opposite signs.
+/// Whether two equal lines have coefficients of opposite signs.
 pub(super) fn is_opposite(a: &ExactLine, b: &ExactLine) -> bool {
     (0..3).any(|i| a[i].sign().is_ne() && a[i].sign() != b[i].sign())
 }
 
-/// Where two lines meet, each coordinate rounded three times; NaN where they do not.
+/// The point where two lines meet, each coordinate rounded three times; NaN for parallel lines.
 pub(super) fn meeting([a, b]: [&ExactLine; 2]) -> [f64; 2] {
     let minor = |i: usize, j: usize| {
         let minor = a[i].times::<6, 12>(&b[j]) - a[j].times::<6, 12>(&b[i]);
@@ -816,22 +819,23 @@ fn product(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
 /// The relative error of one rounding.
 pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// Lines that are further off in floats, in pixels, are computed from integers.
+/// Lines with a larger error in floats, in pixels, are computed from integers. Too small: integers compute
+/// more lines. Too large: integers decide more sides.
 const FINE: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// A line in floats, scaled so that the longer part of its slope is near 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// The largest error of its values anywhere in the picture, computed as `k[0] + x·k[1] + y·k[2]`; and
-    /// of its slope, times the picture's size.
+    /// The largest error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`; also of
+    /// its slope, times the picture's size.
     pub(super) error: f64,
-    /// At least the length of its slope.
+    /// At least the length of the line's slope.
     pub(super) slope: f64,
 }
 
 impl Rounded {
-    /// From exact coefficients, for a picture of this size.
+    /// Rounds exact coefficients, for a picture of this size.
     pub(super) fn new(exact: &ExactLine, reach: [f64; 2]) -> Self {
         let k = exact.each_ref().map(|c| c.to_f64());
         let sum = k[0].abs() + k[1].abs() * reach[0] + k[2].abs() * reach[1];
@@ -840,17 +844,17 @@ impl Rounded {
 
     pub(super) fn scaled(k: [f64; 3], error: f64) -> Self {
         let size = k[1].abs().max(k[2].abs());
-        // A power of two: nothing is rounded. (A line without slope may have any scale.)
+        // Scaling by a power of two is exact. (A line without slope may have any scale.)
         let scale = if size > 0.0 { scaled(1.0, -exponent_of(size)) } else { 1.0 };
         Self { k: k.map(|c| c * scale), error: error * scale, slope: 1.01 * 1.42 * size * scale }
     }
 
-    /// The same with its signs changed, if `flip`.
+    /// The same line with its signs changed, if `flip`.
     pub(super) fn flipped(self, flip: bool) -> Self {
         if flip { Self { k: self.k.map(|c| -c), ..self } } else { self }
     }
 
-    /// Whether it is off by so little that the line is not needed in integers to look at it.
+    /// Whether the error is so small that integers are not needed to evaluate the line.
     pub(super) fn is_fine(&self) -> bool {
         self.error < FINE
     }

@@ -1,8 +1,8 @@
-//! The visibility map: what is visible in a picture, found tile by tile.
+//! The visibility map: the visible parts of polygons in a picture, found tile by tile.
 //!
-//! A tile has a list of the pieces that may show in it, front to back. The list ends with the first piece
-//! that covers the tile. Where it is short, the tile is a leaf, and the visible part of each piece is
-//! subtracted from the uncovered part; otherwise the tile is halved.
+//! A tile has a list of the pieces that may be visible in it, front to back. The list ends with the first
+//! piece that covers the tile. If it is short, the tile is a leaf, and each piece is subtracted from the
+//! uncovered part; otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -21,46 +21,46 @@ use crate::view::Camera;
 /// The visible parts of polygons in one view: convex cells side by side, each a part of one polygon.
 /// [`BspTree::visibility`] makes it.
 ///
-/// It is exact, without a tolerance of its own. Lines of the picture are planes through the eye in integers,
-/// and a corner is where two of them meet, never a rounded point. A polygon is in the map if and only if some
-/// of it is visible, however small. Where two polygons of one plane overlap, the map has the one that the
-/// tree's order paints last.
+/// The map is exact and adds no tolerance. Lines of the picture are planes through the eye in integers. A
+/// corner is the intersection of two lines, never a rounded point. A polygon is in the map if and only if a
+/// part of it is visible, however small. Where two polygons in one plane overlap, the map contains the
+/// polygon that the tree's order paints last.
 ///
-/// The edges of a polygon go through its corners as given if none was moved by more than 2⁻³² of the extent,
-/// which is more than the rounding of `f64`. So there is no crack between neighbours that share an edge. The
-/// planes onto which corners were moved decide which polygon is in front. Edges go through the corners as
-/// moved where these were moved further, where the given ones are not convex in the picture, or where there
-/// are more than eight.
+/// The edges of a polygon go through its given corners if no corner was moved by more than 2⁻³² of the
+/// extent, which is more than the rounding of `f64`. So there is no crack between neighbours that share an
+/// edge. The planes onto which corners were moved decide which polygon is in front. Edges go through the
+/// moved corners if a corner was moved further, if the given corners are not convex in the picture, or if
+/// there are more than eight.
 ///
 /// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of the edges of hidden
-/// polygons in the frustum. With feature `parallel`, tiles of the picture are shared out to all threads; the
-/// map is the same, bit for bit.
+/// polygons in the frustum. With the feature `parallel`, all threads share the tiles of the picture; the map
+/// is the same, bit for bit.
 ///
-/// Positions are in pixels, as those of [`Camera::project`]: from (0, 0), the corner of the first pixel, x to
-/// the right, y down. The centre of the first pixel is at (½, ½).
+/// Positions are in pixels, as for [`Camera::project`]: from (0, 0), the corner of the first pixel, x to the
+/// right, y down. The centre of the first pixel is at (½, ½).
 ///
 /// # Progress
 ///
 /// A map keeps [the callback](ViewOptions::progress) that it is made with: each later operation that can fail
-/// reports to it as well. Each operation, the making of the map among them, counts by itself. `total` is the
-/// number of its parts; it does not change during the operation. `done` begins with 0, never decreases, and
-/// is `total` in the last call, when the result is ready. Parts do not take equally long. The callback is
-/// called about once a millisecond, by any thread, one call at a time; only sorting a long list and passing
-/// over it take longer (a tenth of a second for a million items). If it returns `Break`, the operation ends
-/// with an error whose [kind](Error::kind) is `Cancelled`. The map is not changed, and its next operation
-/// starts from the beginning. If several threads use one map at once, the callback is called for each of them
-/// in turn, and the last call of an operation may be missing.
+/// reports to the same callback. Each operation, including the making of the map, counts separately. `total`
+/// is the number of its parts; it does not change during the operation. `done` begins with 0, never
+/// decreases, and is `total` in the last call, when the result is ready. Parts do not take equally long. The
+/// callback is called about once per millisecond, by any thread, one call at a time. Only sorting and reading
+/// a long list take longer (a tenth of a second for a million items). If the callback returns `Break`, the
+/// operation ends with an error whose [kind](Error::kind) is `Cancelled`. The map is not changed, and its
+/// next operation starts from the beginning. If several threads use one map at once, their operations take
+/// turns to call the callback, and the last call of an operation may be missing.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
     pub(super) primitives: Primitives<'t>,
     pub(super) leaves: Vec<Leaf>,
-    /// Drawings leave out polygons whose visible area is less.
+    /// Drawings leave out polygons with a smaller visible area.
     pub(super) least_area: f64,
     pub(super) reporter: Reporter<'t>,
 }
 
-/// How a view is computed: [`BspTree::visibility`].
+/// The options of a view: [`BspTree::visibility`].
 ///
 /// ```
 /// use binspace::drawing::ViewOptions;
@@ -74,11 +74,11 @@ pub struct ViewOptions<'a> {
     /// Whether polygons that are seen from behind are left out: their corners run clockwise in the picture.
     /// Default: `false`.
     pub front_faces_only: bool,
-    /// The opacity of each polygon, from 0 to 1, by its number in the input. Polygons with less than 1 hide
-    /// nothing, and those with 0 are left out. Default: an empty list, all are opaque.
+    /// The opacity of each polygon, from 0 to 1, in input order. Polygons with an opacity of less than 1 hide
+    /// nothing, and polygons with opacity 0 are left out. Default: an empty list, all polygons are opaque.
     pub opacities: Vec<f64>,
     /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square
-    /// pixels is less. Default: 0, all are drawn; so they are with NaN.
+    /// pixels is less. Default: 0, all polygons are drawn, as with NaN.
     pub least_area: f64,
     /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
@@ -86,29 +86,29 @@ pub struct ViewOptions<'a> {
 }
 
 impl<'a> ViewOptions<'a> {
-    /// All polygons, opaque, from both sides.
+    /// Shows all polygons, opaque, from both sides.
     pub const DEFAULT: Self =
         Self { front_faces_only: false, opacities: vec![], least_area: 0.0, progress: None };
 
-    /// The same options, with [`front_faces_only`](Self::front_faces_only) set.
+    /// Sets [`front_faces_only`](Self::front_faces_only).
     #[must_use]
     pub fn with_front_faces_only(self) -> Self {
         Self { front_faces_only: true, ..self }
     }
 
-    /// The same options with other [`opacities`](Self::opacities).
+    /// Sets [`opacities`](Self::opacities).
     #[must_use]
     pub fn with_opacities(self, opacities: Vec<f64>) -> Self {
         Self { opacities, ..self }
     }
 
-    /// The same options with another [`least_area`](Self::least_area).
+    /// Sets [`least_area`](Self::least_area).
     #[must_use]
     pub fn with_least_area(self, least_area: f64) -> Self {
         Self { least_area, ..self }
     }
 
-    /// The same options with a callback for [`progress`](Self::progress).
+    /// Sets a callback for [`progress`](Self::progress).
     #[must_use]
     pub fn with_progress(self, progress: &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync)) -> Self {
         Self { progress: Some(progress), ..self }
@@ -126,19 +126,19 @@ impl fmt::Debug for ViewOptions<'_> {
     }
 }
 
-/// How hidden parts of edges, crossings and lines are returned.
+/// The handling of hidden parts of edges, crossings and lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Hidden {
-    /// They are left out.
+    /// Leaves hidden parts out.
     #[default]
     Skip,
-    /// They are runs that are not visible.
+    /// Returns hidden parts as runs that are not visible.
     Keep,
-    /// As `Keep`, cut where the number of polygons in front changes: a run's `layers`.
+    /// Like `Keep`, with hidden runs cut where the number of polygons in front changes: a run's `layers`.
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
-    /// have the edge do not count, but another face of a polygon that is not planar may lie in front. The
-    /// number is at least 1, for instance where the edge of a shelf lies on the wall that hides the shelf.
+    /// have the edge do not count, but another face of a polygon that is not planar may be in front and
+    /// count. The number is at least 1, also if the edge of a shelf lies on the wall that hides the shelf.
     /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
     /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
@@ -148,11 +148,11 @@ pub enum Hidden {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VisiblePolygon {
-    /// The polygon, by its number in the input.
+    /// The index of the polygon, in input order.
     pub polygon: usize,
-    /// Its visible area, in square pixels.
+    /// The visible area of the polygon, in square pixels.
     pub area: f64,
-    /// A point at which it is visible, near the middle of the largest of its cells, in pixels.
+    /// A point at which the polygon is visible, near the middle of its largest cell, in pixels.
     pub point: [f64; 2],
 }
 
@@ -166,16 +166,16 @@ pub struct MapCell<'m> {
 impl BspTree {
     /// Computes the visible parts of the tree's polygons for a camera.
     ///
-    /// Where [opacities](ViewOptions::opacities) are less than 1, a polygon is visible where no opaque
-    /// polygon is in front of it, so cells of translucent polygons overlap the cells of other polygons. The
-    /// number of cells, and the time, grow with the number of translucent polygons that lie over one another.
+    /// With [opacities](ViewOptions::opacities) of less than 1, a polygon is visible where no opaque polygon
+    /// is in front of it. So cells of translucent polygons overlap the cells of other polygons. The number of
+    /// cells, and the time, grow with the number of translucent polygons that lie over one another.
     ///
     /// # Errors
     ///
     /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is
-    /// that of one cell of a partition; if there is not one opacity for each polygon; if an opacity is not a
-    /// number from 0 to 1, where [`Error::polygon`] is the first such polygon; if there is not enough memory,
-    /// or if it was cancelled.
+    /// the tree of one cell of a partition; if the number of opacities is not the number of polygons; if an
+    /// opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon); if memory runs
+    /// out; or if it was cancelled.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -194,7 +194,7 @@ impl BspTree {
     }
 }
 
-/// The rays of a drawing: their pictures begin at the corner of the first pixel.
+/// The rays of a drawing: pictures begin at the corner of the first pixel.
 pub(super) fn drawing_rays(
     tree: &BspTree,
     camera: &Camera,
@@ -206,20 +206,20 @@ pub(super) fn drawing_rays(
 }
 
 impl VisibilityMap<'_> {
-    /// The picture's width and height in pixels.
+    /// Returns the picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.primitives.lines.frame.rays.size()
     }
 
-    /// All cells, in no particular order.
+    /// Returns all cells, in no particular order.
     pub fn cells(&self) -> impl Iterator<Item = MapCell<'_>> + Clone {
         let cells = self.leaves.iter().flat_map(|leaf| &leaf.cells);
         cells
             .map(|Visible { item, cell }| MapCell { polygon: self.primitives.polygon(*item), cell })
     }
 
-    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] leaves none of them out.
-    /// Each call computes the list again, in O(c log c) for c cells.
+    /// Returns the visible polygons, sorted by number. [`ViewOptions::least_area`] has no effect on this
+    /// list. Each call computes the list again, in O(c log c) for c cells.
     pub fn polygons(&self) -> impl Iterator<Item = VisiblePolygon> {
         let mut found: BTreeMap<usize, (VisiblePolygon, f64)> = BTreeMap::new();
         for cell in self.cells() {
@@ -244,7 +244,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// The opacities of all polygons; none if all are opaque.
+/// The opacities of all polygons; an empty list if all polygons are opaque.
 pub(super) fn checked(tree: &BspTree, opacities: &[f64]) -> Result<Vec<f64>, Error> {
     let expected = tree.preparation().polygons;
     if !opacities.is_empty() && opacities.len() != expected {
@@ -259,17 +259,17 @@ pub(super) fn checked(tree: &BspTree, opacities: &[f64]) -> Result<Vec<f64>, Err
 }
 
 impl MapCell<'_> {
-    /// The visible polygon, by its number in the input.
+    /// Returns the index of the visible polygon, in input order.
     pub fn polygon(&self) -> usize {
         self.polygon
     }
 
-    /// The corners, rounded, three or more, clockwise in the picture; in pixels.
+    /// Returns the corners, rounded, in pixels: three or more, clockwise in the picture.
     pub fn corners(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + Clone {
         self.cell.sides.iter().map(|side| side.start.at)
     }
 
-    /// Its area in square pixels.
+    /// Returns the area of the cell in square pixels.
     pub fn area(&self) -> f64 {
         (0.5 * self.cell.double_area()).max(0.0)
     }
@@ -280,7 +280,7 @@ impl MapCell<'_> {
     }
 }
 
-/// The visible parts of all items, in the order of the tiles: a phase.
+/// The visible parts of all items, in the order of the tiles. Takes one phase.
 pub(super) fn visible<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
@@ -308,7 +308,7 @@ const PARTS: usize = 64;
 const STRETCH: usize = 1 << 12;
 /// The cost of sorting one item of a list, in pieces that a build examines.
 const SORTED: usize = 6;
-/// How many items are sorted between two polls for cancellation. Too small: merging takes time. Too large:
+/// The number of items sorted between two polls for cancellation. Too small: merging takes time. Too large:
 /// cancelling takes longer.
 const SORTED_AT_ONCE: usize = 1 << 16;
 
@@ -373,7 +373,7 @@ pub(super) fn each<T>(
     })
 }
 
-/// Work that is done and not yet counted. It is counted too where a loop is left early.
+/// Work that is done but not yet counted. If a loop ends early, it is counted too.
 struct Done<'w, 'c> {
     watch: &'w Watch<'c>,
     work: usize,
@@ -387,12 +387,13 @@ impl Done<'_, '_> {
 
 impl Drop for Done<'_, '_> {
     fn drop(&mut self) {
-        // If it was cancelled, the next poll returns the error.
+        // After a cancellation, the next poll returns the error.
         let _ = self.tell();
     }
 }
 
-/// Sorts a list, stably, unless it is cancelled: parts first, so that little is left to do for the whole.
+/// Sorts a list, stably, unless it is cancelled. Parts are sorted first, so that sorting the whole list is
+/// fast.
 pub(super) fn sort_by<T>(
     list: &mut [T],
     watch: &Watch<'_>,
@@ -424,7 +425,7 @@ mod reporter_tests {
 
     use super::*;
 
-    /// Calls the callback at each step and cancels at one: nothing more is done.
+    /// Calls the callback at each step and cancels at one step: no more work is done.
     #[test]
     fn loops_and_sorts_end_where_they_are_cancelled() {
         for calls in 1..8 {

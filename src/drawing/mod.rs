@@ -1,20 +1,20 @@
 //! One view as a vector picture.
 //!
-//! A tree cuts polygons for all viewpoints; one picture needs almost none of the cuts.
-//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: where each polygon is
-//! visible, exactly. From the map come
+//! A tree cuts polygons for all viewpoints; one picture needs almost no cuts.
+//! [`BspTree::visibility`](crate::BspTree::visibility) computes a [`VisibilityMap`]: the exact visible part
+//! of each polygon. The map returns
 //!
 //! | call | result |
 //! |---|---|
 //! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in an order to paint them in |
 //! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |
-//! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | visible and hidden runs of edges, and of lines in which polygons go through one another |
+//! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | visible and hidden runs of edges, and of lines in which polygons intersect |
 //! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of an overlay's lines and points |
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
-//! A [`VectorPicture`] takes any of these with its own colours and lines, and writes SVG or, with the feature
-//! `pdf`, PDF.
+//! A [`VectorPicture`] combines any of these with colours and line styles of your choice. It writes SVG, TikZ
+//! and, with the feature `pdf`, PDF.
 //!
 //! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
 //! map.
@@ -59,6 +59,7 @@ mod quadtree;
 mod regions;
 mod segments;
 mod svg;
+mod tikz;
 mod translucent;
 
 pub use edges::{EdgeKind, EdgeRun};

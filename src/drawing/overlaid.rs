@@ -1,4 +1,4 @@
-//! An overlay's lines and points: which parts are visible, and where they come between painted polygons.
+//! An overlay's lines and points: their visible parts, and their places between painted polygons.
 
 use std::collections::BTreeMap;
 
@@ -22,16 +22,16 @@ use crate::progress::Watch;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineRun {
-    /// The line, by its number in the overlay.
+    /// The index of the line, in input order.
     pub line: usize,
-    /// The number of the segment in its line: it joins the corners of this number and the next.
+    /// The number of the segment in its line: it joins the corners of this number and the next number.
     pub segment: usize,
-    /// Where the run begins and ends in the picture, in the direction of the line, in pixels.
+    /// The start and the end of the run in the picture, in the direction of the line, in pixels.
     pub ends: [[f64; 2]; 2],
     /// Whether it is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of it; `None` unless they were [counted](Hidden::Count). It is 0 for a
-    /// visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of the run; `None` unless they were [counted](Hidden::Count). It is 0
+    /// for a visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 
@@ -39,10 +39,10 @@ pub struct LineRun {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MarkerView {
-    /// The point, by its number in the overlay.
+    /// The index of the point, in input order.
     pub point: usize,
-    /// Where it is in the picture, in pixels.
-    pub at: [f64; 2],
+    /// The position of the point in the picture, in pixels.
+    pub position: [f64; 2],
     /// Whether it is visible.
     pub is_visible: bool,
 }
@@ -63,22 +63,22 @@ impl LineRun {
 
 impl VisibilityMap<'_> {
     /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
-    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs come in input
-    /// order, and along each segment from its beginning to its end.
+    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are in input
+    /// order, and along each segment from its start to its end.
     ///
     /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, even
-    /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on it, and the
-    /// polygon does not hide it. A segment that is further from the plane on one side only is treated as
-    /// wholly on that side. This is decided in integers; only the ends of runs are rounded. Polygons seen
-    /// edge-on hide nothing, lines hide nothing, and a segment that is seen end-on has no run.
+    /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on the plane,
+    /// and the polygon does not hide it. A segment that is further from the plane on one side only is treated
+    /// as entirely on that side. Integers decide this; only the ends of runs are rounded. Polygons seen
+    /// edge-on hide nothing, lines hide nothing, and a segment seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells, or faces if they are [counted](Hidden::Count), plus the number of
-    /// pairs that have points in common.
+    /// O(n log n) for n segments and cells (or faces, with [`Hidden::Count`]), plus the number of pairs that
+    /// have points in common.
     ///
     /// # Errors
     ///
-    /// If the overlay was made for another tree; if it has polygons, the first of
-    /// which is [`Error::polygon`]; or if it was [cancelled](Self#progress).
+    /// If the overlay was made for another tree; if it has polygons ([`Error::polygon`] is the first); or if
+    /// it was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay, hidden: Hidden) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         let (primitives, counts) = (&self.primitives, hidden == Hidden::Count);
@@ -164,15 +164,15 @@ fn points(
     for numbered in each(watch, CUT, overlay.given_points().enumerate()) {
         let (point, given) = numbered?;
         if let Some(shown) = ProjectedPoint::new(lines, given) {
-            views.push(MarkerView { point, at: shown.at, is_visible: true });
+            views.push(MarkerView { point, position: shown.at, is_visible: true });
             projected.push(shown);
         }
     }
     Ok((views, projected))
 }
 
-/// An overlay's lines and points, each with how many parts of the drawing come before it: in input order, lines
-/// first.
+/// An overlay's lines and points in input order, lines first, each with the number of parts of the drawing
+/// that precede it.
 pub(super) type Placed = Vec<(u32, Overlaid)>;
 
 /// The lines and points of an overlay, with the items that they pass.
@@ -199,8 +199,8 @@ impl Between {
         Ok(Self { segments, projected, markers, passes })
     }
 
-    /// Places lines and points in an order of `count` parts; `places` has the place of each item. Also
-    /// returns the pairs of items that the order would have to keep to have a place for each line and point.
+    /// Places lines and points in an order of `count` parts; `places` contains the place of each item. Also
+    /// returns the pairs of items that the order would have to keep so that each line and point has a place.
     pub(super) fn placed(
         &self,
         places: &[u32],
@@ -238,7 +238,7 @@ impl Between {
 /// An item that is passed: whether it is in front, its place in the order, and its number.
 type Key = (bool, u32, u32);
 
-/// The items that are passed at a point, and how often.
+/// The items that are passed at a point, and the number of passes of each.
 type Passed = BTreeMap<Key, i32>;
 
 /// The places that an order allows: after at least `least` and at most `most` parts.
@@ -249,12 +249,13 @@ struct Room {
 }
 
 impl Room {
-    /// Anywhere.
+    /// Any place in the order.
     const fn of(count: u32) -> Self {
         Self { least: 0, most: count }
     }
 
-    /// After the items behind, and before the items in front. If no place satisfies both, the first wins.
+    /// After the items behind, and before the items in front. If no place satisfies both conditions, the
+    /// first wins.
     fn between(passed: &Passed, count: u32) -> Self {
         let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
@@ -268,14 +269,14 @@ impl Room {
     }
 }
 
-/// The last item of those behind, and the first of those in front.
+/// The last of the items behind, and the first of the items in front.
 fn outermost(passed: &Passed) -> [Option<Key>; 2] {
     let before = passed.range(..(true, 0, 0)).next_back();
     let in_front = passed.range((true, 0, 0)..).next();
     [before, in_front].map(|end| end.map(|(key, _)| *key))
 }
 
-/// If no place is left, adds the pairs that are in the wrong order. These are the last item behind with each
+/// If no place remains, adds the pairs that are in the wrong order. These are the last item behind with each
 /// item in front that precedes it, and the first item in front with each item behind that follows it.
 fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
     let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
@@ -291,8 +292,8 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
     Ok(())
 }
 
-/// Divides a segment into as few runs as possible, each with the number of parts of the drawing that come
-/// before it, according to the items that it passes. Adds pairs that leave no place between them.
+/// Divides a segment into as few runs as possible, each with the number of parts of the drawing that precede
+/// it, according to the items that it passes. Adds pairs that leave no place between them.
 fn in_order(
     ends: [f64; 2],
     passes: &[Pass],
@@ -301,7 +302,7 @@ fn in_order(
     missed: &mut Found,
     watch: &Watch<'_>,
 ) -> Result<Vec<(u32, [f64; 2])>, Error> {
-    // Where each pass begins and ends.
+    // The start and end of each pass.
     let mut events = Vec::new();
     for pass in passes {
         let key = (pass.is_behind, places[pass.piece as usize], pass.piece);
@@ -335,7 +336,7 @@ fn in_order(
             }
         }
     }
-    // The last possible place: neighbours then cover least of a wide stroke.
+    // The last possible place: then neighbours cover the least part of a wide stroke.
     parts.push((room.most, [start, ends[1]]));
     Ok(parts)
 }

@@ -1,4 +1,4 @@
-//! Pairs of polygons that are painted over one another, of which an order has to keep the depths.
+//! Pairs of polygons that are painted over one another, so that their order has to follow their depths.
 
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
@@ -34,8 +34,8 @@ struct LeafLists<'l, 'p> {
     translucent: Candidates<'p>,
 }
 
-/// All pairs that are wanted, sorted. `place` gives a number to each face's polygon, or `u32::MAX` if it does
-/// not show; in pairs, opaque polygons have that, translucent items their own.
+/// All requested pairs, sorted. `place` contains a number for each face's polygon, or `u32::MAX` if it is not
+/// visible. Pairs contain these numbers for opaque polygons, and item numbers for translucent items.
 pub(super) fn pairs<'l, 'p>(
     primitives: &'p Primitives<'_>,
     leaves: &'l [Leaf],
@@ -62,7 +62,7 @@ pub(super) fn pairs<'l, 'p>(
 }
 
 impl LeafLists<'_, '_> {
-    /// The first and the second half of the leaves; `None` of a single one.
+    /// The first and the second half of the leaves; `None` for a single leaf.
     fn halves(&self, watch: &Watch<'_>) -> Result<Option<[Self; 2]>, Error> {
         if self.leaves.len() < 2 {
             return Ok(None);
@@ -87,7 +87,7 @@ impl LeafLists<'_, '_> {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let Self { leaves, opaque, .. } = self;
-        // Nothing opaque shows above a face of which all shows that is in the tile.
+        // No opaque face is visible above a face whose whole part in the tile is visible.
         let cells = || leaves.iter().flat_map(|leaf| &leaf.cells);
         let mut whole: Vec<u32> = Vec::new();
         for Leaf { tile, cells } in *leaves {
@@ -173,13 +173,14 @@ impl LeafLists<'_, '_> {
     }
 }
 
-/// Whether all of a face that is in a tile is one cell: borders of the tile and edges of its own bound it.
+/// Whether the whole part of a face in a tile is one cell, bounded by borders of the tile and edges of the
+/// face.
 fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool {
     let outline = primitives.outline(primitives.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);
-    // Edges of others may lie where tiles elsewhere have borders.
+    // Edges of other faces may lie on the borders of other tiles.
     let mut sides = sides.filter(|half| !tile.has_border(*half));
-    // Of most faces, to look at all edges is quicker.
+    // For most faces, comparing all edges is faster.
     if outline.len() <= FEW_CORNERS {
         return sides.all(|side| outline.iter().any(|half| half.line() == side.line()));
     }
@@ -201,7 +202,7 @@ pub(super) fn around(leaves: &[Leaf]) -> Rect {
 /// tiles. Too large: more pairs are compared.
 const FEW: usize = 8;
 
-/// Pairs of items, by their numbers, that overlap in the picture, sorted: all that an order needs. Where an
+/// The pairs of items, by their numbers, that overlap in the picture, sorted; sufficient for an order. If an
 /// item covers a part of the picture, pairs with it replace the pairs of items behind it with items in front
 /// of it.
 pub(super) fn overlaps<'p>(
@@ -232,7 +233,7 @@ fn add_overlaps(
     let mut add = |below: u32, above: u32| {
         found.insert(Pair { below, above });
     };
-    // The last item that covers the part, and those behind it so far.
+    // The last item that covers the part so far, and the items behind it.
     let mut cover: Option<u32> = None;
     let mut behind: Vec<&Visible> = Vec::new();
     for piece in &part.pieces {

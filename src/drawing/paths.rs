@@ -1,8 +1,8 @@
 //! Drawings: filled outlines in an order to paint them.
 //!
-//! Outlines are made of areas that are given in parts. Which sides of parts lie on one line, and which corners
-//! are one point, is decided exactly: outlines are closed, and no outline runs along a line and back,
-//! however corners are rounded.
+//! Outlines are made from areas that consist of parts. Exact decisions find collinear sides and equal corners
+//! of parts. So outlines are closed, and no outline traverses a line in both directions, however corners are
+//! rounded.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -28,12 +28,12 @@ use crate::{Error, parallel_map};
 pub struct Drawing {
     pub(super) size: [u32; 2],
     pub(super) paths: Vec<Record>,
-    /// Where each outline begins, and all corners.
+    /// The start of each outline, and all corners.
     pub(super) outlines: Vec<u32>,
     pub(super) corners: Vec<[f64; 2]>,
-    /// The edge of its polygon along which the side runs that begins at each corner.
+    /// For each corner, the edge of the polygon along the side that begins there.
     pub(super) edges: Vec<Option<u32>>,
-    /// Lines and points, each with how many paths come before it: in the order to paint them.
+    /// Lines and points in the order to paint them, each with the number of paths that precede it.
     pub(super) overlaid: Vec<(u32, Overlaid)>,
 }
 
@@ -52,7 +52,7 @@ pub struct Path<'d> {
 }
 
 impl Drawing {
-    /// Nothing is painted.
+    /// A drawing without paths.
     pub(super) fn empty(size: [u32; 2]) -> Self {
         Self {
             size,
@@ -89,7 +89,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Adds the paths of another after its own.
+    /// Appends the paths of another drawing.
     pub(super) fn append(&mut self, mut other: Self) -> Result<(), Error> {
         let [outlines, corners] = [place(self.outlines.len())?, place(self.corners.len())?];
         self.paths.extend(other.paths.into_iter().map(|record| {
@@ -107,47 +107,47 @@ impl Drawing {
         self.size
     }
 
-    /// The paths, in painting order.
+    /// Returns the paths, in painting order.
     pub fn paths(&self) -> impl DoubleEndedIterator<Item = Path<'_>> + ExactSizeIterator + Clone {
         self.paths.iter().map(|record| Path { drawing: self, record })
     }
 }
 
 impl<'d> Path<'d> {
-    /// The polygon, by its number in the input.
+    /// Returns the index of the polygon, in input order.
     pub fn polygon(&self) -> usize {
         self.record.polygon
     }
 
-    /// Whether the path is only a part of its polygon: the visible part of one in a cycle with others, or one
-    /// of several parts of a translucent one.
+    /// Returns whether the path is only a part of its polygon: the visible part of a polygon in a cycle with
+    /// others, or one of several parts of a translucent polygon.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
 
-    /// The outlines of the part in the picture; fill them together by the nonzero rule. There is at least one.
+    /// Returns the outlines of the part in the picture, at least one; fill them together by the nonzero rule.
     ///
-    /// Each is a list of at least three corners in pixels: x to the right, y down, and the corner of the
-    /// first pixel at (0, 0). Outer outlines run clockwise, and holes counter-clockwise. The outlines of a
-    /// folded polygon overlap. Only the corners are rounded, by less than a millionth of a pixel; corners of
-    /// needles may coincide.
+    /// Each outline is a list of at least three corners in pixels: x to the right, y down, and the corner of
+    /// the first pixel at (0, 0). Outer outlines are clockwise, and holes counter-clockwise. The outlines of
+    /// a folded polygon overlap. Only the corners are rounded, by less than a millionth of a pixel; corners
+    /// of thin slivers may coincide.
     pub fn outlines(&self) -> impl Iterator<Item = &'d [[f64; 2]]> + Clone + use<'d> {
         let corners = &self.drawing.corners;
         self.ranges().map(move |range| &corners[range])
     }
 
-    /// For each of the [`outlines`](Self::outlines), the edges of the polygon along which its sides run: a
-    /// list as long as that of corners, in which a number belongs to the side that begins at the corner.
+    /// Returns, for each of the [`outlines`](Self::outlines), the edges of the polygon along its sides: a
+    /// list with one entry per corner, for the side that begins at the corner.
     ///
     /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the
-    /// border of the picture, along other polygons, and along edges that triangulation made. Where a side
-    /// runs along several edges of one line, it has the number of the one at its middle.
+    /// border of the picture, along other polygons, and along edges that triangulation made. A side along
+    /// several collinear edges has the number of the edge at its middle.
     pub fn edges(&self) -> impl Iterator<Item = &'d [Option<u32>]> + Clone + use<'d> {
         let edges = &self.drawing.edges;
         self.ranges().map(move |range| &edges[range])
     }
 
-    /// Where the corners of each outline are.
+    /// The range of corners of each outline.
     fn ranges(&self) -> impl Iterator<Item = Range<usize>> + Clone + use<'d> {
         let Drawing { outlines, corners, .. } = self.drawing;
         self.record.outlines.clone().map(move |outline| {
@@ -159,13 +159,13 @@ impl<'d> Path<'d> {
 }
 
 /// A side is part of an edge if its middle is at most this far beyond the edge's ends, in pixels. Too small:
-/// edges are lost to rounding. Too large: sides along collinear edges of other polygons are taken for edges.
+/// edges are lost to rounding. Too large: sides along collinear edges of other polygons count as edges.
 const BEYOND: f64 = 1e-3;
 
 /// The edges of a polygon's faces, by the lines that they are on.
 struct PolygonEdges<'s, 't> {
     primitives: &'s Primitives<'t>,
-    /// The line, the face, and the number of the edge within the face; sorted.
+    /// The line, the face, and the number of the edge in the face; sorted.
     edges: SmallVec<[(u64, u32, u32); 8]>,
 }
 
@@ -180,7 +180,7 @@ impl<'s, 't> PolygonEdges<'s, 't> {
         Self { primitives, edges }
     }
 
-    /// The polygon's edge along which a side runs; `None` if it is none of the polygon's own.
+    /// The polygon's edge along a side; `None` if the polygon has no edge there.
     fn along(&self, side: &Side, end: [f64; 2]) -> Option<u32> {
         let line = side.half.line();
         let first = self.edges.partition_point(|edge| edge.0 < line);
@@ -189,14 +189,14 @@ impl<'s, 't> PolygonEdges<'s, 't> {
         let alike = self.edges[first..first + count].iter();
         let offs = alike.map(|&(_, face, k)| (self.off(face, k, middle), face, k));
         let (off, face, k) = offs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        // Another polygon's edge may be on the same line, beyond this one's.
+        // Another polygon's edge may be on the same line, beyond this polygon's edge.
         if off > BEYOND {
             return None;
         }
         self.primitives.lines.frame.faces.outline_edge(face, k)
     }
 
-    /// How far a point on the line of an edge is beyond the ends of the edge, in pixels, rounded.
+    /// The distance by which a point on the line of an edge is beyond the edge's ends, in pixels, rounded.
     fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
         let ViewFrame { rays, faces } = &self.primitives.lines.frame;
         let arms = faces.ends(face, k).map(|end| {
@@ -213,7 +213,7 @@ impl<'s, 't> PolygonEdges<'s, 't> {
     }
 }
 
-/// Adds a convex piece to an area, as far as it is in the picture.
+/// Adds the part of a convex piece in the picture to an area.
 pub(super) fn add_piece(
     lines: &LineTable<'_>,
     halves: &[HalfPlane],
@@ -231,7 +231,7 @@ pub(super) fn add_piece(
 #[derive(Default)]
 pub(super) struct Area {
     sides: Vec<Side>,
-    /// Where each part ends.
+    /// The end of each part.
     ends: Vec<u32>,
 }
 
@@ -244,7 +244,7 @@ const NONE: u32 = u32::MAX;
 struct Sides<'a> {
     lines: &'a LineTable<'a>,
     sides: &'a [Side],
-    /// The side before each and the one after it.
+    /// The previous and the next side of each side.
     before: Vec<u32>,
     after: Vec<u32>,
 }
@@ -253,10 +253,10 @@ struct Sides<'a> {
 #[derive(Clone, Copy)]
 struct End {
     corner: u32,
-    /// Where it is, in the direction of the line's positive half.
+    /// The place of the end, in the direction of the line's positive half.
     place: f64,
     radius: f64,
-    /// The other half that meets there.
+    /// The half of the other side that meets there.
     across: HalfPlane,
     is_start: bool,
     /// Whether that half lies ahead.
@@ -293,8 +293,8 @@ impl Area {
     }
 
     /// The closed outlines of all parts, by their sides, each with the area on its left. Sides that two
-    /// neighbouring parts share in opposite directions cancel. Where parts overlap, outlines wind around
-    /// both.
+    /// neighbouring parts share in opposite directions cancel. Where parts overlap, outlines wind around both
+    /// parts.
     pub(super) fn outlines(
         &self,
         lines: &LineTable<'_>,
@@ -307,7 +307,7 @@ impl Area {
         // Corners that are one point.
         let mut points = Union::new(place(self.sides.len())?)?;
         let pieces = sides.pieces(&mut points, watch)?;
-        // The first of the pieces that begin at each point, and the one after each.
+        // The first of the pieces that begin at each point, and the piece after each piece.
         let (mut begin, mut others) = (vec![NONE; self.sides.len()], vec![NONE; pieces.len()]);
         for (i, piece) in pieces.iter().enumerate().rev() {
             let point = points.root(piece.from) as usize;
@@ -323,7 +323,7 @@ impl Area {
                 watch.work(FOLLOWED)?;
                 is_used[i] = true;
                 let piece = &pieces[i];
-                // Pieces of one line follow one another where others meet it.
+                // Collinear pieces follow one another where other lines meet theirs.
                 if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
                     outline.push(*piece);
                 }
@@ -335,14 +335,14 @@ impl Area {
                 let from_here =
                     std::iter::successors(some(begin[point as usize]), |&i| some(others[i]));
                 let left = from_here.filter(|&i| !is_used[i]);
-                // Of several the one that turns furthest to the left, so that outlines that touch in a point
-                // stay apart.
+                // Of several pieces, continue with the one that turns furthest to the left, so that outlines
+                // that touch in a point stay separate.
                 let turn = |i: usize| sides.turn(piece.half, pieces[i].half);
                 next = left.max_by(|&a, &b| turn(a).total_cmp(&turn(b)));
                 debug_assert!(next.is_some(), "an outline is open");
             }
             let is_one_line = outline.first().map(|p| p.half) == outline.last().map(|p| p.half);
-            // (An outline that begins in the middle of a side goes on where that begins, at its end.)
+            // (An outline that begins in the middle of a side ends with the first part of that side.)
             let side = |piece: &Piece| Side {
                 half: piece.half,
                 start: self.sides[piece.from as usize].start,
@@ -366,7 +366,7 @@ impl<'a> Sides<'a> {
         Ok(Self { lines, sides: &area.sides, before, after })
     }
 
-    /// The sides, without the common parts of two that run in opposite directions.
+    /// The sides, without the common parts of sides in opposite directions.
     fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
         let mut by_line: Vec<u32> = (0..self.sides.len() as u32).collect();
@@ -402,10 +402,10 @@ impl<'a> Sides<'a> {
         [end(side, half(before), true), end(after, half(after), false)]
     }
 
-    /// In which order two ends of sides lie on their line, in the direction of its positive half: exact.
+    /// The exact order of two ends of sides on their line, in the direction of its positive half.
     fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
-        // A corner is off by its radius at most, which changes its place by so much, and the place is rounded
-        // three times.
+        // A corner is off by at most its radius, which changes its place by at most as much; the place is
+        // rounded three times.
         let size: f64 = self.lines.reach.iter().sum();
         let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
         if (a.place - b.place).abs() > off {
@@ -427,7 +427,7 @@ impl<'a> Sides<'a> {
         pieces: &mut Vec<Piece>,
     ) {
         let rounded = self.lines.rounded(line);
-        // How many more sides run forwards than backwards, and from where.
+        // The number of forward sides minus the number of backward sides, and where it last changed.
         let (mut count, mut from) = (0i32, 0);
         for place in ends.chunk_by(|a, b| self.compare(&rounded, a, b).is_eq()) {
             let point = place[0].corner;
@@ -445,7 +445,7 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// By how much an outline turns to the left where it goes from one half to another.
+    /// The amount by which an outline turns to the left from one half to another.
     fn turn(&self, from: HalfPlane, to: HalfPlane) -> f64 {
         let [[ax, ay], [bx, by]] = [from, to].map(|half| {
             let [_, kx, ky] = self.lines.rounded(half).flipped(half.is_negative()).k;
@@ -461,14 +461,14 @@ const SHARE: usize = 256;
 impl VisibilityMap<'_> {
     /// Returns the view as filled outlines, one path for each visible opaque polygon.
     ///
-    /// Polygons are drawn whole, each before those that are visible above it. Polygons in cycles, none in most
-    /// scenes, are clipped: only their visible parts are drawn. Polygons whose visible area is less than
-    /// [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
+    /// Polygons are drawn whole, each before the polygons that are visible above it. Polygons in cycles are
+    /// clipped: only their visible parts are drawn. Most scenes have no such cycles. Polygons whose visible
+    /// area is less than [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
-    /// Translucent polygons come after the polygons behind them. A translucent polygon in a cycle has several
+    /// Translucent polygons follow the polygons behind them. A translucent polygon in a cycle has several
     /// paths, as in [`Drawing::translucent`]; each of its visible points is in one path. Time and memory are
     /// quadratic in the number of translucent polygons that overlap one another. If all polygons are
-    /// translucent, `Drawing::translucent` takes less.
+    /// translucent, `Drawing::translucent` takes less time and memory.
     ///
     /// # Errors
     ///
@@ -592,7 +592,7 @@ impl Nodes {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum DisplayItem<'d> {
-    /// A polygon, or a part of one.
+    /// A polygon, or a part of a polygon.
     Path(Path<'d>),
     /// A part of a segment of an overlay's line.
     Line(LineRun),

@@ -7,13 +7,13 @@ use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str};
 
 use super::picture::{Node, Paint, PaintedShape, Shape, Steps, Stroke, VectorPicture, units};
 
-/// How hard to compress, up to 10. Too large: more time for little; too small: longer files.
+/// The level of compression, up to 10. Too large: more time for little effect. Too small: longer files.
 const LEVEL: u8 = 7;
 /// The name of the font in the page.
 const FONT: Name<'_> = Name(b"F");
 
 impl VectorPicture {
-    /// The picture as a PDF of one page, with a point for each pixel.
+    /// Returns the picture as a PDF of one page, with a point for each pixel.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;
@@ -23,9 +23,9 @@ impl VectorPicture {
     /// assert!(picture.to_pdf().starts_with(b"%PDF"));
     /// ```
     ///
-    /// Viewers may refuse pages with a side of more than 14 400 points (ISO 32000-1, annex C). Labels are in
+    /// Viewers may reject pages with a side of more than 14 400 points (ISO 32000-1, annex C). Labels are in
     /// Helvetica, which every viewer has: see [`add_label`](Self::add_label). Without a background, the page
-    /// is the colour of the paper.
+    /// has the colour of the paper.
     pub fn to_pdf(&self) -> Vec<u8> {
         let [catalog, pages, page, content, font] = [1, 2, 3, 4, 5].map(Ref::new);
         let [width, height] = self.size.map(|side| side as f32);
@@ -66,7 +66,7 @@ fn items(picture: &VectorPicture) -> impl Iterator<Item = &PaintedShape> {
     })
 }
 
-/// The opacities of fills and strokes, each once; none if all are opaque.
+/// The opacities of fills and strokes, each once; empty if all are opaque.
 fn opacities(picture: &VectorPicture) -> Vec<f32> {
     let mut all: Vec<f32> = Vec::new();
     for Paint { fill, opacity, stroke } in items(picture).map(PaintedShape::own_paint) {
@@ -246,7 +246,7 @@ fn add_circle(content: &mut Content, at: [i64; 2], radius: f32) {
     let [x, y] = at.map(|c| c as f32);
     content.move_to(x + radius, y);
     for [ax, ay] in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0_f32]] {
-        // From the end of one arm to that of the next, a quarter further.
+        // From the end of one arm to the end of the next arm, a quarter turn further.
         let place = |along: f32, across: f32| {
             [x + radius * (along * ax - across * ay), y + radius * (along * ay + across * ax)]
         };
@@ -257,9 +257,9 @@ fn add_circle(content: &mut Content, at: [i64; 2], radius: f32) {
 }
 
 /// A text in WinAnsiEncoding, which is Windows-1252. Minus signs become dashes, which are as wide; other
-/// characters that it lacks become question marks.
+/// characters that the encoding lacks become question marks.
 fn win_ansi(text: &str) -> Vec<u8> {
-    // From 0x80 on. Where there is no character, there is a space.
+    // The characters from 0x80 on; a space for a missing character.
     const SPECIAL: &str = "€ ‚ƒ„…†‡ˆ‰Š‹Œ Ž  ‘’“”•–—˜™š›œ žŸ";
     let code = |c: char| match c {
         ' '..='~' | '\u{a0}'..='\u{ff}' => c as u8,
@@ -274,7 +274,7 @@ fn width(code: u8) -> u16 {
     usize::from(code).checked_sub(0x20).map_or(0, |at| WIDTHS[at])
 }
 
-/// From 0x20 on, as Adobe's font metrics have them. Codes without a character are bullets.
+/// The widths from 0x20 on, from Adobe's font metrics. Codes without a character are bullets.
 #[rustfmt::skip]
 const WIDTHS: [u16; 224] = [
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
@@ -303,7 +303,7 @@ mod tests {
         assert_eq!(win_ansi("−1 日\n\u{81}"), b"\x961 ???");
     }
 
-    /// A picture with a label, a marker and an area, of numbers that are all the same.
+    /// A picture with a label, a marker and an area, all of whose numbers are equal.
     fn picture_of(number: f64) -> VectorPicture {
         let mut picture = VectorPicture::new([200, 100]).with_background([250; 3]);
         let stroke = Stroke { width: number, opacity: number, ..Stroke::new(1.0, [9, 8, 7]) };
@@ -335,7 +335,7 @@ mod tests {
             // The background, the area, the marker and the label.
             (0.3, 4),
             (7.0, 4),
-            // Too far away, or too large to be more than the largest marker and label.
+            // Too far away, or so large that they are clamped to the largest marker and label.
             (1e300, 3),
             (f64::INFINITY, 3),
             // The background alone.
@@ -364,7 +364,7 @@ mod tests {
         assert!(text.contains(&format!("1 0 0 -1 {} {} Tm", place[0], place[1])), "{text}");
     }
 
-    /// Letters with an accent are as wide as those without, and all digits are as wide as one.
+    /// Letters with and without an accent are equally wide, and so are all digits.
     #[test]
     fn widths_are_those_of_the_characters() {
         let of = |text: &str| win_ansi(text).into_iter().map(width).collect::<Vec<_>>();

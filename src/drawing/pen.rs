@@ -1,27 +1,27 @@
-//! Polylines for a pen: segments joined at their ends, and ordered for short ways between them.
+//! Polylines for a pen: segments joined at their ends, and sorted to shorten pen travel.
 
 use crate::Error;
 
-/// Ends are rounded to a grid with this step, in pixels; equal grid points are one corner. Too small: corners
-/// that two projections rounded differently interrupt lines. Too large: lines of a very fine mesh lose their
-/// shape.
+/// Ends are rounded to a grid with this step, in pixels; equal grid points are one corner. Too small: lines
+/// are interrupted at corners that two projections rounded differently. Too large: lines of a very fine mesh
+/// lose their shape.
 const GRID: f64 = 1.0 / 1024.0;
 /// At a corner, at most this many segments are compared to find the straightest continuation. Too small:
-/// lines turn where they could go straight on. Too large: corners of many segments take time.
+/// lines turn where they could continue straight. Too large: corners of many segments take time.
 const CHOICES: usize = 8;
 
 /// A line through points, which a pen draws without being lifted.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Polyline {
-    /// Where it goes, from one end to the other. A closed line ends where it begins.
+    /// The points, from one end to the other. The last point of a closed line is its first.
     pub points: Vec<[f64; 2]>,
-    /// The segments that it is made of, by their numbers in the order given: one less than points.
+    /// The indices of the segments that it consists of, in input order: one less than points.
     pub segments: Vec<usize>,
 }
 
 impl Polyline {
-    /// Its length, in pixels if its points are.
+    /// Returns the length of the polyline, in the unit of its points.
     pub fn length(&self) -> f64 {
         self.points.windows(2).map(|ends| distance(ends[0], ends[1])).sum()
     }
@@ -55,13 +55,13 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// ```
 ///
 /// Each segment is drawn once. Open lines end only where an odd number of segments meet: they are Eulerian
-/// trails, found by Hierholzer's algorithm (1873). Where a line can continue in several ways, it takes the
-/// straightest of a few. Two ends are shared if they are equal when rounded to a thousandth of a pixel, so
-/// two ends that are closer than that may stay separate. Segments with an infinite or NaN coordinate are left
-/// out.
+/// trails, found by Hierholzer's algorithm (1873). If a line can continue in several ways, it continues with
+/// the straightest of a few segments. Two ends are shared if they are equal when rounded to a thousandth of a
+/// pixel, so two ends closer than that may stay separate. Segments with an infinite or NaN coordinate are
+/// left out.
 ///
-/// The next line is always the one with an end nearest to the pen, which begins at (0, 0). O(n log n) for
-/// n segments, unless ends are spread very unevenly.
+/// The next line is always the line with an end nearest to the pen, which begins at (0, 0). O(n log n) for n
+/// segments, unless ends are spread very unevenly.
 ///
 /// # Errors
 ///
@@ -91,14 +91,14 @@ struct Segment {
     corners: [u32; 2],
 }
 
-/// Segments, and which of their ends meet. End `2 s + e` is end `e` of segment `s`.
+/// Segments, and the corners where their ends meet. End `2 s + e` is end `e` of segment `s`.
 #[derive(Debug, Default)]
 struct Net {
     segments: Vec<Segment>,
-    /// The ends at all corners, one corner after another, and where each begins.
+    /// The ends at all corners, one corner after another, and the start of each corner's ends.
     ends: Vec<u32>,
     begins: Vec<u32>,
-    /// Up to where the ends at a corner are used, and which segments are.
+    /// For each corner, the number of its ends that are used; and whether each segment is used.
     done: Vec<u32>,
     is_used: Vec<bool>,
     /// For each corner where an odd number of ends meet, another such corner, to be reached without drawing.
@@ -185,7 +185,7 @@ impl Net {
         lines
     }
 
-    /// A step on from a corner that was reached from an end, or by a jump.
+    /// The next step from a corner that was reached from an end, or by a jump.
     fn step(&mut self, corner: u32, from: Option<u32>) -> Option<Step> {
         let at = corner as usize;
         let all = self.done[at]..self.begins[at + 1];
@@ -218,7 +218,7 @@ impl Net {
     fn part(&self, circuit: &[Step], lines: &mut Vec<Polyline>) {
         for steps in circuit.split(|(_, from)| from.is_none()).filter(|steps| !steps.is_empty()) {
             let mut line = Polyline { points: vec![], segments: vec![] };
-            // Exactly, as most lines are short and many.
+            // Exactly, because most lines are short and many.
             line.points.reserve_exact(steps.len() + 1);
             line.segments.reserve_exact(steps.len());
             for &(_, from) in steps {
@@ -235,7 +235,7 @@ impl Net {
     }
 }
 
-/// Lines in an order, and each in the direction, in which a pen travels little.
+/// Sorts and directs lines to shorten pen travel.
 fn ordered(mut lines: Vec<Polyline>) -> Vec<Polyline> {
     let mut ends = Vec::with_capacity(2 * lines.len());
     ends.extend(lines.iter().flat_map(Polyline::ends));
@@ -258,18 +258,18 @@ fn ordered(mut lines: Vec<Polyline>) -> Vec<Polyline> {
     ordered
 }
 
-/// Points in a k-d tree: the middle of each range of places parts the others, along one axis and then the
-/// other, into those before it and those after. (J. L. Bentley, "Multidimensional binary search trees
-/// used for associative searching", 1975.)
+/// Points in a k-d tree: the middle point of each range of places separates the others into lower and higher
+/// points, along the two axes alternately. (J. L. Bentley, "Multidimensional binary search trees used for
+/// associative searching", 1975.)
 #[derive(Debug)]
 pub(super) struct Ends {
     points: Vec<[f64; 2]>,
     /// The numbers of the points, place by place, and the place of each.
     numbers: Vec<u32>,
     places: Vec<u32>,
-    /// Of the range whose middle is a place, how many points are left.
+    /// For each place, the number of remaining points in the range whose middle it is.
     counts: Vec<u32>,
-    /// Which places have a point that is left.
+    /// Whether the point of each place remains.
     is_left: Vec<bool>,
 }
 
@@ -286,7 +286,7 @@ impl Node {
         self.low.midpoint(self.high)
     }
 
-    /// The ranges before and after the middle, none if empty.
+    /// The ranges before and after the middle; `None` if empty.
     fn parts(self) -> [Option<Self>; 2] {
         let Self { low, high, axis } = self;
         let parts = [(low, self.middle()), (self.middle() + 1, high)];
@@ -320,10 +320,10 @@ impl Ends {
         (high > 0).then_some(Node { low: 0, high, axis: 0 })
     }
 
-    /// The number of the nearest point that is left; the first one found of several.
+    /// The number of the nearest remaining point; the first found of several.
     pub(super) fn nearest(&self, from: [f64; 2]) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
-        // Ranges, and how far away they are at least: the tree is never deeper than 32.
+        // Ranges, and lower bounds on their distances: the tree is never deeper than 32.
         let mut stack: Vec<(Node, f64)> = self.root().map(|root| (root, 0.0)).into_iter().collect();
         while let Some((node, least)) = stack.pop() {
             let middle = node.middle();
@@ -339,14 +339,14 @@ impl Ends {
             let across = from[node.axis] - point[node.axis];
             let [before, after] = node.parts();
             let [near, far] = if across < 0.0 { [before, after] } else { [after, before] };
-            // The nearer one is looked at first.
+            // The nearer range is searched first.
             stack.extend(far.map(|far| (far, least.max(across.abs()))));
             stack.extend(near.map(|near| (near, least)));
         }
         best.map(|(_, number)| number)
     }
 
-    /// Removes a point that is left.
+    /// Removes a remaining point.
     pub(super) fn remove(&mut self, number: u32) {
         let place = self.places[number as usize] as usize;
         self.is_left[place] = false;
@@ -378,7 +378,7 @@ mod near_tests {
         let mut random = SplitMix64::new(7);
         let mut dice = || random.next() >> 33;
         for n in [0, 1, 2, 3, 40, 500] {
-            // Many of them in one place, or on one line.
+            // Many points are in one place, or on one line.
             let points: Vec<[f64; 2]> =
                 (0..n).map(|_| [0, 1].map(|_| (dice() % 23) as f64)).collect();
             let mut left: Vec<usize> = (0..n).collect();

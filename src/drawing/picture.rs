@@ -1,23 +1,24 @@
 //! Vector pictures: areas, lines, markers and labels in the order to paint them, to be written as SVG or PDF.
 //!
-//! Coordinates are rounded once, when a shape is added, to whole numbers of a small unit. Files are short
-//! this way, and all formats have the same shapes.
+//! Coordinates are rounded once, when a shape is added, to whole numbers of a small unit. So files are short,
+//! and all formats have the same shapes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use super::paths::{Drawing, Path};
 
-/// A pixel has at most this many steps. Smaller ones are lost in the floats of viewers.
+/// The largest number of steps per pixel. Too large: viewers' floats lose the steps. Too small: tiny areas
+/// vanish.
 const MOST_STEPS: f64 = 1e9;
-/// Shapes and lengths reach no further than this, in pixels: in steps, they are whole numbers of 64 bits.
+/// Shapes and lengths reach no further than this, in pixels, so that they are 64-bit integers in steps.
 const FURTHEST: f64 = 1e6;
-/// Shorter lengths, in pixels, count as 0. Too small: they are written as 0, which makes no dashes. Too
-/// large: lines that are visible in an enlarged picture are left out.
+/// Shorter lengths, in pixels, count as 0. Too small: some lengths are written as 0, which makes no dashes.
+/// Too large: lines that are visible in an enlarged picture are left out.
 const SHORTEST: f64 = 1e-4;
 /// If the longer side of a picture is at least this, units are fiftieths of a pixel: corners are off by a
-/// hundredth, which is not visible, even if the picture is enlarged a few times. For each tenth of this side,
-/// units are a tenth as large.
+/// hundredth, which is not visible, even if the picture is enlarged a few times. If the side is a tenth of
+/// this, units are a tenth as large, and so on.
 const LARGE: u32 = 480;
 const UNITS: u32 = 50;
 
@@ -44,11 +45,11 @@ const UNITS: u32 = 50;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Positions and lengths are in pixels, as those of [`Camera::project`](crate::view::Camera::project). They
-/// are rounded to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a
+/// Positions and lengths are in pixels, as for [`Camera::project`](crate::view::Camera::project). They are
+/// rounded to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a
 /// coordinate that is NaN, infinite, or further away than a million pixels is left out. A length that is NaN
 /// or less than 10⁻⁴ pixels is 0; shapes and strokes of this size are left out. Opacities are clamped to 0 to
-/// 1, and NaN is 0. So files are well-formed whatever the numbers are.
+/// 1, and NaN is 0. So files are well-formed for any numbers.
 #[derive(Clone, Debug)]
 pub struct VectorPicture {
     pub(super) size: [u32; 2],
@@ -58,7 +59,7 @@ pub struct VectorPicture {
     pub(super) adds_up: bool,
 }
 
-/// How areas, markers and labels are painted. A colour or a [`Stroke`] converts to a `Paint`.
+/// The style of areas, markers and labels. A colour or a [`Stroke`] converts to a `Paint`.
 ///
 /// ```
 /// use binspace::drawing::{Paint, Stroke};
@@ -68,26 +69,26 @@ pub struct VectorPicture {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Paint {
-    /// The colour of the area: red, green and blue. Default: `None`, it is not filled.
+    /// The colour of the area: red, green and blue. Default: `None`, the area is not filled.
     pub fill: Option<[u8; 3]>,
     /// The opacity of the area, from 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The line along the boundary. It covers half of its width on either side. Default: `None`.
+    /// The line along the boundary. It covers half its width on either side. Default: `None`.
     pub stroke: Option<Stroke>,
 }
 
-/// How lines are painted. Corners are round.
+/// The style of lines. Corners are round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stroke {
     /// The width, in pixels.
     pub width: f64,
-    /// Red, green and blue.
+    /// The colour: red, green and blue.
     pub colour: [u8; 3],
-    /// From 0 to 1. Default: 1.
+    /// The opacity, from 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid; so
-    /// it is if one of the lengths is 0.
+    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid. It
+    /// is also solid if one of the lengths is 0.
     pub dashes: Option<[f64; 2]>,
     /// Whether ends are half discs beyond the line's end. Default: `true`; dashes are flat.
     pub round_ends: bool,
@@ -108,19 +109,19 @@ impl From<Stroke> for Paint {
 impl Paint {
     const NOTHING: Self = Self { fill: None, opacity: 1.0, stroke: None };
 
-    /// The same paint with another [`opacity`](Self::opacity) of the area.
+    /// Sets the [`opacity`](Self::opacity) of the area.
     #[must_use]
     pub fn with_opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
-    /// The same paint with a [`stroke`](Self::stroke).
+    /// Sets the [`stroke`](Self::stroke).
     #[must_use]
     pub fn with_stroke(self, stroke: Stroke) -> Self {
         Self { stroke: Some(stroke), ..self }
     }
 
-    /// Whether it hides everything below the area.
+    /// Whether the paint hides everything below the area.
     fn is_opaque(&self) -> bool {
         self.fill.is_some() && self.opacity >= 1.0
     }
@@ -143,25 +144,25 @@ impl Paint {
 }
 
 impl Stroke {
-    /// A solid and opaque line of a width in pixels, with round ends.
+    /// Creates a solid and opaque line of a width in pixels, with round ends.
     pub fn new(width: f64, colour: [u8; 3]) -> Self {
         Self { width, colour, opacity: 1.0, dashes: None, round_ends: true }
     }
 
-    /// The same stroke with another [`opacity`](Self::opacity).
+    /// Sets the [`opacity`](Self::opacity).
     #[must_use]
     pub fn with_opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 
-    /// The same stroke in flat dashes; the lengths of a dash and of a gap are in pixels.
+    /// Sets flat [`dashes`](Self::dashes); the lengths of a dash and of a gap are in pixels.
     #[must_use]
     pub fn with_dashes(self, dash: f64, gap: f64) -> Self {
         Self { dashes: Some([dash, gap]), round_ends: false, ..self }
     }
 }
 
-/// What a picture is made of, in order.
+/// A part of a picture, in order.
 #[derive(Clone, Debug)]
 pub(super) enum Node {
     /// The nodes from the next one to `end` are a group with these attributes, as they are written.
@@ -179,7 +180,8 @@ pub(super) struct PaintedShape {
     pub(super) part: Part,
 }
 
-/// The part of its paint that a shape has. The fill and the stroke of a path are two shapes that share a look.
+/// The part of the paint that a shape uses. The fill and the stroke of a path are two shapes that share a
+/// look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Part {
     All,
@@ -188,7 +190,7 @@ pub(super) enum Part {
 }
 
 impl PaintedShape {
-    /// The paint without the part that the shape lacks.
+    /// The paint without the part that the shape does not use.
     pub(super) fn own_paint(&self) -> Paint {
         match self.part {
             Part::All => self.paint,
@@ -213,7 +215,8 @@ fn own_edges(path: Path<'_>) -> Vec<Vec<[f64; 2]>> {
     let mut lines = Vec::new();
     for (outline, edges) in path.outlines().zip(path.edges()) {
         let n = outline.len();
-        // From the first edge after a side that is none, so that no line is divided where the outline begins.
+        // Start at the first edge after a side that is no edge, so that no line is divided at the start of
+        // the outline.
         let start = (0..n).find(|&i| edges[i].is_none()).map_or(0, |i| i + 1);
         let mut line = Vec::new();
         for i in (start..start + n).map(|i| i % n) {
@@ -232,12 +235,12 @@ fn own_edges(path: Path<'_>) -> Vec<Vec<[f64; 2]>> {
 }
 
 impl VectorPicture {
-    /// A transparent picture of a width and a height in pixels.
+    /// Creates a transparent picture of a width and a height in pixels.
     pub fn new(size: [u32; 2]) -> Self {
         Self { size, background: None, nodes: vec![], adds_up: false }
     }
 
-    /// The same picture on a background: red, green and blue.
+    /// Sets the background: red, green and blue.
     #[must_use]
     pub fn with_background(self, colour: [u8; 3]) -> Self {
         Self { background: Some(colour), ..self }
@@ -246,10 +249,10 @@ impl VectorPicture {
     /// Adds the paths of a drawing, with closed seams: [batched](Drawing::batched) by paint, and
     /// [trapped](Drawing::trapped). `paint` is called once for each polygon that has a path, with its number.
     ///
-    /// A stroke follows the polygon's own [edges](Path::edges). It is painted right after its path, so later
-    /// paths cover it. Drawings with strokes are not batched. The lines and points of an overlay are not
-    /// added: go through [`Drawing::display_list`] for these. To draw edges over all paths, add polylines of
-    /// [`VisibilityMap::edges`](super::VisibilityMap::edges).
+    /// A stroke follows the polygon's own [edges](Path::edges). It is painted directly after its path, so
+    /// later paths cover it. Drawings with strokes are not batched. The lines and points of an overlay are
+    /// not added: iterate over [`Drawing::display_list`] for these. To draw edges over all paths, add
+    /// polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
         drawing: &Drawing,
@@ -282,7 +285,7 @@ impl VectorPicture {
         }
     }
 
-    /// Adds an area. Its outlines are filled together by the nonzero rule, as those of a
+    /// Adds an area. Its outlines are filled together by the nonzero rule, like the outlines of a
     /// [`Path`](super::Path::outlines) or a [`Region`](super::Region::outlines).
     pub fn add_area<O: AsRef<[[f64; 2]]>>(
         &mut self,
@@ -306,7 +309,7 @@ impl VectorPicture {
     }
 
     /// Adds lines that are painted together: where they overlap, a translucent stroke is no darker. They are
-    /// [polylines](super::polylines) or lists of points. One that ends where it begins is closed.
+    /// [polylines](super::polylines) or lists of points. A line that ends at its first point is closed.
     pub fn add_lines<L: AsRef<[[f64; 2]]>>(
         &mut self,
         lines: impl IntoIterator<Item = L>,
@@ -325,13 +328,13 @@ impl VectorPicture {
         }
     }
 
-    /// Adds one line of text. Its middle is at the point: that of its width, and half the height of a capital
-    /// letter above its baseline. `size` is the height of the font.
+    /// Adds one line of text, centred at a point: horizontally by its width, vertically by half the height of
+    /// a capital letter. `size` is the height of the font.
     ///
-    /// The paint's stroke is below the letters: half of its width is visible around them, which keeps them
-    /// legible on anything. The font is Helvetica or, in SVG, what the viewer has in its place. A PDF has the
-    /// characters of Windows-1252; others are `?` there, except that minus signs are dashes. A text is one
-    /// line, whatever it holds.
+    /// The paint's stroke is below the letters: half its width is visible around them, which keeps them
+    /// legible on any background. The font is Helvetica or, in SVG, the viewer's substitute. A PDF has the
+    /// characters of Windows-1252; other characters are `?` there, except that minus signs are dashes. A text
+    /// is always one line.
     pub fn add_label(&mut self, at: [f64; 2], text: &str, size: f64, paint: impl Into<Paint>) {
         let (size, [x, y]) = (length(size), at);
         if is_near(&at) && size > 0.0 && !text.is_empty() {
@@ -345,9 +348,9 @@ impl VectorPicture {
     /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG: `class`, `id`, and
     /// names that begin with `data-`.
     ///
-    /// The attributes of a group of one shape are those of the shape. Values may be any text. Other names
-    /// than these, names with characters other than small letters, digits and hyphens, and names that are
-    /// given again are left out. A PDF has no groups.
+    /// The attributes of a group of one shape are written to the shape. Values may be any text. Other names,
+    /// names with characters other than small letters, digits and hyphens, and repeated names are left out. A
+    /// PDF has no groups.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;
@@ -371,12 +374,11 @@ impl VectorPicture {
         self.group_with(written, add)
     }
 
-    /// Groups areas side by side that are added by `add`. In an SVG they have no seams between them,
-    /// translucent or not.
+    /// Groups adjacent areas that `add` adds. In an SVG they have no seams between them, translucent or not.
     ///
     /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the
-    /// picture below. It is for [regions](super::VisibilityMap::regions), each with its blended colour.
-    /// Browsers support it; viewers that do not, and a PDF, paint the areas one after another.
+    /// picture below. Use it for [regions](super::VisibilityMap::regions), each with its blended colour.
+    /// Browsers support it; other viewers, and a PDF, paint the areas one after another.
     pub fn added_up<R>(&mut self, add: impl FnOnce(&mut Self) -> R) -> R {
         self.adds_up = true;
         self.group_with(" class=\"binspace-sum\" style=\"isolation:isolate\"".to_owned(), add)
@@ -403,14 +405,14 @@ impl VectorPicture {
     }
 }
 
-/// The height of Helvetica's capital letters, as a share of the font's.
+/// The height of Helvetica's capital letters, as a share of the font's height.
 const CAPITAL: f64 = 0.718;
 
 fn is_near(point: &[f64; 2]) -> bool {
     point.iter().all(|c| c.abs() <= FURTHEST)
 }
 
-/// A length that can be written: not negative, and 0 if all that is written of it is 0.
+/// A length that can be written: not negative, and 0 if its written digits are all 0.
 fn length(given: f64) -> f64 {
     if given >= SHORTEST { bounded(given, FURTHEST) } else { 0.0 }
 }
@@ -441,14 +443,14 @@ pub(super) struct Steps {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Line {
-    /// The corners. That at which a closed line ends is not repeated.
+    /// The corners. The first corner of a closed line is not repeated at its end.
     pub(super) corners: Vec<[i64; 2]>,
     pub(super) is_closed: bool,
 }
 
 impl Steps {
-    /// Rounds outlines of an area, given in pixels, to whole units, or more finely where nothing would be
-    /// left of the area.
+    /// Rounds outlines of an area, given in pixels, to whole units, or more finely if nothing of the area
+    /// would remain.
     pub(super) fn filled(outlines: &[&[[f64; 2]]], units: u32) -> Self {
         let mut steps = f64::from(units);
         for decimals in 0.. {
@@ -466,7 +468,7 @@ impl Steps {
         Self { lines: vec![], decimals: 0 }
     }
 
-    /// Rounds lines, given in pixels, to whole units. A line that ends where it begins is closed.
+    /// Rounds lines, given in pixels, to whole units. A line that ends at its first point is closed.
     pub(super) fn drawn<L: AsRef<[[f64; 2]]>>(lines: impl Iterator<Item = L>, units: u32) -> Self {
         let line = |points: L| {
             let mut corners = rounded(points.as_ref(), f64::from(units));
@@ -474,7 +476,7 @@ impl Steps {
                 corners.pop();
                 return Line { corners, is_closed: true };
             }
-            // A line that is a dot has two ends all the same.
+            // A line that is a dot still has two ends.
             corners.extend_from_within(..usize::from(corners.len() == 1));
             Line { corners, is_closed: false }
         };
@@ -483,7 +485,7 @@ impl Steps {
     }
 }
 
-/// An outline: its last corner is not the first one again.
+/// An outline: its last corner does not repeat the first.
 fn closed(mut corners: Vec<[i64; 2]>) -> Line {
     while corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();

@@ -10,23 +10,23 @@ type Point = [f64; 2];
 /// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: corners that
 /// were rounded differently keep neighbours in order. Too large: overlaps of this width may be visible.
 const THIN: f64 = 1e-3;
-/// Outlines with more corners than this are taken for the boxes around them. Too small: fewer paths move. Too
-/// large: more time.
+/// Outlines with more corners than this are replaced by the boxes around them. Too small: fewer paths move.
+/// Too large: more time.
 const MOST_COMPARED_CORNERS: usize = 64;
 /// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too small:
 /// longer files. Too large: time and memory where many large polygons overlap.
 const MOST_PAIRS: usize = 400;
 
 impl Drawing {
-    /// Moves paths with equal keys next to one another where that does not change the picture.
+    /// Moves paths with equal keys next to one another if that does not change the picture.
     ///
-    /// Paths that overlap keep their order; so does everything before and after a line or a point of an
-    /// [overlay](Self::display_list). `key` is called with numbers of polygons: files are shorter if paths of
-    /// one colour share it, and a plotter changes its pen less often.
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself.
+    /// Paths that overlap keep their order, and no path moves across a line or a point of an
+    /// [overlay](Self::display_list). `key` is called with numbers of polygons. Files are shorter if
+    /// consecutive paths share a colour, and a plotter changes its pen less often.
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// A greedy topological order: of the paths below which nothing is left, it takes those with the key of
-    /// the path before, or else with the most frequent key. O(n log n) for n paths, plus the number of
+    /// The order is a greedy topological order: of the paths that may be next, it chooses paths with the key
+    /// of the previous path, otherwise with the most frequent key. O(n log n) for n paths, plus the number of
     /// overlaps. If there are too many overlaps (400 n pairs of boxes), nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
@@ -49,7 +49,8 @@ impl Drawing {
     }
 }
 
-/// An order of paths, given their keys and the pairs of a lower and an upper one that have to keep their order.
+/// An order of paths, given their keys and the pairs of a lower and an upper path that have to keep their
+/// order.
 fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
     let mut numbers: BTreeMap<&K, usize> = BTreeMap::new();
     let numbered = keys.iter().map(|key| {
@@ -69,7 +70,7 @@ fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
     for path in (0..n).rev().filter(|&path| below[path] == 0) {
         ready[kinds[path]].push(path);
     }
-    // The number of paths of each kind that can come next. Entries may be out of date.
+    // The number of paths of each kind that can be next. Entries may be out of date.
     let mut counts: BinaryHeap<(usize, usize)> =
         ready.iter().enumerate().map(|(kind, paths)| (paths.len(), kind)).collect();
     let mut order = Vec::with_capacity(n);
@@ -105,7 +106,7 @@ struct BoxedPath {
     outlines: Vec<Vec<Point>>,
 }
 
-/// Pairs of paths that overlap, the lower one first; `None` if there are too many to compare.
+/// Pairs of paths that overlap, the lower path first; `None` if there are too many to compare.
 fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
     let areas: Vec<BoxedPath> = paths.iter().map(area).collect();
     let [width, height] = size.map(f64::from);
@@ -133,7 +134,7 @@ fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
         for (i, &second) in cell.iter().enumerate() {
             for &first in &cell[..i] {
                 let [a, b] = [first, second].map(|number| &areas[number as usize]);
-                // The same pair is in other cells too: this is the first one.
+                // The same pair is in other cells too: only the first cell counts.
                 let corner = [0, 1].map(|axis: usize| a.low[axis].max(b.low[axis]));
                 let is_first = here == place(corner[1], rows) * columns + place(corner[0], columns);
                 if is_first && overlap(a, b) {
@@ -187,14 +188,14 @@ fn separates(sides: &[Point], other: &[Point]) -> bool {
     })
 }
 
-/// How far a path reaches under a neighbour, in pixels. Too small: the background shows where a viewer's
+/// The width of the strip under a neighbour, in pixels. Too small: the background shows where a viewer's
 /// pixels and the edge meet obliquely. Too large: the neighbour's ends cut more corners.
 const WIDTH: f64 = 1.0;
-/// A path reaches under at most this share of the neighbour's height. Too small: the background shows along
+/// A path extends under at most this share of the neighbour's height. Too small: the background shows along
 /// thin neighbours. Too large: the path protrudes on the other side where corners are rounded.
 const SHARE: f64 = 0.6;
 /// Sides that are closer to one another than this, in pixels, are one edge. Too small: rounded corners
-/// separate edges. Too large: sides that only pass each other are taken for edges.
+/// separate edges. Too large: sides that only pass each other count as common edges.
 const NEAR: f64 = 0.02;
 /// A triangle replaces a strip if it has at least this share of the strip's area. Too small: the background
 /// shows near the ends of edges. Too large: most neighbours get strips, which have one corner more.
@@ -202,31 +203,31 @@ const ENOUGH: f64 = 0.85;
 /// Strips with less area than this, in square pixels, are left out. Too small: drawings of small polygons
 /// have many corners without a visible effect. Too large: seams of small polygons are visible.
 const SMALLEST: f64 = 0.1;
-/// Paths that are not convex and have more corners than this are not reached under. Too large: time that
-/// grows with the cube of it; too small: seams at polygons that are not convex.
+/// Nothing is extended under paths that are not convex and have more corners than this. Too large: time grows
+/// with its cube. Too small: seams at polygons that are not convex.
 const MOST_CORNERS: usize = 24;
-/// The grid of sides has at most this many cells. Too large: memory; too small: more sides in each cell of
-/// drawings of millions.
+/// The largest number of cells of the grid of sides. Too large: memory. Too small: more sides in each cell
+/// for millions of sides.
 const MOST_CELLS: usize = 1 << 20;
 
 type Outline = Vec<Point>;
 type Segment = [Point; 2];
 
 impl Drawing {
-    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that next to no
+    /// Extends the outlines of opaque polygons under their later opaque neighbours, so that almost no
     /// background shows in the seams.
     ///
     /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that
     /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
-    /// (ISO 32000-1, 14.11.6): the lower area reaches about a pixel under the upper one, which is opaque and
-    /// painted later, so that the addition is not visible. `is_opaque` is called with numbers of polygons.
-    /// Other polygons keep their outlines, and so do edges without an opaque neighbour, edges of polygons
-    /// that are not convex and have many corners, and edges whose extension would have less than a tenth of a
-    /// square pixel. The list of paths stays the same; only outlines get corners. An extended side is no
-    /// longer one of its polygon's [edges](Path::edges).
+    /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area, which is
+    /// opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers of
+    /// polygons. Polygons that are not opaque keep their outlines. So do edges without an opaque neighbour,
+    /// edges of polygons that are not convex and have many corners, and edges whose extension would have less
+    /// than a tenth of a square pixel. The list of paths stays the same; only outlines receive corners. An
+    /// extended side is no longer an [edge](Path::edges) of its polygon.
     ///
-    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this by itself. O(n log n) for
-    /// n corners, unless they are spread very unevenly.
+    /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. O(n log n)
+    /// for n corners, unless they are spread very unevenly.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
         let mut grid = Grid::new(self.size, self.corners.len());
@@ -294,7 +295,7 @@ fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// A side of an outline, the number of its path, and that of the convex part that it bounds.
+/// A side of an outline, the number of its path, and the number of the convex part that it bounds.
 #[derive(Clone, Copy)]
 struct PlacedSide {
     path: usize,
@@ -329,7 +330,7 @@ impl Grid {
         }
     }
 
-    /// Finds the sides near a side that are of later paths, sorted by their parts.
+    /// Finds the sides of later paths near a side, sorted by their parts.
     fn find_near(&self, ends: Segment, path: usize, found: &mut Vec<PlacedSide>) {
         found.clear();
         let mut numbers: Vec<u32> = Vec::new();
@@ -342,7 +343,7 @@ impl Grid {
         found.extend(numbers.iter().map(|&number| self.sides[number as usize]));
     }
 
-    /// The cells that a side passes through, or passes within reach.
+    /// The cells that a side passes through or near, within a distance.
     fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
         let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
@@ -373,8 +374,8 @@ impl Grid {
     }
 }
 
-/// Convex parts inside a path that together have all of its sides, each with its own: the path itself if it
-/// is convex, otherwise a triangle on each side.
+/// Convex parts inside a path, each with its sides, that together have all sides of the path: the path itself
+/// if it is convex, otherwise a triangle on each side.
 fn parts_of(path: Path<'_>) -> Vec<(Outline, Vec<Segment>)> {
     let outlines: Vec<&[Point]> = path.outlines().collect();
     if let [only] = outlines[..]
@@ -458,8 +459,9 @@ impl SideFrame {
         [0, 1].map(|axis| self.start[axis] + self.along[axis] * along + self.out[axis] * out)
     }
 
-    /// The range of this side along which a neighbour's side, given in local coordinates, lies: on it, or
-    /// inwards by less than a strip's width. There the neighbour's edge is blended with the paths below both.
+    /// The range of this side along which a neighbour's side, given in local coordinates, lies on it or
+    /// inwards by less than a strip's width. There the neighbour's edge is blended with the paths below both
+    /// sides.
     fn along(&self, [a, b]: Segment) -> Option<[f64; 2]> {
         let [low, high] = [a[0].min(b[0]).max(0.0), a[0].max(b[0]).min(self.length)];
         if high - low <= NEAR {
@@ -483,12 +485,12 @@ fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
 }
 
 /// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour. It
-/// has one corner less, which makes drawings shorter.
+/// has one corner less than the strip, which makes drawings shorter.
 fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
     let [low, high] = [*strip.first()?, *strip.last()?];
     let length = high[0] - low[0];
     let far: Outline = neighbour.iter().copied().filter(|corner| corner[1] > NEAR).collect();
-    // From the middle of the edge to that of the corners which are not on it.
+    // From the middle of the edge to the middle of the corners that are not on it.
     let apex = [0, 1].map(|axis: usize| {
         let end = far.iter().map(|corner| corner[axis]).sum::<f64>() / far.len() as f64;
         let start = 0.5 * (low[axis] + high[axis]);
@@ -522,7 +524,7 @@ fn band(frame: &SideFrame, corners: &[Point]) -> Option<Outline> {
     for [a, b] in sides(corners).filter(|&ends| common(ends).is_none()) {
         strip = inside(&strip, a, b, turn);
     }
-    // The corners on the side come first and last, all others in between.
+    // The corners on the side are first and last, all other corners in between.
     let n = strip.len();
     let last = (0..n)
         .filter(|&i| strip[i][1] == 0.0)
@@ -556,7 +558,7 @@ mod batch_tests {
 
     #[test]
     fn paths_that_overlap_stay_in_order_and_others_go_by_keys() {
-        // 0 below 2, 3 below 4.
+        // Path 0 is below path 2, and 3 below 4.
         let keys = ["a", "b", "b", "a", "b"];
         assert_eq!(ordered(&keys, &[[0, 2], [3, 4]]), [0, 3, 4, 2, 1]);
         assert_eq!(ordered(&keys, &[[0, 1], [1, 3]]), [2, 4, 0, 1, 3]);
@@ -580,7 +582,7 @@ mod batch_tests {
         let both = area(&[[0.0, 1.0], [2.0, 1.0], [1.0, 3.0]]);
         assert!(!overlap(&left, &right) && !overlap(&right, &left));
         assert!(overlap(&left, &both) && overlap(&both, &right));
-        // One inside of the other.
+        // One outline inside the other.
         let small = area(&[[0.2, 0.2], [0.4, 0.2], [0.2, 0.4]]);
         assert!(overlap(&left, &small) && overlap(&small, &left) && !overlap(&right, &small));
     }
@@ -597,8 +599,8 @@ mod trap_tests {
         assert!(!is_convex(&outline) && is_convex(&outline[..3]));
         let all: Vec<Segment> = sides(&outline).collect();
         let apex = |side: usize| triangle_on(all[side], 1.0, &all).map(|triangle| triangle[2]);
-        // Below, only the notch's end is seen from both ends; to the side the corner opposite is
-        // behind it.
+        // From both ends of the lower side, only the notch's end is visible; for the side edges, the opposite
+        // corner is behind the notch.
         assert_eq!(apex(0), Some([2.0, 1.0]));
         assert_eq!(apex(1), Some([2.0, 1.0]));
         assert_eq!(apex(2), Some([4.0, 0.0]));
@@ -628,17 +630,17 @@ mod trap_tests {
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
         }
         assert_eq!(frame.world([0.5, 1.0]), [4.5, 3.0]);
-        // The other way round; a low neighbour has a narrow strip.
+        // In the opposite direction; a low neighbour has a narrow strip.
         let low = [[3.0, 2.5], [4.0, 2.0], [2.0, 2.0]];
         let found = strip(&low).unwrap();
         assert!(found.iter().all(|corner| corner[1] <= 0.3 + 1e-12), "{found:?}");
         assert_eq!(found.first(), Some(&[1.0, 0.0]));
         assert_eq!(found.last(), Some(&[3.0, 0.0]));
-        // A wedge along the side that leaves it on the other side of its tip.
+        // A wedge along the side, whose tip is on the side and which leaves it behind the tip.
         let wedge = [[0.9, 2.01], [4.0, 1.5], [30.0, 9.0], [3.0, 2.005]];
         let found = strip(&wedge).unwrap();
         assert!(found.iter().all(|corner| corner[1] < 0.01), "{found:?}");
-        // On the same side of the edge there is nothing to reach under.
+        // A neighbour on the same side of the edge gets no strip.
         assert_eq!(strip(&[[1.0, 2.0], [5.0, 2.0], [3.0, -9.0]]), None);
     }
 
@@ -650,7 +652,7 @@ mod trap_tests {
         for (found, expected) in found.iter().zip([[0.0, 0.0], [2.0, 6.0], [4.0, 0.0]]) {
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
         }
-        // Of a low neighbour it would leave out too much near the ends.
+        // For a low neighbour a triangle would leave out too much near the ends.
         let low = [[1.0, 2.0], [5.0, 2.0], [5.0, 2.8], [1.0, 2.8]];
         assert_eq!(strip(&frame, &low).unwrap().len(), 4);
     }

@@ -20,28 +20,29 @@ use crate::tree::{BspTree, Fragment};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
     pub(super) face: u32,
-    /// The tree's number of it.
+    /// The number of the fragment in the tree.
     pub(super) fragment: u32,
-    /// The bounding box of its part in the picture.
+    /// The bounding box of the item's part in the picture.
     pub(super) around: Rect,
-    /// Where the half-planes that bound it begin and end.
+    /// The range of the half-planes that bound it.
     halves: [u32; 2],
 }
 
-/// How the camera sees a face.
+/// The view of a face from the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    /// The bounding box of its part in the picture; empty if no part of it is in the picture.
+    /// The bounding box of the face's part in the picture; empty if no part is in the picture.
     pub(super) around: Rect,
-    /// The side of its plane that the rays come from: `Greater` is its front, `Equal` if they run along it.
+    /// The side of the face's plane that the rays come from: `Greater` is the front, `Equal` if the rays are
+    /// parallel to the plane.
     pub(super) side: Ordering,
-    /// Whether it hides items behind it.
+    /// Whether the face hides items behind it.
     pub(super) is_opaque: bool,
-    /// Whether its edges in the picture go through its corners as given.
+    /// Whether the face's edges in the picture go through its given corners.
     pub(super) is_as_given: bool,
-    /// The last of its items, if it has some.
+    /// The last item of the face, if any.
     pub(super) last: u32,
-    /// Where the half-planes that bound it begin and end.
+    /// The range of the half-planes that bound it.
     halves: [u32; 2],
 }
 
@@ -53,25 +54,26 @@ pub(super) struct Primitives<'t> {
     /// The half-planes that bound faces and items, one list after another.
     halves: Vec<HalfPlane>,
     pub(super) items: Vec<Item>,
-    /// Of all faces, by their numbers.
+    /// The views of all faces, by their numbers.
     pub(super) views: Vec<View>,
-    /// Of each polygon; none if all are opaque.
+    /// The opacity of each polygon; empty if all polygons are opaque.
     opacities: Vec<f64>,
 }
 
 /// The number of faces or pieces in one job of a thread.
 const SHARE: usize = 1024;
-/// Faces and cells of more corners than this count one unit of work a corner.
+/// Faces and cells with more corners than this count one unit of work per corner.
 pub(super) const FEW_CORNERS: usize = 32;
-/// A face with moved corners is drawn with its moved corners if it has more corners than this: the test for
-/// given corners takes quadratic time. Too small: cracks beside faces of many corners. Too large: more time.
+/// A face whose corners were moved is drawn with its moved corners if it has more corners than this: the test
+/// for given corners takes quadratic time. Too small: cracks beside faces of many corners. Too large: more
+/// time.
 const FEW_CORNERS_AS_GIVEN: usize = 8;
 /// The cost of one piece, in pieces that a build examines.
 const LOOKED: usize = 16;
 
 impl<'t> Primitives<'t> {
-    /// The pieces of a tree that rays may meet: of polygons whose opacity is not 0. With no opacities, all
-    /// are opaque. A phase.
+    /// The pieces of a tree that rays may meet, of polygons whose opacity is not 0. Without opacities, all
+    /// polygons are opaque. Takes one phase.
     pub(super) fn new(
         tree: &'t BspTree,
         rays: Rays,
@@ -100,7 +102,7 @@ impl<'t> Primitives<'t> {
         Ok(primitives)
     }
 
-    /// Makes the lines of all faces and items that the picture may show: a phase.
+    /// Makes the lines of all faces and items that may be visible in the picture. Takes one phase.
     fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
         let faces = self.lines.frame.faces;
         for face in 0..faces.len() {
@@ -126,10 +128,10 @@ impl<'t> Primitives<'t> {
                 continue;
             }
             watch.work(LINES)?;
-            // All edges of the face, because one that does not meet the box of a piece beside the picture may
-            // still be the only one that excludes it. A face of n corners in m pieces takes 8 nm bytes here, and
-            // twice more in lists of candidates: with a floor of 10 000 corners in 1 396 pieces, a process
-            // peaks at 346 MB.
+            // All edges of the face, because an edge that does not meet the box of a piece beside the picture
+            // may still be the only edge that excludes the piece. A face of n corners in m pieces takes 8 nm
+            // bytes here, and twice as much more in lists of candidates: with a floor of 10 000 corners in 1
+            // 396 pieces, a process peaks at 346 MB.
             let start = place(self.halves.len())?;
             self.halves.extend_from_within(halves[0] as usize..halves[1] as usize);
             for line in fragment.lines() {
@@ -142,11 +144,11 @@ impl<'t> Primitives<'t> {
         Ok(())
     }
 
-    /// The half-planes that bound a whole face: its edges, one after another; none of a face that the picture
-    /// does not show.
+    /// The half-planes that bound a whole face: its edges, one after another; empty for a face outside the
+    /// picture.
     ///
-    /// No ray from an eye is in all of them that meets the face's plane behind the eye: the point where it
-    /// does would be outside of every edge of a bounded convex polygon. Nor is one along the plane.
+    /// A ray that meets the face's plane behind the eye, or is parallel to the plane, is never in all these
+    /// half-planes: its intersection with the plane would be outside every edge of a bounded convex polygon.
     pub(super) fn outline(&self, face: u32) -> &[HalfPlane] {
         self.at(self.views[face as usize].halves)
     }
@@ -169,7 +171,7 @@ impl<'t> Primitives<'t> {
                 .all(|&half| self.lines.across(half, sides) == Across::Inside)
     }
 
-    /// A fragment, unless the picture shows nothing of it.
+    /// The item of a fragment, unless the fragment is outside the picture.
     fn item(&self, fragment: &Fragment<'_>) -> Option<Item> {
         let face = fragment.face();
         let View { around, .. } = self.views[face as usize];
@@ -177,7 +179,7 @@ impl<'t> Primitives<'t> {
             return None;
         }
         let item = |around| Item { face, fragment: fragment.index(), around, halves: [0; 2] };
-        // Where corners were moved, what the edges in the picture bound may reach beyond the fragment.
+        // If corners were moved, the area bounded by the edges in the picture may reach beyond the fragment.
         if fragment.is_whole() || self.lines.frame.faces.moved_axis(face).is_some() {
             return Some(item(around));
         }
@@ -185,7 +187,8 @@ impl<'t> Primitives<'t> {
         self.around(&vertices).map(item)
     }
 
-    /// A box around the part of the convex hull of vertices that is in the picture; `None` if there is none.
+    /// A box around the part of the convex hull of vertices that is in the picture; `None` if no part is in
+    /// the picture.
     fn around(&self, vertices: &[[f64; 3]]) -> Option<Rect> {
         let rays = &self.lines.frame.rays;
         let around = common(&rays.region(vertices)?, &Tile::picture(rays.size()).sides());
@@ -221,17 +224,17 @@ impl<'t> Primitives<'t> {
         View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }
     }
 
-    /// Whether the κ of a face's plane is positive, of a face that the picture may show.
+    /// Whether the κ of a face's plane is positive; for a face that may be visible in the picture.
     fn is_positive(&self, face: u32) -> bool {
         self.views[face as usize].side.is_gt() == self.lines.frame.rays.is_perspective()
     }
 
-    /// Whether the picture may show some of a face.
+    /// Whether a part of a face may be visible in the picture.
     pub(super) fn sees(&self, face: u32) -> bool {
         !is_empty(&self.views[face as usize].around)
     }
 
-    /// How many polygons the tree was built of.
+    /// The number of polygons that the tree was built of.
     pub(super) fn polygon_count(&self) -> usize {
         self.tree.preparation().polygons
     }
@@ -258,7 +261,7 @@ impl<'t> Primitives<'t> {
         self.views[self.face(item) as usize].is_opaque
     }
 
-    /// Whether something shows through a face.
+    /// Whether any face that may be visible is translucent.
     pub(super) fn has_translucent(&self) -> bool {
         let mut faces = 0..self.views.len() as u32;
         !self.opacities.is_empty()
@@ -287,15 +290,15 @@ fn shared<T: Send>(
     Ok(parts.into_iter().flatten().collect())
 }
 
-/// A face is drawn with its given corners unless one was moved further than this along an axis. In lattice
-/// units: 2⁻³² of the extent, or up to twice that. Too small: cracks between faces that share an edge. Too
-/// large: the outlines differ from those of the moved faces, which decide the depth order.
+/// A face is drawn with its given corners unless a corner was moved further than this along an axis. In
+/// lattice units: 2⁻³² of the extent, or up to twice as much. Too small: cracks between faces that share an
+/// edge. Too large: the outlines differ from the outlines of the moved faces, which decide the depth order.
 const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {
-    /// Whether the corners of a face as given, if some were moved, are certainly those of a convex polygon in
-    /// the picture, of which the same side is seen as of the face's plane, and are where rays meet that
-    /// ahead. Not if one was moved by more than [`FURTHEST_MOVE`].
+    /// Whether a face whose corners were moved can be drawn with its given corners: they certainly form a
+    /// convex polygon in the picture that shows the same side as the face's plane, rays through them meet
+    /// that plane ahead, and no corner was moved by more than [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let ViewFrame { rays, faces } = self;
         let n = given.len();

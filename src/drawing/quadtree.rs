@@ -2,8 +2,8 @@
 //! Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in
 //! place of pixels).
 //!
-//! Halving a tile does not separate triangles around one vertex, or strips side by side, but one of their
-//! edges leaves about half of them on either side. Tiles where long lists remain are divided along edges of
+//! Halving a tile does not separate triangles around one vertex, or strips side by side. But one of their
+//! edges leaves about half of them on each side. So tiles where long lists remain are divided along edges of
 //! their pieces: a binary space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible
 //! surface generation by a priori tree structures", 1980).
 
@@ -28,7 +28,7 @@ pub(super) struct Tile {
     pub(super) high: [i64; 2],
 }
 
-/// Where a box lies against a line.
+/// The position of a box relative to a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Across {
     Inside,
@@ -36,30 +36,32 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles of this size, in steps, are not halved where long lists are divided afterwards: 2⁻⁴ of a pixel. Too
+/// Tiles of this size, in steps, are not halved if long lists are divided afterwards: 2⁻⁴ of a pixel. Too
 /// small: tiles around a vertex of many faces are halved many times. Too large: many small pieces are in one
 /// tile.
 pub(super) const TINY: i64 = 1 << 20;
-/// Nor are others of this size: 2⁻¹⁸ of a pixel.
+/// Other tiles of this size, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small: tiles around common points
+/// are halved many times. Too large: long lists remain.
 pub(super) const TINIEST: i64 = 1 << 6;
 
-/// How many times as many pieces the parts of a tile have together as the tile had before it was halved,
-/// the same for the parts of a part, and so on: the product. Pieces that reach into both parts are in both.
+/// The growth of the number of pieces by halving. When a tile is halved, its parts together have more pieces
+/// than the tile, because pieces that reach into both parts are in both. The growth of a part is the product
+/// of these ratios over all its halvings.
 ///
-/// All parts of a picture together have at most as many pieces as the picture, times the largest product among
-/// them: dividing the pieces of each part by its product, the sum does not increase where a part is halved.
+/// All parts of a picture together have at most as many pieces as the picture, times their largest growth.
+/// Proof: divide the number of pieces of each part by its growth; halving a part does not increase the sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth(f64);
 
-/// Parts are not halved any more from this growth on. Many pieces may meet in a point, as at the tip of a
-/// cone, or along a line, as the columns of a terrain do that is seen along its rows: halving would go on and
-/// on around it. Too small: long lists remain. Too large: many parts with the same pieces.
+/// Parts of this growth are not halved again. Many pieces may meet in a point, as at the tip of a cone, or
+/// along a line, like the columns of a terrain seen along its rows: halving would not end around it. Too
+/// small: long lists remain. Too large: many parts with the same pieces.
 const MOST: f64 = 4.0;
 
 impl Growth {
     pub(super) const NONE: Self = Self(1.0);
 
-    /// The growth of parts with these numbers of pieces, of a part that had `all`.
+    /// The growth of parts with these numbers of pieces, from a part that had `all` pieces.
     pub(super) fn after(self, all: usize, parts: [usize; 2]) -> Self {
         let growth = (parts[0] + parts[1]) as f64 / all.max(1) as f64;
         Self((self.0 * growth).max(1.0))
@@ -71,14 +73,14 @@ impl Growth {
 }
 
 impl Tile {
-    /// All of a picture.
+    /// The tile of a whole picture.
     pub(super) fn picture(size: [u32; 2]) -> Self {
         Self { low: [0; 2], high: size.map(|side| STEPS as i64 * i64::from(side)) }
     }
 
-    /// Its halves, across its longer side: a little beside the middle, at an odd number of steps. The target
-    /// of a camera is often exactly in the middle of the picture, and points that lie on a border by chance
-    /// are compared in integers.
+    /// The halves of the tile, divided across its longer side, a little beside the middle, at an odd number
+    /// of steps. The target of a camera is often exactly in the middle of the picture, and points that lie on
+    /// a border by chance are compared in integers.
     pub(super) fn halves(&self) -> [Self; 2] {
         let size = [0, 1].map(|axis: usize| self.high[axis] - self.low[axis]);
         let axis = usize::from(size[1] > size[0]);
@@ -89,7 +91,7 @@ impl Tile {
         parts
     }
 
-    /// Whether a half's line is one of its borders.
+    /// Whether a half's line is a border of the tile.
     pub(super) fn has_border(&self, half: HalfPlane) -> bool {
         half.number().is_none() && {
             let (axis, steps) = half.border();
@@ -97,24 +99,24 @@ impl Tile {
         }
     }
 
-    /// Whether it is at most `size` steps wide and high.
+    /// Whether the tile is at most `size` steps wide and high.
     pub(super) fn is_within(&self, size: i64) -> bool {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= size)
     }
 
-    /// It as a cell.
+    /// The tile as a cell.
     pub(super) fn cell(&self, lines: &LineTable<'_>) -> Cell {
         Cell::rectangle(lines, self.low, self.high)
     }
 
-    /// Its sides in pixels: exact.
+    /// The sides of the tile in pixels, exactly.
     pub(super) fn sides(&self) -> Rect {
         [self.low, self.high].map(|end| end.map(|steps| steps as f64 / STEPS))
     }
 }
 
 impl LineTable<'_> {
-    /// Where a box lies against a half.
+    /// The position of a box relative to a half.
     pub(super) fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
@@ -143,9 +145,9 @@ pub(super) const LINES: usize = 64;
 /// The cost of visiting a node of a graph.
 pub(super) const VISITED: usize = 4;
 
-/// Halves a part again and again, until `halves` gives none, and lets `leaf` add what it finds there: to one
-/// thing for each of the parts that are shared out to threads. The result and its order do not depend on the
-/// number of threads. It is one phase of the operation that is watched.
+/// Halves a part repeatedly, until `halves` returns `None`, and calls `leaf` to add its findings there.
+/// Returns one collection for each part that threads share. The result and its order do not depend on the
+/// number of threads. It is one phase of the watched operation.
 pub(super) fn found_in<P: Send, F: Send + Default>(
     all: P,
     halves: impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync,
@@ -155,8 +157,8 @@ pub(super) fn found_in<P: Send, F: Send + Default>(
     shared(all, 0..1 << SHARED, &halves, &leaf, watch)
 }
 
-/// Searches a part that has these shares. Both halves of it are for whichever threads are free: none waits
-/// until all parts of a size are halved.
+/// Searches a part that has these shares. Any free thread continues with each half, so no thread waits until
+/// all parts of a size are halved.
 fn shared<P: Send, F: Send + Default>(
     part: P,
     shares: Range<usize>,
@@ -183,18 +185,18 @@ fn shared<P: Send, F: Send + Default>(
     Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
 }
 
-/// At most this many opaque faces, the front ones, are tested for whether all their items together cover a
-/// tile. Too small: more hidden items stay in the lists. Too large: more tests without success.
+/// At most this many opaque faces, the nearest, are tested for whether all their items together cover a tile.
+/// Too small: more hidden items stay in the lists. Too large: more tests without success.
 const FACES: usize = 8;
 
-/// What the candidates of a list are: numbers of items, front to back, or of whole faces.
+/// The kind of a list's candidates: numbers of items, front to back, or of whole faces.
 #[derive(Clone, Copy, Debug)]
 enum Of {
     Items,
     Faces,
 }
 
-/// An item or a face, with those of its half-planes whose lines may cross a part of the picture.
+/// An item or a face, with its half-planes whose lines may cross a part of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) number: u32,
@@ -202,7 +204,7 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// Whether it covers the whole part.
+    /// Whether the candidate covers the whole part.
     pub(super) const fn covers(&self) -> bool {
         self.halves[0] == self.halves[1]
     }
@@ -215,14 +217,14 @@ pub(super) struct Candidates<'p> {
     of: Of,
     pub(super) list: Vec<Candidate>,
     halves: Vec<HalfPlane>,
-    /// Whether the list ends where something opaque covers the part.
+    /// Whether the list ends where an opaque candidate covers the part.
     ends_at_cover: bool,
-    /// Items behind this one are missing from the list: they are hidden.
+    /// Items behind this item are missing from the list, because they are hidden.
     limit: u32,
 }
 
 impl<'p> Candidates<'p> {
-    /// Some items.
+    /// The candidates for some items.
     pub(super) fn items(
         primitives: &'p Primitives<'p>,
         keep: impl Fn(u32) -> bool,
@@ -234,7 +236,7 @@ impl<'p> Candidates<'p> {
         Ok(all)
     }
 
-    /// Some faces, of those that the picture may show.
+    /// The candidates for some faces that may be visible in the picture.
     pub(super) fn faces(
         primitives: &'p Primitives<'p>,
         keep: impl Fn(u32) -> bool,
@@ -329,7 +331,7 @@ impl<'p> Candidates<'p> {
         Ok(part)
     }
 
-    /// Ends a list of items with the last item of a face that covers the box, in however many items.
+    /// Ends a list of items with the last item of a face that covers the box, in one or more items.
     fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
         let primitives = self.primitives;
         let mut end = self.limit;
@@ -340,7 +342,7 @@ impl<'p> Candidates<'p> {
             }
             let face = primitives.face(candidate.number);
             let View { last, is_opaque, .. } = primitives.views[face as usize];
-            // If items of it are missing from the list, the others alone may not cover the box.
+            // If items of the face are missing from the list, the other items may not cover the box.
             let is_in_list = last <= self.limit;
             if !is_opaque || !is_in_list || tried.contains(&face) {
                 continue;
@@ -359,7 +361,7 @@ impl<'p> Candidates<'p> {
     }
 }
 
-/// A tile with what may be in it.
+/// A tile with the candidates that may be in it.
 #[derive(Debug)]
 pub(super) struct TileList<'p> {
     pub(super) tile: Tile,
@@ -368,24 +370,24 @@ pub(super) struct TileList<'p> {
 }
 
 impl<'p> TileList<'p> {
-    /// The whole picture, with those of the candidates that may be in it.
+    /// The whole picture, with the candidates that may be in it.
     pub(super) fn picture(candidates: Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
         let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
         let candidates = candidates.narrowed(&tile.sides(), watch)?;
         Ok(Self { tile, candidates, growth: Growth::NONE })
     }
 
-    /// How many candidates do not cover the tile.
+    /// The number of candidates that do not cover the tile.
     pub(super) fn open(&self) -> usize {
         self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
     }
 
-    /// Whether halving it is of no use, or it is no larger than `least` steps.
+    /// Whether halving the tile is useless, or it is no larger than `least` steps.
     pub(super) fn is_small(&self, least: i64) -> bool {
         self.growth.is_too_much() || self.tile.is_within(least)
     }
 
-    /// Both halves of the tile.
+    /// The two halves of the tile.
     pub(super) fn halves(&self, watch: &Watch<'_>) -> Result<[Self; 2], Error> {
         let half = |tile: Tile| {
             let candidates = self.candidates.narrowed(&tile.sides(), watch)?;
@@ -399,8 +401,8 @@ impl<'p> TileList<'p> {
     }
 }
 
-/// A visible convex part of an item: inside the picture, and with no opaque item in front of it. If all items
-/// are opaque, these parts do not overlap.
+/// A visible convex part of an item: inside the picture, and with no opaque item in front. If all items are
+/// opaque, these parts do not overlap.
 #[derive(Clone, Debug)]
 pub(super) struct Visible {
     pub(super) item: u32,
@@ -414,9 +416,9 @@ pub(super) struct Leaf {
     pub(super) cells: Vec<Visible>,
 }
 
-/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: half as much
-/// again for all of a drawing of a scan). Too large: more cells compared with more items, though 128 would
-/// win another 2 to 4 %.
+/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: a drawing of a
+/// scan takes 1.5 times as long). Too large: more cells compared with more items, though 128 would save
+/// another 2 to 4 %.
 pub(super) const SHORT: usize = 64;
 
 impl Leaf {
@@ -449,21 +451,21 @@ impl Leaf {
 pub(super) struct SubTile<'l, 'p> {
     pub(super) candidates: &'l Candidates<'p>,
     pub(super) cell: Cell,
-    /// The candidates, front to back and clipped to the part. Faces have their numbers in place of items'.
+    /// The candidates, front to back and clipped to the part. For faces, item numbers are face numbers.
     pub(super) pieces: Vec<Visible>,
     pub(super) passing: Passing<'l>,
     growth: Growth,
 }
 
-/// How many edges, each of another piece, are tried to divide a part. Too small: parts are divided unevenly, or
-/// not at all. Too large: choosing takes longer than it saves.
+/// The number of edges, each of another piece, that are tried to divide a part. Too small: parts are divided
+/// unevenly, or not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
-/// How many pieces each of these edges is compared with. Too small: the choice is poor. Too large: it takes
-/// long.
+/// The number of pieces that each of these edges is compared with. Too small: the choice is poor. Too large:
+/// it takes long.
 const SAMPLE: usize = 48;
 
 impl<'l, 'p> SubTile<'l, 'p> {
-    /// All of a tile, and what passes it.
+    /// A whole tile, and the segments and points that pass it.
     pub(super) fn new(
         list: &'l TileList<'p>,
         passing: Passing<'l>,
@@ -492,14 +494,14 @@ impl<'l, 'p> SubTile<'l, 'p> {
         is_hiding
     }
 
-    /// Whether a piece covers all of the part.
+    /// Whether a piece covers the whole part.
     pub(super) fn is_covered_by(&self, piece: &Visible) -> bool {
         let (own, all) = (&piece.cell.sides, &self.cell.sides);
         let is_side = |half: HalfPlane| all.iter().any(|side| side.half == half);
         own.len() == all.len() && own.iter().all(|side| is_side(side.half))
     }
 
-    /// Divides the part until lists are short, and calls a function with each part of it.
+    /// Divides the part until lists are short, and calls a function with each smaller part.
     pub(super) fn for_each_part(
         self,
         mut see: impl FnMut(Self) -> Result<(), Error>,
@@ -569,7 +571,7 @@ impl<'l, 'p> SubTile<'l, 'p> {
                 counts[0] += usize::from(signs.contains(&sign(false)));
                 counts[1] += usize::from(signs.contains(&sign(true)));
             }
-            // Subtracting takes up to the square of the number of pieces.
+            // Subtracting takes time up to the square of the number of pieces.
             let cost = counts[0] * counts[0] + counts[1] * counts[1];
             if cost * 10 < all * all * 9 && best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, half));

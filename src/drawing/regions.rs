@@ -23,11 +23,11 @@ pub struct Region {
 const TILES_AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
-    /// Divides the picture into regions, in each of which the same polygons are visible. Parts without a
-    /// visible polygon are in no region.
+    /// Divides the picture into regions; inside each, the same polygons are visible. Parts without a visible
+    /// polygon are in no region.
     ///
-    /// Where all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
-    /// polygons behind them: n overlapping ones have up to O(n²) regions, with up to n polygons each. To
+    /// If all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
+    /// polygons behind them: n overlapping polygons have up to O(n²) regions, with up to n polygons each. To
     /// avoid seams, fill each region with one blended colour and add the regions instead of painting them
     /// over one another.
     ///
@@ -43,7 +43,7 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The visible parts of polygons that lie one behind the other: a phase.
+    /// The visible parts of polygons that lie one behind the other. Takes one phase.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
@@ -60,19 +60,19 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Polygons that show, each behind another layer or, if that is the first of all, in front.
+/// A visible polygon behind another layer, or in front if that is the first layer.
 struct PolygonLayer {
     polygon: usize,
     before: u32,
 }
 
-/// The regions, each by its last layer.
+/// All regions, each by its last layer.
 #[derive(Default)]
 struct Stacks {
     layers: Vec<PolygonLayer>,
     /// Layers, by the layer in front of them and their polygons.
     numbers: Table<(u32, usize), u32>,
-    /// The parts of regions, and whose they are.
+    /// The parts of regions, and the region of each part.
     parts: Area,
     of_parts: Vec<u32>,
 }
@@ -103,7 +103,7 @@ impl Stacks {
         Ok(())
     }
 
-    /// The regions, in the order of their polygons: a phase.
+    /// The regions, in the order of their polygons. Takes one phase.
     fn regions(self, lines: &LineTable<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
         let Self { layers, parts, of_parts, .. } = self;
         let layer = |part: u32| of_parts[part as usize];
@@ -140,19 +140,19 @@ fn stack(layers: &[PolygonLayer], last: u32) -> Vec<usize> {
 }
 
 impl Region {
-    /// The visible polygons, front to back: translucent ones, then the opaque one behind them if there is
-    /// one. A polygon that is folded over itself is listed more than once.
+    /// Returns the visible polygons, front to back: translucent polygons, then the opaque polygon behind
+    /// them, if any. A polygon that is folded over itself is listed more than once.
     pub fn polygons(&self) -> &[usize] {
         &self.polygons
     }
 
-    /// Its area in square pixels.
+    /// Returns the area of the region in square pixels.
     pub fn area(&self) -> f64 {
         self.outlines.iter().map(|outline| area(outline)).sum::<f64>().max(0.0)
     }
 
-    /// Its outlines, to be filled together, as those of a [`Path`](super::Path): outlines of two regions have
-    /// no area in common.
+    /// Returns the outlines of the region, to be filled together, like the outlines of a
+    /// [`Path`](super::Path). Two regions have no area in common.
     pub fn outlines(&self) -> impl Iterator<Item = &[[f64; 2]]> + Clone {
         self.outlines.iter().map(Vec::as_slice)
     }
@@ -172,29 +172,29 @@ fn area(outline: &[[f64; 2]]) -> f64 {
 /// A tile in convex parts.
 pub(super) struct Divided {
     pub(super) cells: Vec<LayeredCell>,
-    /// Each comes after the one in front of it. The first is of no item.
+    /// Each layer follows the layer in front of it. The first layer has no item.
     pub(super) layers: Vec<ItemLayer>,
 }
 
-/// A convex part: all of it shows the same items.
+/// A convex part in which the same items are visible everywhere.
 pub(super) struct LayeredCell {
     pub(super) cell: Cell,
     around: Rect,
-    /// The last of its layers; the first one of all, of no item, if nothing shows.
+    /// The last of its layers; the first layer, which has no item, if nothing is visible.
     pub(super) layer: u32,
 }
 
-/// A visible item, and the layer in front of it. Cells share layers, so that they take no more memory where
-/// many items lie over one another.
+/// A visible item, and the layer in front of it. Cells share layers, to save memory where many items lie over
+/// one another.
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,
-    /// The newest of the layers directly behind this one.
+    /// The newest of the layers directly behind this layer.
     newest: u32,
 }
 
 impl Divided {
-    /// Visible cells of a tile are combined with the parts found so far, front to back.
+    /// Combines visible cells of a tile, front to back, with the parts found so far.
     pub(super) fn new(
         leaf: &Leaf,
         primitives: &Primitives<'_>,
@@ -257,7 +257,7 @@ impl Divided {
         layer
     }
 
-    /// The items that show in a part, back to front.
+    /// The items that are visible in a part, back to front.
     fn items(&self, part: &LayeredCell) -> impl Iterator<Item = u32> {
         let at = |layer: u32| (layer != 0).then(|| &self.layers[layer as usize]);
         std::iter::successors(at(part.layer), move |layer| at(layer.before)).map(|layer| layer.item)
@@ -265,7 +265,8 @@ impl Divided {
 }
 
 impl VisibilityMap<'_> {
-    /// Calls a function with each convex part of the picture, once for each item that shows there: a phase.
+    /// Calls a function with each convex part of the picture, once for each item that is visible there. Takes
+    /// one phase.
     pub(super) fn for_each_part(
         &self,
         mut see: impl FnMut(u32, &Cell) -> Result<(), Error>,
@@ -296,7 +297,7 @@ impl LayeredCell {
     }
 }
 
-/// Whether nothing in a tile is seen through a translucent item.
+/// Whether no item in a tile is seen through a translucent item.
 fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
 }

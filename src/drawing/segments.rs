@@ -1,4 +1,4 @@
-//! Segments and points of the scene in the picture, and where they pass in front of pieces or behind them.
+//! Segments and points of the scene in the picture, and their passes in front of pieces or behind them.
 //!
 //! The number of polygons in front of a segment is its quantitative invisibility (A. Appel, "The notion of
 //! quantitative invisibility and the machine rendering of solids", 1967).
@@ -20,37 +20,38 @@ use crate::Error;
 use crate::exact::{Faces, Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
 
-/// A segment of the scene, as far as the picture has it.
+/// The part of a segment of the scene that is in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProjectedSegment {
     source: Source,
-    /// The line of the picture that it is on.
+    /// The segment's line in the picture.
     rounded: Rounded,
     pub(super) course: ImageLine,
-    /// On which side of its line the picture lies, if it runs along a border of it; else `Equal`.
+    /// The side of the segment's line on which the picture lies, if the line is a border of the picture;
+    /// otherwise `Equal`.
     pub(super) picture: Ordering,
-    /// A box around that part.
+    /// A box around this part.
     around: Rect,
 }
 
-/// Where a segment is in the picture. How far along something is, is its place: in pixels, rising from the
-/// first end to the second, if these are lattice points.
+/// The position of a segment in the picture. The distance along it is called a *place*: in pixels, increasing
+/// from the first end to the second, if these are lattice points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ImageLine {
-    /// The point of its line that is nearest to the origin.
+    /// The point of the line that is nearest to the origin.
     foot: [f64; 2],
-    /// Along that line; of length 1.
+    /// The direction of the line, of length 1.
     direction: [f64; 2],
-    /// Where it begins and ends in the picture.
+    /// The places of its start and its end in the picture.
     pub(super) places: [f64; 2],
 }
 
-/// Where a segment comes from.
+/// The origin of a segment.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// It goes from one lattice point to another.
+    /// It leads from one lattice point to another.
     Points([[f64; 3]; 2]),
-    /// These faces go through one another there.
+    /// These faces cross each other there.
     Crossing([u32; 2]),
 }
 
@@ -61,7 +62,7 @@ const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 pub(super) const MARGIN: f64 = 1e-3;
 
 impl ProjectedSegment {
-    /// `None` if it is not in the picture, or a point there.
+    /// `None` if the segment is not in the picture, or is a point there.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
         let [low, high] = Tile::picture(lines.frame.rays.size()).sides();
         let images = ends.map(|end| lines.frame.image(end));
@@ -100,7 +101,7 @@ impl ProjectedSegment {
         Some(segment)
     }
 
-    /// The line in which two faces go through one another, as far as it divides a cell.
+    /// The part in a cell of the line in which two faces cross each other.
     pub(super) fn crossing(lines: &LineTable<'_>, faces: [u32; 2], cell: &Cell) -> Option<Self> {
         let rounded = lines.rounded_other(&cut(lines, faces));
         let mut segment = Self::along(rounded, Source::Crossing(faces))?;
@@ -109,7 +110,7 @@ impl ProjectedSegment {
         segment.within(segment.chord(lines, cell).filter(|_| is_divided)?)
     }
 
-    /// As much of it as lies between two places.
+    /// The part of the segment between two places.
     pub(super) fn within(mut self, [from, to]: [f64; 2]) -> Option<Self> {
         let [first, last] = self.course.places;
         let (from, to) = (first.max(from), last.min(to));
@@ -145,7 +146,7 @@ impl ProjectedSegment {
         }
     }
 
-    /// Whether it may meet a box.
+    /// Whether the segment may meet a box.
     pub(super) fn may_meet(&self, around: &Rect) -> bool {
         if are_apart(around, &self.around) {
             return false;
@@ -158,14 +159,14 @@ impl ProjectedSegment {
         self.rounded.at(middle).abs() <= reach
     }
 
-    /// Whether the line goes through a cell or along one of its sides: exact.
+    /// Whether the line crosses a cell or lies along one of its sides, exactly.
     fn meets(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
         let signs = self.signs(lines, cell);
         beside(&signs).is_eq() || side_on_line(&signs).is_some()
     }
 
-    /// From where to where the line goes through a cell or along one of its sides: which of these it does is
-    /// exact, where is rounded.
+    /// The places between which the line crosses a cell or lies along one of its sides. Whether it does is
+    /// exact; the places are rounded.
     pub(super) fn chord(&self, lines: &LineTable<'_>, cell: &Cell) -> Option<[f64; 2]> {
         let n = cell.sides.len();
         let signs = self.signs(lines, cell);
@@ -188,7 +189,7 @@ impl ProjectedSegment {
         Some([a.min(b), a.max(b)])
     }
 
-    /// On which side of the line each corner of a cell lies.
+    /// The side of the line on which each corner of a cell lies.
     fn signs(&self, lines: &LineTable<'_>, cell: &Cell) -> SmallVec<[Ordering; 8]> {
         (0..cell.sides.len()).map(|i| self.side(lines, cell, i)).collect()
     }
@@ -204,8 +205,8 @@ impl ProjectedSegment {
         lines.exact_side_of(&self.exact(lines), halves)
     }
 
-    /// The places where it is further away than a face's plane, which is seen from a side; `None` if it is
-    /// nowhere. No further off than the tolerance it is on the plane, and not behind it.
+    /// The places where the segment is further away than a face's plane, which is seen from a given side;
+    /// `None` if there are no such places. Within the tolerance the segment is on the plane, not behind it.
     pub(super) fn behind(
         &self,
         lines: &LineTable<'_>,
@@ -218,8 +219,9 @@ impl ProjectedSegment {
         }
     }
 
-    /// The same of a crossing, by one of its faces: that is as far away as another plane where the rays meet
-    /// both in one line. (No tolerance: the ends are no lattice points.)
+    /// Like [`behind`](Self::behind) for a crossing, by one of its faces: the face and another plane are
+    /// equally far away in the line of the rays that meet both in one point. (No tolerance: the ends are no
+    /// lattice points.)
     fn crossing_behind(
         &self,
         lines: &LineTable<'_>,
@@ -228,7 +230,7 @@ impl ProjectedSegment {
         seen: Ordering,
     ) -> Option<[f64; 2]> {
         let [line, cut] = [self.exact(lines), cut(lines, [own, face])];
-        // Where the cut is positive, the own face is in front of the other's plane if its κ is positive.
+        // Where the cut is positive, the own face is in front of the other face's plane if its κ is positive.
         let side = lines.frame.sheet(PlaneId::face(own)).side();
         let is_behind = |sign: Ordering| {
             let at = if side.is_gt() { sign } else { sign.reverse() };
@@ -246,8 +248,8 @@ impl ProjectedSegment {
             return Some(if after { [place, ALL[1]] } else { [ALL[0], place] })
                 .filter(|_| after || is_behind(rise.reverse()));
         }
-        // It is the same all along: of the line that is left if as much of the other is taken away as has its
-        // slope.
+        // The cut is constant along the line: subtract the multiple of the line that has the cut's slope; the
+        // rest has the sign.
         let axis = if line[1].sign().is_ne() { 1 } else { 2 };
         let sign = if line[axis].sign().is_gt() { minor(0, axis) } else { minor(axis, 0) };
         is_behind(sign).then_some(ALL)
@@ -267,7 +269,7 @@ impl ProjectedSegment {
         if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
             return (is_behind != [false; 2]).then_some(ALL);
         }
-        // It goes through the plane, at a mean of its ends.
+        // The segment crosses the plane, at a mean of its ends.
         let plane = faces.plane(PlaneId::face(face));
         let [a, b] = ends.map(|end| lines.frame.image(end));
         let weights = [ends[1], ends[0]].map(|end| {
@@ -289,12 +291,12 @@ impl ProjectedSegment {
 }
 
 impl ImageLine {
-    /// The point of its line at a place.
+    /// The point of the line at a place.
     pub(super) fn at(&self, place: f64) -> [f64; 2] {
         [0, 1].map(|axis: usize| self.foot[axis] + self.direction[axis] * place)
     }
 
-    /// How far along a point of the picture is.
+    /// The place of a point of the picture.
     pub(super) fn place(&self, [x, y]: [f64; 2]) -> f64 {
         x * self.direction[0] + y * self.direction[1]
     }
@@ -305,25 +307,25 @@ impl ImageLine {
     }
 }
 
-/// Where in the picture a point of the scene is, rounded.
+/// The rounded position of a point of the scene in the picture.
 fn point_of<const N: usize>(image: &[Int<N>; 3]) -> [f64; 2] {
     let [weight, x, y] = image.map(Int::to_f64);
     [x / weight, y / weight]
 }
 
-/// On which side of a line a cell is whose corners are on these sides of it; `Equal` if it is on both.
+/// The side of a line on which a cell lies, given the sides of its corners; `Equal` if it is on both sides.
 fn beside(signs: &[Ordering]) -> Ordering {
     let sides = [Ordering::Greater, Ordering::Less].map(|side| signs.contains(&side));
     sides[0].cmp(&sides[1])
 }
 
-/// The line in which rays meet the planes of two faces.
+/// The line of the rays that meet the planes of two faces in one point.
 fn cut(lines: &LineTable<'_>, faces: [u32; 2]) -> ExactLine {
     let [one, other] = faces.map(|face| lines.frame.sheet(PlaneId::face(face)));
     one.cut(&other)
 }
 
-/// A point of the scene as the picture shows it.
+/// A point of the scene in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProjectedPoint {
     point: [f64; 3],
@@ -331,7 +333,7 @@ pub(super) struct ProjectedPoint {
 }
 
 impl ProjectedPoint {
-    /// `None` if it is not in the picture.
+    /// `None` if the point is not in the picture.
     pub(super) fn new(lines: &LineTable<'_>, point: [f64; 3]) -> Option<Self> {
         let image = lines.frame.image(point);
         if !image[0].sign().is_gt() {
@@ -341,18 +343,18 @@ impl ProjectedPoint {
         projected.is_in(lines, &Cell::picture(lines)).then_some(projected)
     }
 
-    /// A box around it.
+    /// A box around the point.
     pub(super) fn around(&self) -> Rect {
         [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
     }
 
-    /// Whether it is in a cell, or on one of its sides: exact.
+    /// Whether the point is in a cell or on one of its sides, exactly.
     pub(super) fn is_in(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
         cell.sides.iter().all(|side| {
             let line = lines.rounded(side.half);
             let value = line.at(self.at);
             let is_outside = |side_of: Ordering| side_of.is_lt() != side.half.is_negative();
-            // Its coordinates are rounded three times.
+            // The coordinates are rounded three times.
             let off = 4.0 * f64::EPSILON * (self.at[0].abs() + self.at[1].abs());
             if value.abs() > line.error + line.slope * off {
                 return !is_outside(value.total_cmp(&0.0));
@@ -363,7 +365,7 @@ impl ProjectedPoint {
         })
     }
 
-    /// Whether it is further away than a face's plane.
+    /// Whether the point is further away than a face's plane.
     pub(super) fn is_behind(&self, lines: &LineTable<'_>, face: u32, seen: Ordering) -> bool {
         let faces = lines.frame.faces;
         let prepared = PreparedPlane::new(faces, PlaneId::face(face));
@@ -379,7 +381,7 @@ pub(super) struct Pass {
     pub(super) piece: u32,
     /// Whether the piece is in front of it.
     pub(super) is_behind: bool,
-    /// From where to where, along the segment.
+    /// The places along the segment between which it passes.
     pub(super) places: [f64; 2],
 }
 
@@ -392,7 +394,7 @@ pub(super) struct PointPass {
     pub(super) is_behind: bool,
 }
 
-/// Segments and points, with the numbers of the ones that may be in a part of the picture.
+/// Segments and points, with the numbers of those that may be in a part of the picture.
 #[derive(Clone)]
 pub(super) struct Passing<'a> {
     segments: &'a [ProjectedSegment],
@@ -438,20 +440,20 @@ impl<'a> Passing<'a> {
     }
 }
 
-/// What was found: one segment may pass a piece in several parts, and one point be found twice.
+/// The passes found: one segment may pass a piece in several parts, and one point may be found twice.
 #[derive(Default)]
 pub(super) struct Passes {
     pub(super) segments: Vec<Pass>,
     pub(super) points: Vec<PointPass>,
 }
 
-/// Tiles are not halved where at most this many pieces reach into them without covering them. Too small: more
+/// Tiles are not halved if at most this many pieces reach into them without covering them. Too small: more
 /// tiles, and more parts of segments (8: twice the time, for crossing triangles five times). Too large: more
 /// segments are compared with more pieces (128: up to a sixth less time).
 const FEW: usize = 64;
 
-/// All passes of segments and points that candidates are in front of, or of all if the others are wanted too:
-/// a phase.
+/// The passes of segments and points behind candidates; on request, also the passes in front of candidates.
+/// Takes one phase.
 pub(super) fn passes<'p>(
     candidates: Candidates<'p>,
     passing: Passing<'p>,
@@ -496,7 +498,7 @@ impl Passes {
         joined
     }
 
-    /// Adds where pieces, which have the numbers of items or faces, are passed.
+    /// Adds the passes over or behind pieces, which have the numbers of items or faces.
     fn add<'c>(
         &mut self,
         primitives: &Primitives<'_>,
@@ -556,8 +558,8 @@ pub(super) struct Depth {
     layers: u32,
 }
 
-/// The quantitative invisibility of segments, and where that of each begins: before its first place, nothing
-/// is in front.
+/// The quantitative invisibility of segments, and the start of each segment's list: before its first place,
+/// nothing is in front.
 pub(super) struct Depths {
     depths: Vec<Depth>,
     begins: Vec<usize>,
@@ -580,7 +582,7 @@ impl Depths {
             changes.clear();
             watch.work(own.len() * VISITED)?;
             for same in own.chunk_by(|a, b| polygon(a) == polygon(b)) {
-                // Each polygon counts once, however many parts of it there are.
+                // Each polygon counts once, however many parts it has.
                 let counts = |pass: &&Pass| !is_own(number, pass.piece);
                 for [from, to] in merged(same.iter().filter(counts).map(|pass| pass.places)) {
                     changes.push((from, 1));
@@ -603,7 +605,7 @@ impl Depths {
     }
 }
 
-/// Takes the passes of a segment from the beginning of a list that is sorted by segments.
+/// Removes the passes of a segment from the start of a list that is sorted by segments, and returns them.
 pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] {
     let (own, rest) = passes.split_at(passes.partition_point(|pass| pass.segment == segment));
     *passes = rest;
@@ -611,8 +613,8 @@ pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] 
 }
 
 impl VisibilityMap<'_> {
-    /// Where faces are in front of segments, sorted by segments, polygons and places, and in front of points:
-    /// a phase. Hidden and translucent faces are among them only if all are wanted.
+    /// The passes of segments behind faces, sorted by segments, polygons and places, and the passes of
+    /// points. Hidden and translucent faces are included only on request. Takes one phase.
     pub(super) fn in_front<'l>(
         &'l self,
         passing: Passing<'l>,
@@ -631,7 +633,7 @@ impl VisibilityMap<'_> {
         Ok(passes)
     }
 
-    /// Where visible parts of opaque faces are in front of segments and points: a phase.
+    /// The passes of segments and points behind visible parts of opaque faces. Takes one phase.
     fn behind_visible<'l>(
         &'l self,
         passing: Passing<'l>,
@@ -660,7 +662,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Merges intervals, given in the order of their beginnings, that overlap or meet up to rounding.
+/// Merges intervals that overlap or meet up to rounding, given in the order of their starts.
 pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
     let mut intervals = intervals.peekable();
     std::iter::from_fn(move || {
@@ -672,8 +674,8 @@ pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator
     })
 }
 
-/// A segment in parts that are in some intervals and parts that are not, in the order of their beginnings; the
-/// intervals are given in that of theirs.
+/// Divides a segment into parts inside some intervals and parts outside, in the order of their starts. The
+/// intervals are given in the order of their starts.
 pub(super) fn parts(
     course: &ImageLine,
     intervals: impl Iterator<Item = [f64; 2]>,
@@ -701,8 +703,8 @@ pub(super) fn parts(
 /// Both ends of a run.
 type Ends = [[f64; 2]; 2];
 
-/// The parts of a run, and how many layers are in front of each: one at least if it is hidden. Parts that
-/// rounding has left are not told from those before them.
+/// The parts of a run, and the number of layers in front of each: at least one for a hidden run. Parts that
+/// are only due to rounding are merged with the previous parts.
 pub(super) fn in_layers(
     ends: Ends,
     is_visible: bool,
@@ -714,7 +716,7 @@ pub(super) fn in_layers(
     };
     let [a, b] = ends.map(|end| segment.course.place(end));
     let (low, high) = (a.min(b), a.max(b));
-    // Where each part begins, as a share of the run.
+    // The start of each part, as a share of the run.
     let mut parts: Vec<(f64, u32)> = Vec::new();
     let first = depths.partition_point(|depth| depth.from <= low);
     let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);

@@ -1,7 +1,7 @@
 //! Vector pictures as SVG.
 //!
-//! Coordinates are whole numbers of a small unit, relative to the point before, so that they are short.
-//! Shapes of one look that follow one another share it in a group.
+//! Coordinates are whole numbers of a small unit, relative to the previous point, so that they are short.
+//! Consecutive shapes of one look share it in a group.
 
 use std::borrow::Cow;
 use std::fmt::{self, Write};
@@ -11,9 +11,9 @@ use super::picture::{
 };
 
 impl VectorPicture {
-    /// The picture as the text of an SVG file.
+    /// Returns the picture as the text of an SVG file.
     ///
-    /// Labels are text, with the fonts of the viewer. [Groups](Self::group) have their attributes.
+    /// Labels are text, in the fonts of the viewer. [Groups](Self::group) have their attributes.
     pub fn to_svg(&self) -> String {
         let mut out = String::new();
         // Writing to a string does not fail.
@@ -37,75 +37,89 @@ impl VectorPicture {
         if self.adds_up {
             writeln!(out, "<style>.binspace-sum path{{mix-blend-mode:plus-lighter}}</style>")?;
         }
-        write_nodes(out, &self.nodes, scale)?;
+        write_nodes(&self.nodes, |part| match part {
+            Written::Begin { attributes, look } => {
+                write!(out, "<g{attributes}")?;
+                write_look(out, look, scale)?;
+                writeln!(out, ">")
+            }
+            Written::Item { item, attributes, look } => {
+                write_item(out, item, attributes, look, scale)
+            }
+            Written::End => writeln!(out, "</g>"),
+        })?;
         writeln!(out, "</g>\n</svg>")
     }
 }
 
 /// The attributes that shapes may have in common: their paint, and the size of their font.
-type Look = (Paint, Option<f64>);
+pub(super) type Look = (Paint, Option<f64>);
 
-/// A group that is being written: where it ends, and the look of all that is in it, if it has that look.
+/// A part of a file, in the order to write it. Looks are absent where a group around it has them.
+pub(super) enum Written<'a> {
+    /// The beginning of a group.
+    Begin { attributes: &'a str, look: Option<Look> },
+    /// A shape, with the attributes of a group of it alone.
+    Item { item: &'a PaintedShape, attributes: &'a str, look: Option<Look> },
+    /// The end of the last group that is open.
+    End,
+}
+
+/// A group that is being written: its end, and the look of its contents, if the group states it.
 struct Open {
     end: usize,
     look: Option<Look>,
 }
 
-fn write_nodes(out: &mut String, nodes: &[Node], scale: f64) -> fmt::Result {
+/// Writes nodes. Shapes of one look that follow one another are grouped.
+pub(super) fn write_nodes(
+    nodes: &[Node],
+    mut write: impl FnMut(Written<'_>) -> fmt::Result,
+) -> fmt::Result {
     let looks = looks(nodes);
     let mut open: Vec<Open> = Vec::new();
     let mut at = 0;
     loop {
         while open.pop_if(|group| group.end == at).is_some() {
-            writeln!(out, "</g>")?;
+            write(Written::End)?;
         }
         let Some(node) = nodes.get(at) else { return Ok(()) };
         let known = open.last().and_then(|group| group.look);
         // The look of this node, if no group around it has it.
-        let own = if known.is_none() { looks[at] } else { None };
-        if own.is_some() {
+        let look = if known.is_none() { looks[at] } else { None };
+        if look.is_some() {
             let limit = open.last().map_or(nodes.len(), |group| group.end);
             let mut end = after(nodes, at);
-            let is_alone = end == limit || looks[end] != own;
-            while end < limit && looks[end] == own {
+            let is_alone = end == limit || looks[end] != look;
+            while end < limit && looks[end] == look {
                 end = after(nodes, end);
             }
-            // For one node a group is longer than it saves.
+            // A group for one node would make the file longer.
             if !is_alone {
-                write!(out, "<g")?;
-                write_look(out, own, scale)?;
-                writeln!(out, ">")?;
-                open.push(Open { end, look: own });
+                write(Written::Begin { attributes: "", look })?;
+                open.push(Open { end, look });
                 continue;
             }
         }
-        let (attributes, item) = match node {
-            Node::Shape(item) => ("", item),
+        match node {
+            Node::Shape(item) => write(Written::Item { item, attributes: "", look })?,
             Node::Group { attributes, end } => match &nodes[at + 1..*end] {
-                [] => {
-                    at += 1;
-                    continue;
-                }
+                [] => {}
                 [Node::Shape(item)] => {
                     at += 1;
-                    (&attributes[..], item)
+                    write(Written::Item { item, attributes, look })?;
                 }
                 _ => {
-                    write!(out, "<g{attributes}")?;
-                    write_look(out, own, scale)?;
-                    writeln!(out, ">")?;
-                    open.push(Open { end: *end, look: known.or(own) });
-                    at += 1;
-                    continue;
+                    write(Written::Begin { attributes, look })?;
+                    open.push(Open { end: *end, look: known.or(look) });
                 }
             },
-        };
-        write_item(out, item, attributes, own, scale)?;
+        }
         at += 1;
     }
 }
 
-/// The number of the node after a node and all that is in it.
+/// The number of the node after a node and its contents.
 fn after(nodes: &[Node], at: usize) -> usize {
     match nodes[at] {
         Node::Group { end, .. } => end,
@@ -113,7 +127,7 @@ fn after(nodes: &[Node], at: usize) -> usize {
     }
 }
 
-/// The look of each node: of a group, that of all shapes in it if they have one look.
+/// The look of each node; for a group, the common look of all its shapes, if any.
 fn looks(nodes: &[Node]) -> Vec<Option<Look>> {
     let mut looks = vec![None; nodes.len()];
     for (at, node) in nodes.iter().enumerate().rev() {
@@ -209,7 +223,7 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The data of a path, in steps from one corner to the next, so that roundings do not add up.
+/// The data of a path, in whole steps from one corner to the next, so that roundings do not add up.
 fn data(steps: &Steps) -> String {
     let mut data = Data { text: String::new(), decimals: steps.decimals, had_point: false };
     let mut pen = [0; 2];
@@ -234,7 +248,7 @@ fn data(steps: &Steps) -> String {
 struct Data {
     text: String,
     decimals: u32,
-    /// Whether the number before has a decimal point.
+    /// Whether the previous number has a decimal point.
     had_point: bool,
 }
 
@@ -244,8 +258,8 @@ impl Data {
         self.had_point = false;
     }
 
-    /// Adds a number of steps. Its sign separates it from the number before, or its point if that number has
-    /// one too, or else a space.
+    /// Adds a number of steps. It is separated from the previous number by its sign, by its decimal point if
+    /// that number has one too, or otherwise by a space.
     fn number(&mut self, steps: i64) {
         let unit = 10u64.pow(self.decimals);
         let (whole, rest) = (steps.unsigned_abs() / unit, steps.unsigned_abs() % unit);
@@ -273,7 +287,7 @@ fn push(text: &mut String, number: u64) {
     let _ = write!(text, "{number}");
 }
 
-/// A text as the value of an attribute or as the text of an element. Characters that XML cannot hold are
+/// A text as the value of an attribute or as the text of an element. Characters that XML does not allow are
 /// replaced.
 pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     let is_plain =
@@ -288,7 +302,7 @@ pub(super) fn escaped(text: &str) -> Cow<'_, str> {
             '>' => escaped += "&gt;",
             '&' => escaped += "&amp;",
             '"' => escaped += "&quot;",
-            // Readers turn unescaped ones into spaces.
+            // Parsers turn unescaped tabs and line ends into spaces.
             '\t' => escaped += "&#9;",
             '\n' => escaped += "&#10;",
             '\r' => escaped += "&#13;",
@@ -322,7 +336,7 @@ mod tests {
         let dot = [[3.5, 3.5], [3.501, 3.5]];
         let lines: [&[[f64; 2]]; 4] = [&corner, &ring, &dot, &corner[..2]];
         let data = data(&Steps::drawn(lines.into_iter(), 10));
-        // After an open line the pen is at its end, after a closed one where that began.
+        // After an open line the pen is at its end, after a closed line at its start.
         assert_eq!(data, "m5 5 10 0 0 20m-10-10 10 0-10 10zm30 20 0 0m-30-30 10 0");
     }
 
@@ -342,7 +356,7 @@ mod tests {
     fn what_is_small_keeps_an_area() {
         let speck = [[3.0, 3.0], [3.001, 3.0], [3.0, 3.0003]];
         assert_eq!(filled(&[&speck], 100), "m300 300 .1 0-.1.03z");
-        // Smaller than all steps: a path all the same.
+        // Smaller than all steps, but still a path.
         assert_eq!(filled(&[&[[3.0, 3.0], [3.0, 3.0], [3.0, 3.0]]], 100), "m300 300z");
         // Coincident corners are one, and the hole vanishes.
         let square = [[0.0, 0.0], [0.001, 0.0], [4.0, 0.0], [4.0, 4.0], [0.001, 0.001]];

@@ -1,4 +1,4 @@
-//! Drawings of translucent polygons: which pieces overlap, and which parts are painted at once.
+//! Drawings of translucent polygons: the pieces that overlap, and the parts that are painted at once.
 
 use std::cmp::Reverse;
 
@@ -16,41 +16,42 @@ use crate::progress::Watch;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
-/// The most rounds of the search for an order with a place for each line and point of an overlay. One is
-/// enough for nearly all scenes and views; heaps of rectangles in a grid, seen along its diagonal with all
-/// their edges, need up to five.
+/// The most rounds of the search for an order with a place for each line and point of an overlay. One round
+/// is enough for nearly all scenes and views; many rectangles in a grid, seen along its diagonal with all
+/// their edges, need up to five. Too small: lines without a place. Too large: time.
 const ROUNDS: usize = 8;
 
 impl Drawing {
     /// Returns all polygons as filled outlines, with no hidden parts removed. Paint the paths in order, each
     /// with its polygon's opacity. Each point of each polygon is in one path.
     ///
-    /// Polygons are split only where no painting order of whole polygons is found. The tree's pieces of such
-    /// a polygon are then joined as far as the joined parts still have a painting order from this viewpoint.
-    /// A bent polygon that overlaps itself in the picture has at least one path for each of its faces.
+    /// Polygons are split only if no painting order of whole polygons is found. The tree's pieces of such a
+    /// polygon are then joined, as long as the joined parts have a painting order from this viewpoint. A bent
+    /// polygon that overlaps itself in the picture has at least one path for each of its faces.
     ///
     /// The option [`front_faces_only`](ViewOptions::front_faces_only) applies. Polygons with opacity 0 are
-    /// left out; other opacities, and the least area, have no effect. Where all polygons are opaque,
-    /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) has fewer paths. Time and memory grow with
-    /// the number of pairs of polygons that overlap in the picture with none between them.
+    /// left out; other opacities, and the least area, have no effect. If all polygons are opaque,
+    /// [`VisibilityMap::drawing`](super::VisibilityMap::drawing) returns fewer paths. Time and memory grow
+    /// with the number of pairs of polygons that overlap in the picture without a third polygon between them.
     ///
     /// # Lines and points
     ///
-    /// The lines and points of an overlay of the same tree come between the paths: see
-    /// [`display_list`](Self::display_list). To have them above all, paint the runs of
+    /// The lines and points of an overlay of the same tree are placed between the paths: see
+    /// [`display_list`](Self::display_list). To paint them above all paths, paint the runs of
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
-    /// A segment is cut where its place in the order changes. Each part comes after the polygons behind it
-    /// and the polygons that it lies on, and before the polygons in front of it, by the rules of `lines`.
-    /// Lines and points with one place in the order come in input order, lines first. Two that cross in the
-    /// picture may come in input order too, whichever is nearer. All of them are marked as visible.
+    /// A segment is cut where its place in the order changes. Each part is painted after the polygons behind
+    /// it and the polygons that it lies on, and before the polygons in front of it, by the rules of `lines`.
+    /// Lines and points with the same place in the order are painted in input order, lines first. Two lines
+    /// that cross in the picture may also be painted in input order, whichever is nearer. All lines and
+    /// points are marked as visible.
     ///
-    /// An overlay does not change the paths, except where a line runs along a border between polygons that
-    /// only touch there, one behind it and the other in front: these two are then painted in that order too,
-    /// which may change the number of paths of polygons. If such pairs close a cycle, or are not all found in
-    /// a few rounds, a part comes after all polygons behind it, but polygons in front may be painted before
-    /// it. The same holds for a bent polygon that has one face behind a line and another in front, because it
-    /// is one path.
+    /// An overlay does not change the paths, with one exception: a line along the border of two polygons that
+    /// only touch there, one behind the line and the other in front. Then these two polygons are painted in
+    /// that order, which may change the number of paths of polygons. If such pairs close a cycle, or are not
+    /// all found in a few rounds, a part is painted after all polygons behind it, but polygons in front may
+    /// be painted before it. The same is true of a bent polygon that has one face behind a line and another
+    /// in front, because it is one path.
     ///
     /// # Errors
     ///
@@ -82,8 +83,8 @@ impl Drawing {
                 let Some(between) = &between else { break (parts, ordered, vec![]) };
                 let places = parts.places(&ordered);
                 let (placed, missed) = between.placed(&places, ordered.order.len(), watch)?;
-                // Again with all that was missed so far, until that is nothing new. What was kept stays so: new
-                // pairs come last.
+                // Repeat with all pairs missed so far, until there are no new pairs. Pairs that were kept are
+                // still kept, because new pairs are added last.
                 let mut new = sorted(vec![missed], watch)?;
                 new.retain(|pair| !known.contains(pair));
                 rounds += 1;
@@ -104,15 +105,16 @@ impl Drawing {
     }
 }
 
-/// The drawing of a map where something shows through: opaque polygons are in one path each, translucent ones
-/// as in [`Drawing::translucent`], and hidden polygons and those of a list are left out. Two phases.
+/// The drawing of a map with translucent polygons: opaque polygons have one path each, and translucent
+/// polygons have paths as in [`Drawing::translucent`]. Hidden polygons and the polygons of a list are left
+/// out. Takes two phases.
 pub(super) fn mixed(
     primitives: &Primitives<'_>,
     leaves: &[Leaf],
     left_out: &[usize],
     watch: &Watch<'_>,
 ) -> Result<Drawing, Error> {
-    // Polygons that show are known by their first items.
+    // Visible polygons are identified by their first items.
     let polygon = |item: u32| primitives.polygon(item);
     let mut shows = vec![false; primitives.polygon_count()];
     for visible in leaves.iter().flat_map(|leaf| &leaf.cells) {
@@ -135,18 +137,18 @@ pub(super) fn mixed(
 /// Too small: more paths. Too large: more time.
 const NEXT: usize = 16;
 
-/// A part that is painted at once: items of one polygon.
+/// Parts that are painted at once, each with items of one polygon.
 pub(super) struct Parts {
     of_item: Vec<u32>,
-    /// The items of each, one face after another.
+    /// The items of each part, one face after another.
     items: Vec<Vec<u32>>,
     /// Pairs of items that touch, which an order of the parts can keep in addition to the pairs that overlap.
     touching: Vec<Pair>,
 }
 
 impl Parts {
-    /// Parts of which an order is left that keeps the pairs of items that overlap, and as many as can be of
-    /// others that only touch: those the order of the tree may not keep.
+    /// Joins items to parts that still have an order which keeps all pairs of overlapping items, and as many
+    /// as possible of the pairs that only touch, which the tree's order may not keep.
     pub(super) fn new(
         primitives: &Primitives<'_>,
         overlaps: &[Pair],
@@ -159,7 +161,7 @@ impl Parts {
         let all = contracted(all, |item| units[item as usize], watch)?;
         let cycles = cycles(count, &all, watch)?;
         let cycle = |item: u32| cycles[units[item as usize] as usize];
-        // Units in no cycle are whole. The pieces of the others start by themselves.
+        // Units in no cycle are whole. Each piece of the other units starts as a separate group.
         let items = 0..units.len() as u32;
         let mut nodes: Vec<u32> = items.filter(|&item| cycle(item).is_some()).collect();
         // From back to front, numbers of items decrease and numbers of nodes increase.
@@ -202,8 +204,8 @@ impl Parts {
         Ok(Self { of_item, items, touching: kept })
     }
 
-    /// A painting order of the parts: it keeps all pairs of items, and otherwise the tree's order. Where
-    /// something is hidden, `leaves` have the visible parts, and opaque polygons in cycles are clipped.
+    /// A painting order of the parts that keeps all pairs of items, and otherwise the tree's order. If
+    /// polygons are hidden, `leaves` contain the visible parts, and opaque polygons in cycles are clipped.
     pub(super) fn order(
         &self,
         primitives: &Primitives<'_>,
@@ -232,8 +234,8 @@ impl Parts {
         self.of_item.iter().map(|&part| places[part as usize]).collect()
     }
 
-    /// The parts in order, as filled outlines: a phase. With them how many the first parts have, for each
-    /// number of parts.
+    /// The parts in order, as filled outlines, and for each number of parts, the number of paths of the first
+    /// parts. Takes one phase.
     pub(super) fn drawing(
         &self,
         primitives: &Primitives<'_>,
@@ -282,7 +284,7 @@ impl Parts {
         Ok((drawing, paths))
     }
 
-    /// The visible part of each.
+    /// The visible part of each part.
     fn cells<'l>(&self, leaves: &'l [Leaf]) -> Vec<Vec<&'l Cell>> {
         let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.items.len()];
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
@@ -292,7 +294,7 @@ impl Parts {
     }
 }
 
-/// How many items there are.
+/// Numbers of items.
 struct Counts {
     of_face: Vec<u32>,
     of_polygon: Vec<u32>,
@@ -318,7 +320,7 @@ impl Counts {
     ) -> Result<(), Error> {
         for same in items.chunk_by(|&a, &b| primitives.face(a) == primitives.face(b)) {
             let face = primitives.face(same[0]);
-            // The outline of a face is its own where none of its pieces is missing.
+            // If no piece of a face is missing, use the face's own outline.
             if same.len() as u32 == self.of_face[face as usize] {
                 add_piece(&primitives.lines, primitives.outline(face), area, watch)?;
                 continue;
@@ -331,7 +333,7 @@ impl Counts {
     }
 }
 
-/// The number of each item's polygon, or, of polygons that lie over themselves, of its face.
+/// For each item, the number of its polygon, or of its face if the polygon lies over itself.
 fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     let polygon = |item: u32| primitives.polygon(item);
     let mut is_folded = vec![false; primitives.polygon_count()];
@@ -353,8 +355,8 @@ fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     (0..primitives.items.len() as u32).map(unit).collect()
 }
 
-/// Nodes of one unit, two at a time, those first that are nearest in the order: they have the fewest
-/// between them. (Which are joined first hardly matters to how many are left.)
+/// Pairs of nodes of one unit, the nearest in the order first, because they have the fewest nodes between
+/// them. (The number of remaining parts hardly depends on the sequence of joins.)
 fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
     let unit = |node: u32| units[nodes[node as usize] as usize];
     let mut by_unit: Vec<u32> = (0..nodes.len() as u32).collect();

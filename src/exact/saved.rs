@@ -208,7 +208,7 @@ fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str>
         return match frame {
             _ if !have_area(triangle) => Err("has no area"),
             Frame::TRIANGLE => Ok(()),
-            _ => Err("is moved, but a triangle"),
+            _ => Err("is a triangle, but is stored as moved"),
         };
     }
     let plane = Plane::through(triangle);

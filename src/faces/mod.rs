@@ -20,15 +20,16 @@ use tolerance::SnapParams;
 pub use tolerance::{DEFAULT_TOLERANCE, Tolerance};
 pub(crate) use tolerance::{Precision, empty_faces};
 
-/// Polygons that one thread prepares as one job. Too small: overhead per job. Too large: threads wait
-/// for each other.
+/// The number of polygons that one thread prepares as one job. Too small: overhead per job. Too large:
+/// threads wait for each other.
 const POLYGONS_A_THREAD: usize = 1024;
-/// Polygons prepared between two polls for cancellation, after which the jobs' faces are put together. Too
-/// small: threads wait for each other. Too large: a cancel takes longer, and more memory is used.
+/// The number of polygons prepared between two polls for cancellation; after each, the jobs' faces are
+/// joined. Too small: threads wait for each other. Too large: cancelling takes longer, and more memory is
+/// used.
 const POLYGONS_AT_ONCE: usize = 16 * POLYGONS_A_THREAD;
 
-/// The distance of a segment's third corner, if the segment's neighbours give none: a quarter of the
-/// lattice. Any distance gives the same plane.
+/// The distance of a segment's third corner, if no neighbour of the segment can be used: a quarter of the
+/// lattice. Any distance makes the same plane.
 const ARM: f64 = LATTICE_LIMIT / 2.0;
 
 /// A report on the preparation of an input's polygons.
@@ -37,31 +38,31 @@ const ARM: f64 = LATTICE_LIMIT / 2.0;
 pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
-    /// Polygons without area, which become no face: polygons with fewer than three different corners, or
-    /// with collinear corners. This is decided exactly, after the corners are rounded to the lattice.
-    /// Corners that are collinear as decimal numbers may not be so as `f64`. In the tree of a cell,
-    /// polygons outside the cell count too.
+    /// The number of polygons without area, which become no face: polygons with fewer than three different
+    /// corners, or with collinear corners. This is decided exactly, after the corners are rounded to the
+    /// lattice. Corners that are collinear as decimal numbers may not be collinear as `f64`. In the tree of a
+    /// cell, polygons outside the cell count too.
     pub dropped: usize,
-    /// Polygons that were not convex, or not planar within the tolerance, and became triangles.
+    /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
-    /// The triangulated polygons that cross themselves, or whose winding number is not the same everywhere
-    /// inside, in a projection along the main axis of their vector area; decided exactly. If the polygon's
-    /// edges meet only at corners, the triangles cover every point with a winding number other than 0.
-    /// Otherwise each two edges that cross are first replaced by two edges between the same four ends that
-    /// do not cross: of the two ways to do so, the one that changes less area. Then the triangles cover the
-    /// inside by the even-odd rule. If that takes too long, or nothing is left, the triangles fan out from
-    /// the first corner.
+    /// The number of triangulated polygons that cross themselves, or whose winding number is not the same
+    /// everywhere inside, in a projection along the main axis of their vector area; decided exactly. If the
+    /// polygon's edges meet only at corners, the triangles cover every point with a winding number other than
+    /// 0. Otherwise each two edges that cross are first replaced by two edges between the same four ends that
+    /// do not cross. Of the two possible replacements, the one that changes less area is used. Then the
+    /// triangles cover the inside by the even-odd rule. If that takes too long, or nothing remains, the
+    /// triangles fan out from the first corner.
     pub crossing: usize,
-    /// Polygons with a corner off the plane of the others, but within the tolerance: they stay whole, and
-    /// those corners count as on the plane.
+    /// The number of polygons with a corner off the plane of the others, but within the tolerance. They stay
+    /// whole, and such corners count as on the plane.
     pub flattened: usize,
     /// The largest distance of such a corner from the plane, a length.
     pub flattened_by: f64,
-    /// The triangulated polygons that are probably planar, but bent by rounding. They are convex. A corner
-    /// is off the plane of the others by more than the tolerance, but by no more than a limit. The limit is
-    /// the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
+    /// The number of triangulated polygons that are probably planar, but bent by rounding. They are convex. A
+    /// corner is off the plane of the others by more than the tolerance, but by no more than a limit. The
+    /// limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
     /// [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
-    /// `bent_by` they would be whole.
+    /// `bent_by` these polygons would stay whole.
     pub bent: usize,
     /// The largest distance of such a corner from the plane, a length.
     pub bent_by: f64,
@@ -128,7 +129,7 @@ pub(crate) struct Preparer {
 }
 
 impl Preparer {
-    /// Replaces faces by those of other polygons, as [`Faces::new`] does, with a limit on the number of
+    /// Replaces faces by the faces of other polygons, like [`Faces::new`], with a limit on the number of
     /// polygons. Reports progress to `watch`, which can cancel. After an error, some of the faces may be
     /// present.
     pub(crate) fn prepare<P: Polygon>(
@@ -143,7 +144,7 @@ impl Preparer {
         tolerance.check()?;
         self.input.read(polygons, limit, watch)?;
         let [min, max] = self.input.bounds(self.room);
-        // The added box says nothing about the precision of the polygons.
+        // The precision of the polygons does not depend on the added box.
         let own = if self.room.is_some() { self.input.bounds(None) } else { [min, max] };
         let precision = Precision::new(self.input.precision, own);
         let lattice = Lattice::new(min, max);
@@ -156,8 +157,8 @@ impl Preparer {
         self.add_all(faces, &params, watch)
     }
 
-    /// Adds the faces of all polygons: few on this thread, many as parallel jobs, whose results are put
-    /// together in input order.
+    /// Adds the faces of all polygons: few polygons on this thread, many as parallel jobs, whose results are
+    /// joined in input order.
     fn add_all(
         &mut self,
         faces: &mut Faces,
@@ -209,9 +210,9 @@ impl Preparer {
         Ok(())
     }
 
-    /// Appends the faces of more polygons to those of a finished scene, on its lattice and with its
-    /// tolerance. More than `limit` are an error. The polygons are numbered from `first` on.
-    /// After an error, some of their faces may have been appended.
+    /// Appends the faces of more polygons to a finished scene, on its lattice and with its tolerance. More
+    /// polygons than `limit` are an error. The polygons are numbered from `first` on. After an error, some of
+    /// their faces may have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -259,7 +260,7 @@ impl Preparer {
         Ok(())
     }
 
-    /// Appends points, on the lattice of the faces. After an error, some may have been appended.
+    /// Appends points, on the lattice of the faces. After an error, some points may have been appended.
     pub(crate) fn append_points<P: Point>(
         &mut self,
         faces: &mut Faces,
@@ -310,8 +311,8 @@ fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
 
 /// A lattice point that is not collinear with two others.
 ///
-/// A neighbour is used if it is such a point: then all segments of a planar polyline have its plane, and
-/// none of them cuts another.
+/// A neighbour is used if it is such a point: then all segments of a planar polyline have the polyline's
+/// plane, and no segment cuts another.
 fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     // Without a neighbour, the plane is vertical. Vertical planes cut each other like lines in the plane,
     // which makes fewer pieces than planes in all directions.
@@ -370,7 +371,7 @@ impl InputPolygons {
         self.precisions[polygon]
     }
 
-    /// The bounding box of the polygons and, if given, of a box; zero if there is nothing.
+    /// The bounding box of the polygons and, if given, of a box; zero without corners and box.
     fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
         let first = self.points.first().copied().or(room.map(|[corner, _]| corner));
         let start = [first.unwrap_or_default(); 2];
@@ -384,7 +385,7 @@ impl InputPolygons {
         (0..self.len()).find(|&polygon| self.polygon(polygon).iter().any(is_off))
     }
 
-    /// Replaces the polygons by those of an iterator; more than `limit` is an error.
+    /// Replaces the polygons by the polygons of an iterator; more polygons than `limit` are an error.
     fn read<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -466,7 +467,7 @@ impl InputPolygons {
         push(&mut self.ends, self.points.len() as u32)
     }
 
-    /// An error if there are more corners than `u32` numbers.
+    /// Returns an error if there are more corners than `u32` numbers.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());

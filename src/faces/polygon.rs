@@ -26,7 +26,7 @@ pub(super) struct FaceBuilder<'a> {
     pub(super) corners: &'a mut Corners,
     pub(super) params: &'a SnapParams,
     pub(super) watch: &'a Watch<'a>,
-    /// Its lengths are in lattice units.
+    /// The report; its lengths are in lattice units.
     pub(super) report: Preparation,
 }
 
@@ -110,8 +110,8 @@ impl FaceBuilder<'_> {
         self.report.flattened_by = self.report.flattened_by.max(off);
     }
 
-    /// Adds four corners as one face, the same as [`add`](Self::add) but faster. Returns false, and adds
-    /// nothing, if floats cannot prove that the corners are convex, or one face is not allowed.
+    /// Adds four corners as one face, the same face as [`add`](Self::add) but faster. Returns false and adds
+    /// nothing if floats cannot prove that the corners are convex, or if the polygon may not be one face.
     fn add_quad(&mut self, polygon: usize, mut corners: [[f64; 3]; 4]) -> Result<bool, Error> {
         let Some([far, best]) = widest(4, |k| corners[k].into()) else { return Ok(false) };
         let (second, third) = (far.min(best), far.max(best));
@@ -136,7 +136,8 @@ impl FaceBuilder<'_> {
         Ok(true)
     }
 
-    /// Adds triangles in place of a polygon: none if no triangle has area. Returns whether it crosses itself.
+    /// Adds triangles in place of a polygon: no triangle if none has area. Returns whether the polygon
+    /// crosses itself.
     fn triangulate(&mut self, polygon: usize, convex: bool, plane: &Plane) -> Result<bool, Error> {
         let corners: Vec<_> = self.corners.kept.iter().map(|&(point, _)| point).collect();
         let found = if convex {
@@ -211,12 +212,12 @@ pub(super) fn keep_distinct(points: &[DVec3], lattice: &Lattice, kept: &mut Vec<
 /// The corners of a polygon on the lattice.
 #[derive(Debug, Default)]
 pub(super) struct Corners {
-    /// The corners, each with its number. Of equal consecutive corners one is kept.
+    /// The corners, each with its number. Of equal consecutive corners only the last is kept.
     kept: Vec<Corner>,
     /// The number of corners in the input.
     given: usize,
-    /// For each kept corner, the number of corners that the straight run of the outline from there passes
-    /// or ends at; at least 1. Empty if the polygon is not triangulated.
+    /// For each kept corner, the number of later corners on the straight run of the outline that begins
+    /// there; at least 1. Empty if the polygon is not triangulated.
     runs: Vec<u32>,
 }
 
@@ -242,8 +243,8 @@ impl Corners {
         exact(best).or_else(|| (1..self.kept.len()).find_map(exact))
     }
 
-    /// Whether the straight line from one kept corner to another is part of the outline: the second
-    /// is the next corner, or all corners in between are on the line.
+    /// Whether the straight line from one kept corner to another is part of the outline: the second corner is
+    /// the next corner, or all corners in between are on the line.
     fn is_outline(&self, from: usize, to: usize) -> bool {
         let n = self.kept.len();
         let next = if from + 1 == n { 0 } else { from + 1 };
@@ -252,12 +253,12 @@ impl Corners {
         self.kept[next].0 == self.kept[to].0 || ahead <= run
     }
 
-    /// Finds how far the outline runs straight from each corner, in linear time.
+    /// Finds the straight run of the outline from each corner, in linear time.
     fn find_runs(&mut self) {
         let n = self.kept.len();
         self.runs.clear();
         self.runs.resize(n, 1);
-        // Twice around, backwards: the run of the last corner depends on that of the first.
+        // Twice around, backwards: the run of the last corner depends on the run of the first.
         for k in (0..2 * n).rev() {
             let [a, b, c] = [k, k + 1, k + 2].map(|k| self.kept[k % n].0);
             let is_straight = cross(a, b, c) == [0; 3];
@@ -267,7 +268,7 @@ impl Corners {
     }
 }
 
-/// The corner that is furthest from corner 0, and the one that spans the largest triangle with both, by
+/// The corner that is furthest from corner 0, and the corner that spans the largest triangle with both, by
 /// rounded numbers.
 #[inline]
 fn widest(n: usize, point: impl Fn(usize) -> DVec3) -> Option<[usize; 2]> {
@@ -285,11 +286,11 @@ fn widest(n: usize, point: impl Fn(usize) -> DVec3) -> Option<[usize; 2]> {
 }
 
 impl Faces {
-    /// The number of polygons that have the corners of an earlier one, in the same cyclic order or its
-    /// reverse. Exact; takes O(n log n) time and O(n) memory for n corners.
+    /// Counts the polygons that have the corners of an earlier polygon, in the same cyclic order or its
+    /// reverse. The count is exact and takes O(n log n) time and O(n) memory for n corners.
     ///
-    /// A polygon's corners are taken from its faces, before any was moved. Corners that no face has are
-    /// unknown.
+    /// A polygon's corners are read from its faces, as given, before the tolerance moved them. Corners that
+    /// no face has are unknown.
     #[doc(hidden)]
     pub fn duplicates(&self) -> usize {
         let (mut outlines, mut first) = (HashSet::new(), 0);

@@ -16,18 +16,18 @@ use crate::input::STEPS;
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 
 /// The largest default tolerance as a share of the extent, except for the rounding of a number type (see
-/// [`Precision`]). Too large: coarsely written coordinates are merged although they differ. Too small:
-/// polygons bent by such a rounding are triangulated.
+/// [`Precision`]). Too large: layers of coarsely written coordinates are merged although they differ. Too
+/// small: polygons bent by coarse rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
 /// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on it.
 ///
 /// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. A
 /// tolerance that is too large, infinity included, is reduced to a fixed share of the extent between 1/256
-/// and 1/128. [`BspTree`](crate::BspTree#which-tolerance) helps to choose one.
+/// and 1/128. [`BspTree`](crate::BspTree#which-tolerance) helps to choose a tolerance.
 ///
 /// The extent is the longest side of the bounding box of all corners. One stray vertex makes it larger; if
-/// that can happen, give a length.
+/// that can happen, set a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Tolerance {
@@ -38,12 +38,12 @@ pub enum Tolerance {
     /// |---|---|
     /// | `f64` | 10⁻⁹ of the extent |
     /// | `f32` | four steps of the largest coordinate: between 2·10⁻⁷ and 5·10⁻⁷ of the extent |
-    /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need, zeros at the end aside; at most 10⁻⁵ of the extent, wherever the scene lies |
+    /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
-    /// Far from the origin `f32` and `f64` have coarser steps. There the default is four steps of the
-    /// largest coordinate, however large a share of the extent they are. For `f64` this is more than 10⁻⁹
-    /// beyond a million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated
-    /// as `f32` if nearly all of their numbers are `f32`, written with more digits than these have.)
+    /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
+    /// largest coordinate, however large a share of the extent this is. For `f64` it is more than 10⁻⁹ beyond
+    /// a million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as `f32`
+    /// if nearly all their numbers are `f32`, written with more digits than an `f32` has.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -53,7 +53,7 @@ pub enum Tolerance {
 }
 
 impl From<Option<f64>> for Tolerance {
-    /// A length, or the default.
+    /// Converts a length, or `None` for the default.
     fn from(length: Option<f64>) -> Self {
         length.map_or(Self::Default, Self::Length)
     }
@@ -75,8 +75,8 @@ impl Tolerance {
 pub(crate) struct Precision {
     /// The largest distance of a corner from its intended plane, in world units.
     length: f64,
-    /// Whether `length` is the rounding of the number type. Such numbers cannot express anything finer, so
-    /// the default tolerance has no upper limit. Other polygons only state a precision, and it is limited.
+    /// Whether `length` is the rounding of the number type. Such numbers cannot express finer lengths, so the
+    /// default tolerance has no upper limit. Other polygons only state a precision, and that is limited.
     is_of_numbers: bool,
 }
 
@@ -132,8 +132,8 @@ impl SnapParams {
     }
 
     /// Whether rounding can be the reason that a corner is `off` the plane of the others, in lattice units.
-    /// The answer depends on neither the other polygons nor the extent, so it is the same in every part of
-    /// a scene.
+    /// The result depends on neither the other polygons nor the extent, so it is the same in every part of a
+    /// scene.
     pub(super) fn may_be_rounding(&self, off: f64, precision: f64) -> bool {
         let coarse = self.lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
         off > 0.0 && off <= coarse.max(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT)

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use super::piece::{ClippedCorner, Layer, LayerVertex};
 
 /// A layer counts as seen edge-on if its area on the screen is less than this many rounding errors of its
-/// matrix. Too small: cards turned by a rounded right angle cut others. Too large: thin cards vanish.
+/// matrix. Too small: cards turned by a rounded right angle cut other cards. Too large: thin cards vanish.
 const EDGE_ON: f64 = 8.0;
 /// The number of rounding errors of a matrix by which a corner may be off its plane; see
 /// `Polygon::precision`. Too small: cards that matrices put into one plane cut each other. Too large: thin
@@ -20,7 +20,7 @@ struct Point {
     edge: Option<u8>,
 }
 
-/// Six half planes clip four corners to ten at most; each side of an ancestor adds one.
+/// Six half-planes clip a rectangle to at most ten corners; each side of an ancestor adds one corner.
 pub(super) const MOST_CORNERS: usize = 10;
 
 type Points = SmallVec<[Point; MOST_CORNERS]>;
@@ -31,11 +31,10 @@ type Points = SmallVec<[Point; MOST_CORNERS]>;
 ///
 /// Rounding may put a corner slightly outside the box. The corner is moved onto the sides that lie in
 /// `viewport`, but not onto sides that are a million sizes of the viewport away: there the last bit of its
-/// place in the layer is a tenth of a pixel on the screen, so moving it would take it off its plane by as
-/// much.
+/// place in the layer is a tenth of a pixel on the screen, so the move would put it off its plane by as much.
 ///
-/// The layer is clipped in its own plane, where every side of the box is a half plane. So all corners lie
-/// in one plane up to the rounding of their last computation, whatever clipped them.
+/// The layer is clipped in its own plane, where every side of the box is a half-plane. So all corners lie in
+/// one plane up to the rounding of their last computation, whichever sides clipped them.
 pub(super) fn clip(
     layer: &Layer,
     limits: [DVec3; 2],
@@ -53,7 +52,7 @@ pub(super) fn clip(
     for Point { local, edge } in points {
         let at = local.extend(1.0);
         let [x, y, z, w] = rows.map(|row| row.dot(at));
-        // Rounding alone decides such a w: the layer is in the eye's own plane.
+        // Only rounding decides such a w: the layer is in the eye's own plane.
         if w <= 0.0 || !(w / scale).is_normal() {
             corners.truncate(begin);
             return None;
@@ -86,14 +85,14 @@ fn determinant([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(b.cross(c))
 }
 
-/// The determinant with every sign positive (permanent): of absolute values, a bound on the sum of its
-/// terms.
+/// The determinant with every sign positive (the permanent). For absolute values, it bounds the sum of the
+/// determinant's terms.
 fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
     let sums = DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
     a.dot(sums)
 }
 
-/// The part of the rectangle inside its ancestors' and the box; `None` if there is none.
+/// The part of the rectangle inside its ancestors' rectangles and the box; `None` if it is empty.
 fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
     let corners = layer.corners();
     let [low, high] = limits;

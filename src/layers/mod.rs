@@ -33,18 +33,20 @@
 //!
 //! # Conventions
 //!
-//! The conventions of CSS. On the screen x runs right, y down and z towards the viewer, in one unit,
-//! usually the pixel. A matrix maps a point (u, v) of its layer, as (u, v, 0, 1), to homogeneous screen
-//! coordinates (x, y, z, w), and includes the perspective. The screen shows the point at (x/w, y/w) if w is
-//! positive, and a larger z/w is nearer to the viewer. So the page is seen along −z *after* the division,
-//! and paint order is that of rising z/w.
+//! The conventions are those of CSS. On the screen x points right, y down and z towards the viewer, in one
+//! unit, usually the pixel. A matrix maps a point (u, v) of its layer, as (u, v, 0, 1), to homogeneous screen
+//! coordinates (x, y, z, w), and includes the perspective. If w is positive, the point is at (x/w, y/w) on
+//! the screen, and a larger z/w is nearer to the viewer. So the page is seen along −z *after* the division,
+//! and layers are painted in the order of increasing z/w.
 //!
-//! If depths of your matrices increase away from the viewer, negate their third row. If they run from 0 to
-//! 1, multiply it by the size of the viewport: depths are compared with the same tolerance as x and y.
+//! If depths of your matrices increase away from the viewer, negate their third row. If depths are from 0 to
+//! 1, multiply the third row by the size of the viewport: depths are compared with the same tolerance as x
+//! and y.
 //!
 //! # Matrices
 //!
-//! The matrix of an element is its parent's, times the element's own CSS properties, from left to right:
+//! The matrix of an element is its parent's matrix, times the matrices of the element's own CSS properties,
+//! from left to right:
 //!
 //! | CSS | matrix |
 //! |---|---|
@@ -82,52 +84,52 @@
 //! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), 2²⁰ of its longer side around it |
 //! | depth z/w | 2²⁰ longer sides of the viewport to the front and to the back |
 //!
-//! Points in the box have a positive w. The limit of depth is the near plane. With the perspective d of CSS
-//! it is where w, the distance from the eye as a share of d, is d / (2²⁰ longer sides). There a layer
-//! appears about a million times enlarged. Inside the viewport only a layer that nearly passes through the
-//! eye, and so is seen edge-on, comes as near as that.
+//! Points in the box have a positive w. The limit of depth is the near plane. With the perspective d of CSS,
+//! the near plane is where w, the distance from the eye as a share of d, equals d / (2²⁰ longer sides). There
+//! a layer appears about a million times enlarged. Inside the viewport, only a layer that nearly passes
+//! through the eye, and so is seen edge-on, is as near as that.
 //!
 //! | layer | result |
 //! |---|---|
-//! | NaN or infinite numbers, or some whose products are | an error that names the layer |
+//! | numbers that are NaN or infinite, or whose products are | an error that names the layer |
 //! | outside the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ of its longer side, such as 10¹⁸ pixels | no piece |
 //! | any, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
 //! | outside an ancestor that [clips](Layer::clipped_by) it, or clipped by an ancestor whose matrix makes that a line or a point | no piece |
-//! | a matrix that makes it a line or a point | no piece |
+//! | a matrix that maps it to a line or a point | no piece |
 //! | seen edge-on, up to the rounding of the matrix; this includes a rectangle so far from its own origin that this rounding is as large as its area on the screen | no piece |
 //! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸, as of a matrix times 10⁻³¹⁰, or a product of the rectangle's sides below that, as of 10⁻¹⁷⁰ by 10⁻¹⁷⁰ | no piece |
 //! | smaller on the screen than the rounding of positions, 2⁻⁵² of the page's reach | no piece |
 //! | any other | a convex polygon of at most ten corners, and four more for each ancestor that clips it, in one piece or, if other layers cut it, several |
 //!
 //! Every other layer that is partly in the box has pieces. Only NaN, infinite and too large numbers are an
-//! error: a card that turns past its edge, or leaves the screen, is an ordinary frame. [`Layers::visible`]
-//! counts the layers with pieces, and [`LayerPiece::layer`] identifies them. A layer's number is its index
-//! in the list, whether or not other layers have pieces. Layers in one plane, by the
-//! [tolerance](#tolerance), come in the order of the list.
+//! error; a card that turns past its edge, or leaves the screen, is not. [`Layers::visible`] counts the
+//! layers with pieces, and [`LayerPiece::layer`] identifies them. A layer's number is its index in the list,
+//! whether or not other layers have pieces. Layers in one plane, by the [tolerance](#tolerance), are painted
+//! in the order of the list.
 //!
 //! # Why layers are clipped
 //!
-//! Near the eye's plane divided coordinates have no bound, and the default tolerance of a
+//! Near the eye's plane, divided coordinates are unbounded, and the default tolerance of a
 //! [`BspTree`](crate::BspTree) is a share of the scene's extent. Consider pages of 30 layers above a floor
-//! that reaches behind the eye. Divided where w ≥ 10⁻⁹ and given directly to a tree, they are painted in a
-//! wrong order at 67 to 97 % of the points where layers overlap; with w ≥ 10⁻⁶ one of four pages is still
-//! wrong (at 42 %). Clipped as above, or with the tolerance of this module and not clipped to the viewport,
-//! none is wrong. (Bench `peers`, section `clipping`.) Clipping to the viewport also leaves fewer layers to
-//! cut, because many layers of a long page are not on the screen.
+//! that reaches behind the eye. If their parts with w ≥ 10⁻⁹ are divided by w and passed directly to a tree,
+//! they are painted in a wrong order at 67 to 97 % of the points where layers overlap. With w ≥ 10⁻⁶, one of
+//! four pages is still wrong (at 42 %). No page is wrong if layers are clipped as above, or not clipped to
+//! the viewport but with the tolerance of this module. (Bench `peers`, section `clipping`.) Clipping to the
+//! viewport also leaves fewer layers to cut, because many layers of a long page are not on the screen.
 //!
 //! # Antialiasing
 //!
-//! Painters that antialias a path blend its border pixels with the pixels below. Where two pieces of a
-//! layer meet, both blend, and the background shows through as a seam. To paint opaque layers without
-//! seams, for each piece:
+//! Painters that antialias a path blend its border pixels with the pixels below. Where two pieces of a layer
+//! meet, both pieces blend, and the background shows through as a seam. To paint opaque layers without seams,
+//! for each piece:
 //!
 //! 1. Fill its outline without antialiasing.
 //! 2. Stroke the edges for which [`LayerPiece::edges`] returns `Some`, one pixel wide, with round joins,
 //!    antialiased, in the layer's colour.
 //!
-//! The example `smooth_layers` does this with tiny-skia. Cuts, where layers cross, are not antialiased. Do
-//! not stroke translucent layers: half of the stroke covers the fill and is visible.
+//! The example `smooth_layers` does this with tiny-skia. The cuts where layers cross are not antialiased. Do
+//! not stroke translucent layers: half the stroke covers the fill and is visible.
 //!
 //! # Tolerance
 //!
@@ -144,15 +146,15 @@
 //! |---|---|
 //! | with equal matrices | in the order of the list, because they lie in one plane by definition |
 //! | each with all its corners within the tolerance of the other's plane | in the order of the list |
-//! | there further apart than twice the tolerance, measured along the normal of either plane | by depth |
+//! | further apart where they overlap than twice the tolerance, measured along the normal of either plane | by depth |
 //! | any other | in either order |
 //!
 //! In an unclipped page, a layer that reaches behind the eye has corners so far away that single pages
 //! violate the second row: fewer than one in a thousand of the hard pages in the tests.
 //!
-//! The first three rows have one exception, that of the [tree](crate::BspTree#exactness): two layers come
-//! in either order if they overlap only within twice the tolerance of the plane of a third layer that is in
-//! another plane.
+//! The first three rows have the same exception as the [tree](crate::BspTree#exactness): two layers may be
+//! painted in either order if they overlap only within twice the tolerance of the plane of a third layer that
+//! is in another plane.
 
 mod clip;
 mod page;

@@ -17,14 +17,14 @@ use crate::viewpoint::Viewpoint;
 const REACH: f64 = (1 << 20) as f64;
 /// The least and the largest tolerance, as shares of the viewport's size, like those of
 /// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
-/// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers
-/// are merged, or, because of one layer with few digits, those of the whole page.
+/// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers are
+/// merged, or, because of one layer with few digits, all thin layers of the page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
-/// 2⁻⁵² of the page's extent. It exceeds the least share of the viewport only if a layer reaches further
-/// than 35 000 times the viewport's longer side. Too small: there a step is more than the tolerance, and
-/// layers that separate matrices put into one plane come out of document order (without it 8 of 2000
-/// unclipped pages). Too large: thin layers are merged there.
+/// 2⁻⁵² of the page's extent. It exceeds the least share of the viewport only if a layer reaches further than
+/// 35 000 times the viewport's longer side. Too small: a step is more than the tolerance, and layers that
+/// separate matrices put into one plane lose their document order (without this limit, in 8 of 2000 unclipped
+/// pages). Too large: thin layers are merged.
 const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
 /// A point outside a piece counts as inside up to this share of the viewport's size. Too small: points fall
 /// through between pieces. Too large: an edge is hit before it is reached.
@@ -32,8 +32,8 @@ const TOUCH: f64 = 1e-9;
 
 /// The layers of a page, cut and in paint order, reused from frame to frame.
 ///
-/// Give every frame's layers to [`update`](Self::update). Unchanged frames take no time; others take the
-/// time of building a [`BspTree`](crate::BspTree) of as many polygons. Then read the pieces. [The
+/// Pass every frame's layers to [`update`](Self::update), then read the pieces. Unchanged frames take no
+/// time; other frames take the time of building a [`BspTree`](crate::BspTree) of as many polygons. [The
 /// module](super) has an example and lists the result for every kind of layer.
 #[derive(Clone, Debug)]
 pub struct Layers {
@@ -45,7 +45,7 @@ pub struct Layers {
     outlines: Vec<Outline>,
     /// The corners of all outlines.
     corners: Vec<ClippedCorner>,
-    /// All outlines, those of one plane consecutively.
+    /// All outlines; outlines in one plane are consecutive.
     by_plane: Vec<u32>,
     builder: FrameBuilder,
     /// Whether the builder's tree belongs to the last frame.
@@ -61,14 +61,14 @@ struct Outline {
     layer: usize,
     /// Equal for layers of one plane.
     plane_key: u64,
-    /// The first of its corners; they end where the next outline's begin.
+    /// The first of the outline's corners; they end where the next outline's corners begin.
     corners: usize,
     pieces: usize,
 }
 
 impl Layers {
-    /// An empty page on a screen from the `low` to the `high` corner of its viewport. If that has no area,
-    /// nothing is ever visible.
+    /// Creates an empty page on a screen, from the `low` to the `high` corner of its viewport. If the
+    /// viewport has no area, no layer is visible.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
             viewport: [low.into(), high.into()],
@@ -84,8 +84,9 @@ impl Layers {
         }
     }
 
-    /// An empty page that is not clipped to the viewport, for pages that are painted once and scrolled.
-    /// Layers outside the viewport are cut as well, which takes time. The viewport still gives the scale.
+    /// Turns off clipping to the viewport, for pages that are painted once and scrolled. The page becomes
+    /// empty. Layers outside the viewport are cut as well, which takes time. The viewport still determines
+    /// the scale.
     #[must_use]
     pub fn unclipped(mut self) -> Self {
         self.clear();
@@ -108,14 +109,14 @@ impl Layers {
     ///
     /// # Errors
     ///
-    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the error
-    /// is the layer's index), if a tree may not have as many pieces, or if memory runs out. Then the page
-    /// has no pieces.
+    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the error is
+    /// the layer's index), if a tree may not have as many pieces, or if memory runs out. After an error the
+    /// page has no pieces.
     pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
         if self.is_built && self.layers == layers {
             return Ok(false);
         }
-        // The page is empty until its tree is built, so also after an error.
+        // The page is empty until its tree is built, and so after an error.
         self.clear();
         self.replace(layers).map(|()| true)
     }
@@ -153,7 +154,7 @@ impl Layers {
         Ok(())
     }
 
-    /// Clips all layers. Returns the coarsest precision of any.
+    /// Clips all layers. Returns the coarsest precision of any layer.
     fn clip(&mut self) -> Result<f64, Error> {
         let (limits, viewport) = (self.limits(), self.is_clipped.then_some(self.viewport));
         let mut coarsest = 0.0f64;
@@ -205,24 +206,25 @@ impl Layers {
         [(low - across).extend(-reach), (high + across).extend(reach)]
     }
 
-    /// The number of visible layers, each with one piece or more. [The module](super#pieces-of-a-layer)
-    /// lists why others have none.
+    /// Returns the number of visible layers, each with one piece or more. [The
+    /// module](super#pieces-of-a-layer) lists the reasons why other layers have no pieces.
     pub fn visible(&self) -> usize {
         self.visible
     }
 
-    /// The number of pieces. If it equals the number of [visible](Self::visible) layers, no layer is cut.
+    /// Returns the number of pieces. If it equals the number of [visible](Self::visible) layers, no layer is
+    /// cut.
     pub fn len(&self) -> usize {
         self.order.len()
     }
 
-    /// Whether nothing is visible.
+    /// Returns whether no layer is visible.
     pub fn is_empty(&self) -> bool {
         self.order.is_empty()
     }
 
-    /// The pieces in paint order: none hides one that comes later. Front to back from its end, or with
-    /// `rev()`.
+    /// Returns the pieces in paint order: no piece hides a later piece. Read it from the end, or with
+    /// `rev()`, for front to back.
     pub fn back_to_front(
         &self,
     ) -> impl DoubleEndedIterator<Item = LayerPiece<'_>> + ExactSizeIterator + Clone {
@@ -242,8 +244,8 @@ impl Layers {
         }
     }
 
-    /// The nearest layer at a point of the screen: its index, and its point (u, v) that appears there. The
-    /// first of the [`hits`](Self::hits).
+    /// Returns the nearest layer at a point of the screen: its index, and its point (u, v) that appears
+    /// there. It is the first of the [`hits`](Self::hits).
     pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         self.hits(point).next()
     }
@@ -251,9 +253,9 @@ impl Layers {
     /// Lists all layers at a point of the screen, front to back, each once: its index, and its point (u, v)
     /// that appears there.
     ///
-    /// O(pieces). The order is that of the pieces, and exact. Whether a piece covers the point is decided
-    /// in `f64`, by its [vertices](LayerPiece::vertices): points outside count as inside within 10⁻⁹ of the
-    /// viewport's longer side of its edge. Where pieces of one layer meet, the nearer one counts.
+    /// O(pieces). The order is the exact order of the pieces. Whether a piece covers the point is decided in
+    /// `f64`, by its [vertices](LayerPiece::vertices): a point outside counts as inside if it is closer to an
+    /// edge than 10⁻⁹ of the viewport's longer side. Where pieces of one layer meet, the nearer piece counts.
     pub fn hits(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);
@@ -276,7 +278,7 @@ impl Layers {
     }
 }
 
-/// The corners of one of some outlines.
+/// The corners of an outline.
 fn corners_of<'a>(
     outlines: &[Outline],
     corners: &'a [ClippedCorner],
@@ -296,7 +298,7 @@ impl Polygon for Clipped<'_> {
         self.0.iter().map(|corner| corner.vertex.position)
     }
 
-    /// The tolerance of a page is set, and needs no default.
+    /// Returns 0: the tolerance of a page is set, and needs no default.
     fn precision(&self) -> f64 {
         0.0
     }

@@ -9,25 +9,25 @@ use crate::tree::Fragment;
 pub struct LayerPiece<'p> {
     pub(super) number: usize,
     pub(super) layer: &'p Layer,
-    /// The clipped layer, of which the fragment is a piece.
+    /// The clipped layer that the fragment is a piece of.
     pub(super) outline: &'p [ClippedCorner],
     pub(super) fragment: Fragment<'p>,
     pub(super) is_whole: bool,
 }
 
 impl<'p> LayerPiece<'p> {
-    /// The index of its layer in the list.
+    /// Returns the index of the piece's layer in the list.
     pub fn layer(&self) -> usize {
         self.number
     }
 
-    /// Whether no other layer cuts its layer, so that this is its whole visible part.
+    /// Returns whether the piece is the whole visible part of its layer, because no other layer cuts it.
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }
 
-    /// The vertices, in the layer's own orientation: like the rotation from u to v, clockwise on the screen
-    /// if the layer is seen from its front.
+    /// Returns the vertices, in the layer's own orientation: like the rotation from u to v, clockwise on the
+    /// screen if the layer is seen from its front.
     ///
     /// Pieces of one layer that share a vertex have the same bits for its position. The place in the layer
     /// is u = Σ λ u/w ÷ Σ λ/w, with the weights λ of the vertex over the corners on the screen.
@@ -41,14 +41,14 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// For each edge, from a vertex to the next, the edge of the layer that it lies on, or `None` if a cut
-    /// or the viewport made it. [Antialias](super#antialiasing) only edges of the layer: where pieces of
-    /// one layer meet, antialiasing would let the background through.
+    /// Returns, for each edge from a vertex to the next, the edge of the layer that it lies on, or `None` if
+    /// a cut or the viewport made it. [Antialias](super#antialiasing) only edges of the layer: where pieces
+    /// of one layer meet, antialiasing would let the background through.
     ///
-    /// Edge 0 runs from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to
-    /// 7 belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Edges 8 and up
-    /// belong to the ancestors that cut this ancestor and to further ones, in the order of the calls. Edges
-    /// of the 64th and later ancestors are `None`.
+    /// Edge 0 leads from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
+    /// belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Edges 8 and up
+    /// belong to the ancestors that cut this ancestor, and to further ancestors, in the order of the calls.
+    /// Edges of the 64th and later ancestors are `None`.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
@@ -63,10 +63,10 @@ impl<'p> LayerPiece<'p> {
         at.cmpge(bounds[0] - slack).all() && at.cmple(bounds[1] + slack).all()
     }
 
-    /// Whether it covers a point of the screen, or comes within `slack` of it.
+    /// Whether the piece covers a point of the screen, or is within `slack` of it.
     ///
     /// Tests a ray along x, which the outline crosses an odd number of times, and distances from the edges.
-    /// It does not test sides of lines: an edge no longer than its rounding error points anywhere.
+    /// It does not test sides of lines: an edge no longer than its rounding error may have any direction.
     pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
         let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());
         let Some(first) = vertices.next() else { return false };
@@ -90,21 +90,21 @@ impl<'p> LayerPiece<'p> {
 /// A corner of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerVertex {
-    /// Its position on the screen and its depth: (x/w, y/w, z/w).
+    /// The position on the screen and the depth: (x/w, y/w, z/w).
     pub position: DVec3,
-    /// The positive w that it was divided by.
+    /// The positive w by which the coordinates were divided.
     pub w: f64,
-    /// Its position (u, v) in the layer's own rectangle.
+    /// The position (u, v) in the layer's own rectangle.
     pub local: DVec2,
 }
 
 impl LayerVertex {
-    /// (x, y, z, w), for a GPU, which divides by w itself.
+    /// Returns (x, y, z, w), for a GPU, which divides by w itself.
     pub fn homogeneous(&self) -> DVec4 {
         (self.position * self.w).extend(self.w)
     }
 
-    /// (u/w, v/w, 1/w). All three are linear over the piece on the screen, which u and v are not:
+    /// Returns (u/w, v/w, 1/w). These three are linear over the piece on the screen, unlike u and v:
     /// interpolate them and divide the first two by the third.
     pub fn perspective(&self) -> DVec3 {
         self.local.extend(1.0) / self.w
@@ -139,7 +139,7 @@ pub(super) fn interpolated(
 /// A rectangle in its own coordinates, and a matrix that maps it to the screen. Rectangles of ancestors may
 /// cut it.
 ///
-/// Two layers are equal if their numbers are: an equal list of layers is an unchanged frame.
+/// Two layers are equal if their numbers are equal. An equal list of layers is an unchanged frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     low: DVec2,
@@ -160,28 +160,30 @@ pub fn perspective(distance: f64, origin: [f64; 2]) -> DMat4 {
     about(origin, matrix)
 }
 
-/// Returns a matrix that does about the point `origin` what another does about (0, 0): that of CSS
-/// `transform` with its `transform-origin`, by default the middle of the element's box.
+/// Returns a matrix that transforms about the point `origin` as `matrix` transforms about (0, 0). It is the
+/// matrix of CSS `transform` with its `transform-origin`, by default the middle of the element's box.
 pub fn about([x, y]: [f64; 2], matrix: DMat4) -> DMat4 {
     let origin = DVec3::new(x, y, 0.0);
     DMat4::from_translation(origin) * matrix * DMat4::from_translation(-origin)
 }
 
 impl Layer {
-    /// The rectangle from `low` to `high`, in the layer's own coordinates (u, v), and a matrix from
-    /// (u, v, 0, 1) to homogeneous screen coordinates (x, y, z, w). Its z column is not used.
+    /// Creates a layer: the rectangle from `low` to `high`, in the layer's own coordinates (u, v), and a
+    /// matrix from (u, v, 0, 1) to homogeneous screen coordinates (x, y, z, w). The matrix's z column is not
+    /// used.
     pub fn new([low, high]: [[f64; 2]; 2], matrix: DMat4) -> Self {
         Self::with_step([low, high], matrix, f64::EPSILON)
     }
 
-    /// The rectangle from (0, 0) to (width, height): the box of a CSS element, with u to the right and v
-    /// downwards from its upper left corner. [The module](super#matrices) shows how to compute its matrix.
+    /// Creates a layer with the rectangle from (0, 0) to (width, height): the box of a CSS element, with u to
+    /// the right and v downwards from its upper left corner. [The module](super#matrices) shows how to
+    /// compute its matrix.
     pub fn rect([width, height]: [f64; 2], matrix: DMat4) -> Self {
         Self::new([[0.0, 0.0], [width, height]], matrix)
     }
 
-    /// Like [`new`](Self::new), with a matrix that was computed in `f32`: layers in one plane up to its
-    /// rounding count as coplanar.
+    /// Creates a layer like [`new`](Self::new), with a matrix that was computed in `f32`: layers in one plane
+    /// up to its rounding count as coplanar.
     pub fn from_f32([low, high]: [[f64; 2]; 2], matrix: Mat4) -> Self {
         Self::with_step([low, high], matrix.as_dmat4(), f64::from(f32::EPSILON))
     }
@@ -193,13 +195,13 @@ impl Layer {
     }
 
     /// Cuts the layer by the rectangle of an ancestor that hides its overflow (CSS `overflow: hidden`), and
-    /// by the rectangles that cut the ancestor. Call it again for further ancestors. The page paints the
-    /// ancestor only if it contains it.
+    /// by the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor itself is
+    /// painted only if it is also in the list of layers.
     ///
-    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the intersection
-    /// of both outlines remains, up to the rounding of `f64`; it is exact if both have the same matrix.
-    /// Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor is
-    /// seen edge-on, nothing remains.
+    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the intersection of
+    /// their outlines remains, up to the rounding of `f64`; it is exact if both layers have the same matrix.
+    /// Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor is seen
+    /// edge-on, nothing remains.
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};
@@ -251,21 +253,22 @@ impl Layer {
         &self.clips
     }
 
-    /// The point (u, v) of the layer's plane that appears at a point of the screen, for drawing a layer
-    /// pixel by pixel. It may be outside the layer's rectangle. `None` where the plane does not appear or
-    /// appears as a line.
+    /// Returns the point (u, v) of the layer's plane that appears at a point of the screen, for drawing a
+    /// layer pixel by pixel. It may be outside the layer's rectangle. `None` if the plane does not appear
+    /// there or appears as a line.
     ///
-    /// It is linear over the screen without perspective; otherwise u/w, v/w and 1/w are.
+    /// Without perspective, u and v are linear over the screen; otherwise u/w, v/w and 1/w are linear.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let [of_x, of_y, _, of_w] = self.rows;
-        // Both are 0 at (u, v, 1): the point is where their lines meet.
+        // Both factors are 0 at (u, v, 1): their lines meet in the point.
         let point = (of_x - of_w * x).cross(of_y - of_w * y);
         let local = point.truncate() / point.z;
         let is_seen = of_w.dot(local.extend(1.0)) > 0.0 && local.is_finite();
         is_seen.then_some(local.to_array())
     }
 
-    /// A number that is the same for layers of [one plane](Self::shares_plane), and rarely for others.
+    /// A number that is equal for layers of [one plane](Self::shares_plane), and rarely equal for other
+    /// layers.
     pub(super) fn plane_key(&self) -> u64 {
         let numbers = self.rows.iter().flat_map(|row| row.to_array());
         // 0 and −0 are equal.
@@ -275,7 +278,7 @@ impl Layer {
         numbers.fold(0, add)
     }
 
-    /// Whether its plane is another layer's by definition: their matrices are equal.
+    /// Whether two layers are in one plane by definition: their matrices are equal.
     pub(super) fn shares_plane(&self, other: &Self) -> bool {
         self.rows == other.rows
     }
@@ -291,7 +294,7 @@ impl Layer {
         local.clamp(self.low, self.high)
     }
 
-    /// Whether its numbers, and the numbers computed from them, are finite.
+    /// Whether the layer's numbers, and the numbers computed from them, are finite.
     pub(super) fn is_finite(&self) -> bool {
         let numbers = self.low.is_finite() && self.high.is_finite();
         let clips = self.clips.iter().all(|clip| clip.is_finite());
@@ -311,8 +314,8 @@ impl Layer {
         row.abs().dot(largest)
     }
 
-    /// The coefficients of (x, y, z, w), scaled by a power of two so that the largest is about 1: no
-    /// product overflows. Homogeneous coordinates mean the same at any scale. The scale comes last.
+    /// The coefficients of (x, y, z, w), scaled by a power of two so that the largest is about 1 and no
+    /// product overflows, and the scale. The scale of homogeneous coordinates does not matter.
     pub(super) fn scaled_rows(&self) -> ([DVec3; 4], f64) {
         let largest = self.rows.iter().fold(0.0, |size: f64, &row| size.max(self.size_of(row)));
         let exponent = largest.log2().floor().clamp(-1000.0, 1000.0);

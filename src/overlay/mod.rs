@@ -28,7 +28,7 @@ use crate::viewpoint::Ray;
 ///
 /// # Use
 ///
-/// Make an overlay once, replace its polygons whenever they move, and ask it for the order of both:
+/// Make an overlay once, replace its polygons whenever they move, and write one order of tree and overlay:
 ///
 /// ```
 /// use binspace::overlay::Overlay;
@@ -85,79 +85,81 @@ use crate::viewpoint::Ray;
 ///
 /// # Queries
 ///
-/// [`hits`](Self::hits) returns the polygons of the tree and of the overlay along a ray, the nearest first.
-/// [`is_occluded`](Self::is_occluded) returns whether one of them blocks the line of sight between two points.
-/// [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices and triangles for a renderer.
+/// [`hits`](Self::hits) returns the polygons of the tree and of the overlay along a ray, nearest first.
+/// [`is_occluded`](Self::is_occluded) returns whether a polygon of either blocks the line of sight between
+/// two points. [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices and triangles
+/// for a renderer.
 ///
-/// # What it holds
+/// # Contents
 ///
-/// Each polygon is cut by the planes of the tree on the way to the leaves that it lies in. Pieces
-/// that meet in one leaf are ordered by a small tree of their own. The tree itself is never cut or
-/// changed. A piece of a polygon is a [`Fragment`]; their polygons are numbered from the number of the
-/// tree's polygons on, as if they had been given after these. Pieces, of whatever kind, are numbered
-/// from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
+/// The planes of the tree cut each polygon down to the leaves that it reaches. A small separate tree orders
+/// the pieces that meet in one leaf. The tree itself is never cut or changed. A piece of a polygon is a
+/// [`Fragment`]. The overlay's polygons are numbered after the tree's polygons. Pieces of all kinds are
+/// numbered from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
 /// [`replace`](Self::replace).
 ///
-/// Lines and points are cut and placed likewise. No polygon is cut because of them. Where some of
-/// them meet between polygons, planes through themselves or perpendicular to an axis divide them.
-/// Segments of no length have no piece.
+/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. Where lines and
+/// points meet between polygons, planes through them or perpendicular to an axis separate them. Segments
+/// without length have no pieces.
 ///
 /// # Order
 ///
 /// The order is as exact as the tree's: the rules on the page of [`BspTree`](BspTree#order) hold for the
-/// polygons of both. Coplanar polygons come in input order, the overlay's after the tree's. The tree's
-/// fragments come in the tree's own order, with pieces between them.
+/// polygons of both. Coplanar polygons are in input order, the overlay's after the tree's. The tree's
+/// fragments keep their own order, with pieces between them.
 ///
-/// Where two lines or points, or one of them and a polygon, coincide in the picture but not in space, the
-/// nearer one comes later. There is one exception. If both lie, within the tolerance, in one dividing plane
-/// that is seen edge-on, they come in the order of one plane, which the next paragraphs give, whichever is
-/// nearer. Dividing planes are
+/// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
+/// nearer shape is painted later. There is one exception: if both shapes lie, within the tolerance, in one
+/// dividing plane that is seen edge-on, they are painted in the order of shapes in one plane (see below),
+/// whichever is nearer. Dividing planes are
 ///
-/// - those of the tree, which are [`BspTree::nodes`], and those of the overlay's polygons;
+/// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
-///   point, and those of segments: through the next corner of the line, or else the one before, that is
-///   not in a row with the segment; or parallel to the z axis, or for a segment along z to the x axis.
+///   point, and planes through segments. A segment's plane goes through the next corner of the line, or
+///   otherwise through the corner before, if it is not collinear with the segment. If both are collinear, the
+///   plane is parallel to the z axis, or for a segment along z to the x axis.
 ///
-/// There is no exception for an eye that lies in no plane of a polygon or segment and shares no x, y or z
-/// coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
-/// nearest may come first. Move the eye a little, or give the markers in another order.)
+/// The exception never occurs for an eye that lies in no plane of a polygon or segment and shares no x, y or
+/// z coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
+/// nearest marker may be painted first. Move the eye a little, or pass the markers in another order.)
 ///
-/// Shapes in one plane come in this order: polygons, then lines in input order, then points. It holds for
-/// shapes that coincide in *space*, and for all shapes in a dividing plane that is seen edge-on. So an axis
-/// drawn on a wall is painted over the wall. A line that goes through a plane is cut there, and a point at
-/// the cut comes between the two parts.
+/// Shapes in one plane are painted in this order: polygons, then lines in input order, then points. This
+/// holds for shapes that coincide in *space*, and for all shapes in a dividing plane that is seen edge-on. So
+/// an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut there, and a point at
+/// the cut is painted between the two parts.
 ///
-/// Between polygons, one rule differs: a point at a corner of a line comes after both segments there, if the
-/// line has no point at the corners before and after. Closed lines and repeated corners follow the same rule.
-/// Where more than two segments meet at a point, some may come after it.
+/// Between polygons, one rule differs: a point at a corner of a line is painted after both segments there, if
+/// the line has no point at the corners before and after. Closed lines and repeated corners follow the same
+/// rule. If more than two segments meet at a point, some may be painted after it.
 ///
 /// The tolerance applies as for polygons:
 ///
-/// - a segment or point that reaches no further from a plane than the tolerance lies on it;
-/// - a segment that reaches further on one side only goes whole to that side.
+/// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
+/// - a segment that reaches further on one side only lies entirely on that side.
 ///
-/// Line widths and marks exist in the picture only, so no order takes them into account. Where the edge of a
-/// wide line reaches over a polygon that the line itself only touches, as at the edge where two walls meet,
-/// it may be painted over.
+/// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. If a wide line
+/// extends over a polygon that the line itself only touches, such as one of two walls that meet at the line,
+/// that polygon may be painted over the line's border.
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, and small trees where they meet |
-/// | [`order`](Self::order), written or read | that of the tree, and a copy of its list |
-/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | that of the tree, and of the overlay's boxes that the ray crosses; the first call makes the boxes of both, O(n) for n fragments and pieces |
+/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where they meet |
+/// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
+/// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus that of the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
-/// If the bounding box of many faces, such as those of a body, lies on one side of a plane, they are moved
-/// there at once. Such a body takes little time until it reaches its leaf. Give the faces of a body in a row.
-/// Its own small tree is built again each time, so a body of thousands of faces takes milliseconds.
+/// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these
+/// faces are moved there at once. So a body reaches its leaf in little time, if you pass its faces
+/// consecutively. The small tree of the body is built again each time, so a body of thousands of faces takes
+/// milliseconds.
 ///
-/// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube about
-/// the middle of the tree's bounding box, with sides at least as long as the longest of the box. A shape that
-/// reaches beyond the grid is an error: [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes
-/// the grid of a tree larger.
+/// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube
+/// around the middle of the tree's bounding box, with sides at least as long as the longest side of the box.
+/// A shape that reaches beyond the grid is an error:
+/// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds) makes the grid of a tree larger.
 ///
-/// An overlay keeps a copy of the tree's polygons: 24 bytes a corner and 12 a polygon. The first `replace`
-/// makes it, in O(n).
+/// An overlay keeps a copy of the tree's polygons: 24 bytes per corner and 12 per polygon. The first
+/// `replace` makes this copy, in O(n).
 pub struct Overlay {
     /// The faces of the tree, then the faces of the overlay: planes of both are numbered together.
     faces: Faces,
@@ -167,9 +169,9 @@ pub struct Overlay {
     pieces: Parts,
     insertions: InsertionTree,
     preparation: Preparation,
-    /// For each face that is a segment, its number in its line.
+    /// For each face that is a segment, the number of the segment in its line.
     segments: Vec<u32>,
-    /// The boxes of the pieces, which the first ray makes.
+    /// The boxes of the pieces, computed by the first ray or culled order.
     bounds: OnceLock<Bounds>,
 }
 
@@ -219,12 +221,12 @@ impl Overlay {
         self.bounds.take();
     }
 
-    /// How many pieces there are.
+    /// Returns the number of pieces.
     pub fn len(&self) -> usize {
         self.pieces.records.len()
     }
 
-    /// Whether there are no pieces.
+    /// Returns whether there are no pieces.
     pub fn is_empty(&self) -> bool {
         self.pieces.records.is_empty()
     }
@@ -239,8 +241,8 @@ impl Overlay {
         Fragment::new(&self.faces, self.pieces.stored(), record, number)
     }
 
-    /// Returns the polygons of the tree and of the overlay that a ray or a segment hits, the nearest first.
-    /// The overlay's polygons are numbered after those of the tree. Lines and points are not hit.
+    /// Returns the polygons of the tree and of the overlay that a ray or a segment hits, nearest first. The
+    /// overlay's polygons are numbered after the tree's. Lines and points are not hit.
     ///
     /// ```
     /// use binspace::overlay::Overlay;
@@ -257,15 +259,15 @@ impl Overlay {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The rules of [`BspTree::hits`] hold for both: hits are exact, and at one point the tree's polygons
-    /// come before the overlay's. The overlay's hits are all found first; that takes time proportional to the
-    /// number of its boxes that the ray crosses. The first call after a [`replace`](Self::replace) makes
-    /// these boxes, in time proportional to the number of pieces. The first call for a tree also makes the
-    /// tree's boxes, in O(n), as [`BspTree::bounds`] does.
+    /// The rules of [`BspTree::hits`] hold for all polygons: hits are exact, and at one point the tree's
+    /// polygons precede the overlay's. All hits of the overlay are found first, in time proportional to the
+    /// number of its boxes that the ray crosses. The first call after a [`replace`](Self::replace) computes
+    /// these boxes, in time proportional to the number of pieces. The first call for a tree also computes the
+    /// tree's boxes, in O(n), like [`BspTree::bounds`].
     ///
     /// # Errors
     ///
-    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    /// If the tree is neither the tree that the overlay was made for nor a clone of it.
     pub fn hits<'a>(
         &'a self,
         tree: &'a BspTree,
@@ -274,7 +276,7 @@ impl Overlay {
         Ok(self.targets(tree)?.hits(ray))
     }
 
-    /// Whether a polygon of the tree or of the overlay lies between two points: otherwise as
+    /// Returns whether a polygon of the tree or of the overlay lies between two points, by the rules of
     /// [`BspTree::is_occluded`].
     ///
     /// # Errors
@@ -284,10 +286,10 @@ impl Overlay {
         Ok(self.targets(tree)?.is_occluded(ray))
     }
 
-    /// The pieces of polygons as vertices and triangles, without T-junctions between them. It is as the mesh
-    /// of a tree, except that fragments have the numbers of [orders](Self::order), and polygons are numbered
-    /// after those of the tree. Its vertices are not those of the tree's mesh, and no edge is welded with the
-    /// tree's.
+    /// Returns the pieces of polygons as vertices and triangles, without T-junctions between them. The mesh
+    /// is like the mesh of a tree, except that fragments have the numbers of [orders](Self::order), and
+    /// polygons are numbered after the tree's. It shares no vertices with the tree's mesh, and no edge is
+    /// welded with the tree's edges.
     ///
     /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices for
     /// both meshes:
@@ -334,25 +336,29 @@ impl Overlay {
         self.expect(tree)?;
         let pieces = (!self.is_empty()).then(|| {
             let (faces, stored) = (&self.faces, self.pieces.stored());
-            let flat = |piece| Fragment::new(faces, stored, piece, 0).flat_bounds();
-            let bounds = self.bounds.get_or_init(|| Bounds::of_pieces(self.len(), flat));
-            Pieces { faces, stored, bounds }
+            Pieces { faces, stored, bounds: self.boxes() }
         });
         Ok(Targets { tree, pieces })
     }
 
-    /// How many of the overlay's polygons were dropped or triangulated.
+    /// The boxes of the pieces, computed at the first use.
+    fn boxes(&self) -> &Bounds {
+        let flat = |piece| Fragment::new(&self.faces, self.pieces.stored(), piece, 0).flat_bounds();
+        self.bounds.get_or_init(|| Bounds::of_pieces(self.len(), flat))
+    }
+
+    /// Returns how many of the overlay's polygons were dropped or triangulated.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
     }
 
-    /// The faces of the tree, then the faces of the overlay.
+    /// Returns the faces of the tree, then the faces of the overlay.
     #[doc(hidden)]
     pub fn faces(&self) -> &Faces {
         &self.faces
     }
 
-    /// An error if the tree is neither the one that the overlay was made for nor a clone of it.
+    /// Returns an error if the tree is neither the tree that the overlay was made for nor a clone of it.
     fn expect(&self, tree: &BspTree) -> Result<(), Error> {
         let is_same = self.base.generation == tree.generation;
         if is_same { Ok(()) } else { Err(Kind::OverlaidTree.error()) }

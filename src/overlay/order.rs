@@ -1,5 +1,5 @@
-//! One order of a tree's fragments and an overlay's pieces, and the planes by which the pieces find their
-//! places in it.
+//! One order of a tree's fragments and an overlay's pieces, and the planes that determine the places of the
+//! pieces in it.
 
 use std::hint::select_unpredictable;
 use std::iter::FusedIterator;
@@ -13,33 +13,32 @@ use super::Overlay;
 use super::replace::Shape;
 use crate::error::Error;
 use crate::exact::{Faces, PlaneId};
-use crate::tree::bounds::around;
-use crate::tree::culling::Cull;
+use crate::tree::culling::{Cull, Subtree};
 use crate::tree::order::eye::{View, rounded};
 use crate::tree::parts::{Parts, RawChild};
 use crate::tree::{BspTree, Culling, Order};
 use crate::viewpoint::Viewpoint;
 
 /// The planes of the tree that lead to the overlay's pieces, and the planes of the small trees in its cells.
-/// A branch comes after the one that it is attached to.
+/// A branch is stored after the branch that it is attached to.
 #[derive(Debug)]
 pub(super) struct InsertionTree {
     root: SlotSide,
     pub(super) branches: Vec<Branch>,
-    /// The numbers, in the overlay, of pieces that need no plane between them: one, or coplanar ones in
-    /// input order.
+    /// The numbers, in the overlay, of pieces that need no plane between them: a single piece, or coplanar
+    /// pieces in input order.
     groups: Vec<Range<u32>>,
 }
 
-/// A plane with pieces on it or around it: of a node of the tree, of the fragment in a leaf, or of a
-/// small tree in a cell.
+/// A plane with pieces on it or around it: the plane of a node of the tree, of the fragment in a leaf, or of
+/// a small tree in a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch {
     pub(super) rounded: Vec4,
     pub(super) plane: PlaneId,
-    /// How many fragments of the tree lie on the plane.
+    /// The number of fragments of the tree that lie on the plane.
     pub(super) own: u32,
-    /// The pieces on the plane, which come after its fragments.
+    /// The pieces on the plane, which follow its fragments.
     pub(super) pieces: SlotSide,
     pub(super) front: SlotSide,
     pub(super) back: SlotSide,
@@ -48,20 +47,20 @@ pub(super) struct Branch {
 /// The fragments and pieces on one side of a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlotSide {
-    /// Where an order notes its beginning. While the tree grows: 2k for branch k, 2k + 1 for group k, both
-    /// counted from 1.
+    /// The place where an order stores the side's beginning. While the tree grows: 2k for branch k, 2k + 1
+    /// for group k, both counted from 1.
     slot: u32,
-    /// How many fragments and pieces it has.
+    /// The number of fragments and pieces on the side.
     len: u32,
 }
 
-/// The slot of sides without pieces: where they begin is never read.
+/// The slot of sides without pieces, whose beginning is never read.
 const EMPTY: u32 = 0;
 /// The remainder of a group's slot while the tree grows.
 const GROUP: u32 = 1;
 
 impl SlotSide {
-    /// Fragments of the tree, and no piece.
+    /// A side with fragments of the tree and no piece.
     pub(super) fn empty(fragments: usize) -> Self {
         Self { slot: EMPTY, len: fragments as u32 }
     }
@@ -73,7 +72,7 @@ impl Branch {
     }
 }
 
-/// Where a branch or a group is attached.
+/// The place where a branch or a group is attached.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Place {
     Root,
@@ -87,7 +86,7 @@ impl InsertionTree {
         Self { root: SlotSide::empty(fragments), branches: vec![], groups: vec![] }
     }
 
-    /// Removes all branches; `fragments` is how many the tree has.
+    /// Removes all branches; `fragments` is the number of the tree's fragments.
     pub(super) fn clear(&mut self, fragments: usize) {
         self.root = SlotSide::empty(fragments);
         self.branches.clear();
@@ -117,7 +116,7 @@ impl InsertionTree {
     pub(super) fn push(&mut self, place: Place, branch: Branch) -> u32 {
         let number = self.branches.len() as u32;
         self.branches.push(branch);
-        // Its length is not known before the lengths of its sides are.
+        // The length of the branch is unknown until the lengths of its sides are known.
         self.attach(place, SlotSide { slot: 2 * (number + 1), len: 0 });
         number
     }
@@ -131,7 +130,7 @@ impl InsertionTree {
                 RawChild::Leaf(len) => len,
                 RawChild::Node => 0,
             };
-            // Fragments are numbered in this order: on the plane, front leaf, back leaf, the rest.
+            // Fragments are numbered in this order: on the plane, front leaf, back leaf, nodes below.
             let [pieces, front, back] = [node.own, leaf(node.front), leaf(node.back)].map(|len| {
                 next += len;
                 self.group(next - len..next)
@@ -139,7 +138,7 @@ impl InsertionTree {
             let plane = node.plane;
             let rounded = rounded(faces, plane);
             let number = self.push(place, Branch { rounded, plane, own: 0, pieces, front, back });
-            // Nodes stand depth first, the front before the back.
+            // Nodes are stored depth first, the front before the back.
             if node.back == RawChild::Node {
                 open.push(Place::Back(number));
             }
@@ -170,12 +169,12 @@ impl InsertionTree {
         }
     }
 
-    /// How many slots there are.
+    /// The number of slots.
     fn slots(&self) -> usize {
         1 + self.branches.len() + self.groups.len()
     }
 
-    /// Writes where each slot begins in the order of both parts.
+    /// Writes the beginning of each slot in the order of fragments and pieces.
     ///
     /// The loop has no branch on the eye's side, which no processor can predict.
     fn write_begins(&self, faces: &Faces, view: &View, begins: &mut [u32]) {
@@ -185,7 +184,8 @@ impl InsertionTree {
             let is_in_front = view.is_in_front_of(faces, plane, rounded);
             let begin = begins[i + 1];
             let on_plane = own + pieces.len;
-            // The order is: far side, own, near side. The far side is the back if the eye is in front.
+            // The order is: far side, own fragments, near side. The far side is the back if the eye is in
+            // front.
             let to_front = select_unpredictable(is_in_front, back.len + on_plane, 0);
             let to_back = select_unpredictable(is_in_front, 0, front.len + on_plane);
             let to_pieces = own + select_unpredictable(is_in_front, back.len, front.len);
@@ -198,7 +198,7 @@ impl InsertionTree {
 
 /// The order of a tree's fragments and an overlay's pieces for one viewpoint: [`Overlay::order`].
 ///
-/// It is back to front unless you call [`front_to_back`](Self::front_to_back). Write it into a list of
+/// Back to front by default; see [`front_to_back`](Self::front_to_back). Write the order into a list of
 /// numbers, or iterate over its shapes.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "an order is written or iterated over"]
@@ -208,7 +208,7 @@ pub struct OverlayOrder<'a> {
 }
 
 impl Overlay {
-    /// The order of the tree's fragments and the overlay's pieces for a viewpoint.
+    /// Returns the order of the tree's fragments and the overlay's pieces for a viewpoint.
     ///
     /// # Errors
     ///
@@ -221,52 +221,68 @@ impl Overlay {
         self.expect(tree)?;
         Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
+
+    /// Returns whether no plane of the tree, and no plane that leads to the overlay's pieces, lies between
+    /// two viewpoints. If so, both orders are the same, as for [`BspTree::same_order`], until the next
+    /// [`replace`](Self::replace). This is not true of [culled](OverlayOrder::culled) orders.
+    ///
+    /// O(planes); stops at the first plane between the two viewpoints.
+    ///
+    /// # Errors
+    ///
+    /// If the tree is neither the one that the overlay was made for nor a clone of it.
+    pub fn same_order(
+        &self,
+        tree: &BspTree,
+        one: Viewpoint,
+        other: Viewpoint,
+    ) -> Result<bool, Error> {
+        self.expect(tree)?;
+        let views = [one, other].map(|viewpoint| View::new(tree, viewpoint));
+        let is_same = |&Branch { plane, rounded, .. }: &Branch| {
+            let [one, other] =
+                views.each_ref().map(|view| view.is_in_front_of(&self.faces, plane, rounded));
+            one == other
+        };
+        Ok(tree.same_order(one, other) && self.insertions.branches.iter().all(is_same))
+    }
 }
 
 impl<'a> OverlayOrder<'a> {
-    /// The same order, front to back: the exact reverse.
+    /// Reverses the order to front to back, exactly.
     pub fn front_to_back(self) -> Self {
         Self { order: self.order.front_to_back(), ..self }
     }
 
-    /// The same order without the fragments and pieces outside of a frustum, or without those that show
-    /// the wrong side. Lines and points have no sides. They are left out if they are outside of the
-    /// frustum.
+    /// Leaves out the fragments and pieces that are outside a frustum or show the wrong side. Lines and
+    /// points have no sides; they are left out only if they are outside the frustum.
     pub fn culled(self, culling: &'a Culling) -> Self {
         Self { order: self.order.culled(culling), ..self }
     }
 
-    /// Writes the numbers of the fragments and pieces into a buffer, and replaces its contents. Numbers
-    /// below the tree's [`len`](BspTree::len) are those of its fragments, the others those of
-    /// [shapes](Overlay::shape).
+    /// Replaces a buffer's contents by the numbers of the fragments and pieces. Numbers below the tree's
+    /// [`len`](BspTree::len) are its fragments; the other numbers are [shapes](Overlay::shape).
     ///
-    /// It takes the time of [`BspTree::back_to_front_into`], of a copy of the list, and of comparing the
-    /// eye with each plane on the way to the pieces. An empty overlay adds nothing. The buffer is working
-    /// space as well; once it has grown to its size, nothing is allocated. A culled order is the whole
-    /// order first, and is filtered afterwards.
+    /// It takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare
+    /// the eye with each plane that leads to the pieces. An empty overlay adds no time. The buffer also
+    /// serves as working space; once it is large enough, nothing is allocated. A culled order skips subtrees
+    /// like a [tree's](crate::Order::write_into), and visits all planes that lead to the pieces. The first
+    /// culled order after a [`replace`](Overlay::replace) also computes the boxes of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {
             return order.write_into(numbers);
         }
         let Order { tree, viewpoint, is_front_to_back, culling } = order;
-        tree.back_to_front_into(viewpoint, numbers);
-        overlay.insert(&View::new(tree, viewpoint), numbers);
-        if let Some(culling) = culling {
-            let (cull, lattice) = (Cull::new(tree, viewpoint, culling), tree.faces.lattice());
-            numbers.retain(|&number| match overlay.shape(number) {
-                None => cull.shows(number),
-                Some(Shape::Fragment(piece)) => {
-                    let plane = overlay.faces.plane(PlaneId::face(piece.face()));
-                    cull.shows_piece(&piece.flat_bounds(), Some(&plane))
-                }
-                Some(Shape::Segment(segment)) => {
-                    cull.shows_piece(&around(lattice, segment.ends()), None)
-                }
-                Some(Shape::Marker(marker)) => {
-                    cull.shows_piece(&around(lattice, [marker.position()]), None)
-                }
-            });
+        match culling {
+            Some(culling) => {
+                numbers.clear();
+                overlay.write_culled(&Cull::new(tree, viewpoint, culling), numbers);
+            }
+            None => {
+                tree.back_to_front_into(viewpoint, numbers);
+                overlay.insert(&View::new(tree, viewpoint), numbers);
+            }
         }
         if is_front_to_back {
             numbers.reverse();
@@ -312,19 +328,60 @@ impl<'a> Iterator for Overlaid<'a> {
 impl ExactSizeIterator for Overlaid<'_> {}
 impl FusedIterator for Overlaid<'_> {}
 
-/// How many places of an order are in a word of marks.
+/// The number of places of an order in a word of marks.
 const WORD: usize = u32::BITS as usize;
 
 impl Overlay {
+    /// Appends the drawn fragments and pieces to an order.
+    fn write_culled(&self, cull: &Cull<'_>, order: &mut Vec<u32>) {
+        let InsertionTree { root, branches, groups } = &self.insertions;
+        // With each side, the tree's part on that side; cells and leaves have no nodes.
+        let (mut pending, mut subtrees) = (vec![(*root, cull.whole())], vec![]);
+        while let Some((side, subtree)) = pending.pop() {
+            let Some(slot) = (side.slot as usize).checked_sub(1) else {
+                cull.write_subtree(subtree, &mut subtrees, order);
+                continue;
+            };
+            let Some(branch) = branches.get(slot) else {
+                let group = groups[slot - branches.len()].clone();
+                let numbers = group.map(|piece| self.base.fragments as u32 + piece);
+                order.extend(numbers.filter(|&number| self.shows(cull, number)));
+                continue;
+            };
+            let end = subtree.fragments.end;
+            let nothing = Subtree { nodes: 0..0, fragments: end..end };
+            let [front, own, back] = match subtree.nodes.is_empty() {
+                true => [nothing.clone(), subtree, nothing.clone()],
+                false => cull.divide(&subtree),
+            };
+            let own_side = SlotSide::empty(own.fragments.len());
+            let [front, back] = [(branch.front, front), (branch.back, back)];
+            let is_in_front = cull.is_in_front_of(&self.faces, branch.plane, branch.rounded);
+            let (far, near) = if is_in_front { (back, front) } else { (front, back) };
+            // A stack: the last part is processed first.
+            let parts = [near, (branch.pieces, nothing), (own_side, own), far];
+            pending.extend(parts.into_iter().filter(|(side, _)| side.len > 0));
+        }
+    }
+
+    /// Whether a piece is drawn. Lines and points have no sides.
+    fn shows(&self, cull: &Cull<'_>, number: u32) -> bool {
+        let piece = number - self.base.fragments as u32;
+        let face = self.pieces.records[piece as usize].face;
+        let plane = || self.faces.plane(PlaneId::face(face));
+        cull.shows_box(&self.boxes().get(0, piece))
+            && (face as usize >= self.faces.first_thin() || cull.shows_plane(plane))
+    }
+
     /// Inserts the pieces into the tree's order.
     ///
-    /// Every side of a branch knows how many fragments and pieces it has. So where a side begins is known
-    /// before it is read, as in the tree's own order.
+    /// Every side of a branch stores its number of fragments and pieces. So the beginning of a side is known
+    /// before the side is read, as in the tree's own order.
     fn insert(&self, view: &View, order: &mut Vec<u32>) {
         let (fragments, pieces) = (order.len(), self.len());
         let all = fragments + pieces;
         let (slots, words) = (self.insertions.slots(), all.div_ceil(WORD));
-        // One buffer for all: the caller's, so that a frame allocates nothing.
+        // One buffer for everything, supplied by the caller, so that a frame allocates nothing.
         order.resize(all + slots + 2 * words + 2 * pieces, 0);
         let (order_itself, rest) = order.split_at_mut(all);
         let (begins, rest) = rest.split_at_mut(slots);
@@ -332,7 +389,7 @@ impl Overlay {
         let (before, rest) = rest.split_at_mut(words);
         let (places, numbers) = rest.split_at_mut(pieces);
         self.insertions.write_begins(&self.faces, view, begins);
-        // Sorts the pieces by their places: marks these, and counts the marks before each word.
+        // Sorts the pieces by their places: marks the places, and counts the marks before each word.
         let begins = &begins[1 + self.insertions.branches.len()..];
         let pieces = self.insertions.groups.iter().zip(begins);
         let pieces = pieces.flat_map(|(group, &begin)| (begin..).zip(group.clone()));
@@ -350,7 +407,7 @@ impl Overlay {
             let rank = (before[word] + lower.count_ones()) as usize;
             (places[rank], numbers[rank]) = (place, fragments as u32 + piece);
         }
-        // From the end on, so that each fragment moves to its final place at once.
+        // Backwards, so that each fragment moves to its final place at once.
         let mut end = fragments;
         for (rank, (&place, &number)) in places.iter().zip(&*numbers).enumerate().rev() {
             let (place, start) = (place as usize, place as usize - rank);

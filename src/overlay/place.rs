@@ -16,17 +16,17 @@ use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_
 use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, Record};
 
-/// A set of at least this many pieces goes to one side of a plane at once where its box does. Too small:
-/// time to look at boxes of scattered pieces. Too large: time to look at the pieces of a body one by one.
+/// A set of at least this many pieces moves to one side of a plane at once if its box lies there. Too small:
+/// time to test boxes of scattered pieces. Too large: time to test the pieces of a body one by one.
 const CROWD: usize = 256;
 
-/// Places polygons, lines and points in a tree. Its lists are used again.
+/// Places polygons, lines and points in a tree; its lists are reused.
 #[derive(Default)]
 pub(super) struct Placer {
     cells: OverlayBuilder,
     cell: CellTree,
     anchors: Anchors,
-    /// A stack of the sets still to be divided, the next one on top. Each is in the order of faces:
+    /// A stack of the sets still to be divided, the next one on top. Each set is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts.
@@ -34,7 +34,7 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Piece>,
     own: Vec<Piece>,
-    /// The box of the set on top of the stack, if it went to one side of a plane as a whole.
+    /// The box of the set on top of the stack, if it moved to one side of a plane as a whole.
     crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
 }
@@ -43,7 +43,7 @@ pub(super) struct Placer {
 #[derive(Debug)]
 struct Pending {
     pieces: Range<usize>,
-    /// The length of the arena that it needs.
+    /// The length of the arena that the set needs.
     arena: usize,
     region: Region,
     place: Place,
@@ -122,14 +122,14 @@ impl Work<'_> {
         let mut start = pieces.start;
         self.placer.front.clear();
         self.placer.own.clear();
-        // Of this set, as that is divided next; it is not kept beyond.
+        // The box of this set, which is divided next; it is not kept longer.
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
             return Err(Kind::Fragments(MOST_FRAGMENTS).error());
         }
         if pieces.is_empty() && region.node.is_none() {
-            // Polygons of a cell that no line or point comes to.
+            // Polygons of a cell that no line or point reaches.
             let pieces = self.store_all(region.fragments);
             self.insertions.attach(place, pieces);
             return Ok(());
@@ -160,7 +160,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// The side of a plane on which all of a crowd on top of the stack certainly lies, if it does.
+    /// The side of a plane on which the whole crowd on top of the stack certainly lies, if any.
     fn side_of_all(
         &mut self,
         start: usize,
@@ -214,8 +214,8 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Puts the set on top of the stack, of at least one piece, into a cell without fragments; or gives
-    /// a plane to divide it by.
+    /// Puts the set on top of the stack, of at least one piece, into a cell without fragments, or returns a
+    /// plane to divide it by.
     fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
         let Placer { cells, cell, anchors, pieces, arena, own, .. } = &mut *self.placer;
         let set = &pieces[start..];
@@ -232,7 +232,7 @@ impl Work<'_> {
         }
         let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;
         if polygons < set.len() {
-            // Lines and points go on down the small tree, after which it is read to its end.
+            // Lines and points descend the small tree; after that its remaining fragments are read.
             pieces.drain(start..start + polygons);
             cells.keep(std::mem::take(&mut cell.parts));
             let region = cell.fill(tree)?;
@@ -244,7 +244,7 @@ impl Work<'_> {
         Ok(None)
     }
 
-    /// Adds fragments of the cell's tree to the pieces in place, and then those of `own`, in input order.
+    /// Adds fragments of the cell's tree to the placed pieces, and then the pieces of `own`, in input order.
     fn store_all(&mut self, fragments: Range<u32>) -> SlotSide {
         let first = self.pieces.records.len() as u32;
         for fragment in fragments {
@@ -269,7 +269,8 @@ impl Work<'_> {
         self.insertions.group(first..self.pieces.records.len() as u32)
     }
 
-    /// Appends the fragments of a small tree to the overlay's pieces, and returns the number of the first.
+    /// Appends the fragments of a small tree to the overlay's pieces, and returns the number of the first
+    /// fragment.
     fn store_tree(&mut self, tree: &Parts) -> u32 {
         let pieces = &mut *self.pieces;
         let first = pieces.records.len() as u32;
@@ -295,7 +296,7 @@ fn add(
     positions.extend(places);
 }
 
-/// A part of a tree, by its fragments: below a node, or a leaf.
+/// A part of a tree: the fragments below a node, or of a leaf.
 #[derive(Clone, Debug)]
 struct Region {
     of: Whose,
@@ -303,12 +304,12 @@ struct Region {
     fragments: Range<u32>,
 }
 
-/// Whose part a region is.
+/// The tree that a region is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whose {
-    /// The tree's, which is not changed.
+    /// The overlay's tree, which is not changed.
     Tree,
-    /// Of the small tree of the polygons that meet in one of its cells.
+    /// The small tree of the polygons that meet in one of its cells.
     Cell,
 }
 
@@ -321,13 +322,13 @@ impl Region {
         Self { of, node: (nodes > 0).then_some(0), fragments: 0..fragments as u32 }
     }
 
-    /// Whether it has polygons that are still to be put in place.
+    /// Whether the region has polygons that are not placed yet.
     fn has_pieces(&self) -> bool {
         self.of == Whose::Cell && !self.fragments.is_empty()
     }
 }
 
-/// The small tree of the polygons in a cell, as long as lines and points are cut by it.
+/// The small tree of the polygons in a cell, while it cuts lines and points.
 #[derive(Debug, Default)]
 struct CellTree {
     nodes: Vec<NodeRecord>,
@@ -336,7 +337,7 @@ struct CellTree {
 }
 
 impl CellTree {
-    /// Replaces the tree, and gives all of it as a region.
+    /// Replaces the tree, and returns the whole tree as a region.
     fn fill(&mut self, parts: Parts) -> Result<Region, Error> {
         make_room(parts.nodes.len(), &mut self.sizes, &mut self.nodes)?;
         finish(parts.nodes.iter().copied(), &mut self.sizes, &mut self.nodes);
@@ -345,7 +346,7 @@ impl CellTree {
     }
 }
 
-/// A region's plane, and both sides of it as they are without pieces.
+/// A region's plane, and both sides of it without pieces.
 struct Opened {
     branch: Branch,
     /// The fragments on the plane.
@@ -361,7 +362,7 @@ impl Opened {
 
     #[inline]
     fn new(rounded: Vec4, plane: PlaneId, own: Range<u32>, sides: [Region; 2]) -> Self {
-        // Those of a cell are pieces, which are attached one by one.
+        // Fragments of a cell are pieces, which are attached one by one.
         let of_tree = |fragments: &Range<u32>| match sides[0].of {
             Whose::Tree => fragments.len(),
             Whose::Cell => 0,
@@ -373,8 +374,8 @@ impl Opened {
         Self { branch, own, sides }
     }
 
-    /// `None` for an empty cell. The plane of a leaf is that of its fragment, so that no piece crosses
-    /// it.
+    /// `None` for an empty cell. The plane of a leaf is its fragment's plane, so that no piece crosses the
+    /// fragment.
     #[inline]
     fn of(region: Region, tree: &BspTree, cell: &CellTree, faces: &Faces) -> Option<Self> {
         let Region { of, node, fragments: all } = region;
@@ -400,21 +401,21 @@ impl Opened {
     }
 }
 
-/// A segment of a line, before any plane cut it.
+/// A segment of a line before any cut.
 #[cfg(feature = "drawing")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GivenSegment {
     pub(crate) line: usize,
-    /// Its number in its line.
+    /// The number of the segment in its line.
     pub(crate) number: usize,
-    /// Its ends on the grid.
+    /// The ends of the segment on the grid.
     pub(crate) ends: [[f64; 3]; 2],
 }
 
 /// The whole lines and points of an overlay, for drawings.
 #[cfg(feature = "drawing")]
 impl super::Overlay {
-    /// An error if the overlay is not one for the tree, or has polygons.
+    /// Returns an error if the overlay was made for another tree, or has polygons.
     pub(crate) fn expect_no_polygons(&self, tree: &BspTree) -> Result<(), Error> {
         self.expect(tree)?;
         if self.base.faces < self.faces.first_thin() {
@@ -424,7 +425,7 @@ impl super::Overlay {
         Ok(())
     }
 
-    /// All segments of its lines, in input order.
+    /// All segments of the overlay's lines, in input order.
     pub(crate) fn given_segments(&self) -> impl ExactSizeIterator<Item = GivenSegment> {
         let first = self.faces.first_thin();
         (0..self.faces.thin.segments).map(move |i| {
@@ -435,7 +436,7 @@ impl super::Overlay {
         })
     }
 
-    /// All its points on the grid, in input order.
+    /// All points of the overlay on the grid, in input order.
     pub(crate) fn given_points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let first = self.faces.len() - self.faces.thin.points;
         (0..self.faces.thin.points).map(move |i| self.faces.corners((first + i) as u32)[0])

@@ -1,4 +1,4 @@
-//! The shapes that an overlay is given, and how they replace its contents.
+//! The shapes that replace the contents of an overlay.
 
 use std::ops::ControlFlow;
 
@@ -17,8 +17,8 @@ impl Overlay {
     /// # Errors
     ///
     /// As for [`BspTree::build`]; if a polygon reaches beyond the tree's grid; or if the tree is neither the
-    /// one that the overlay was made for nor a clone of it. The overlay is empty then. If a polygon caused
-    /// the error, [`Error::polygon`] is its number, counted from 0.
+    /// tree that the overlay was made for nor a clone of it. After an error the overlay is empty. If a
+    /// polygon caused the error, [`Error::polygon`] is its number, counted from 0.
     pub fn replace<P: Polygon>(
         &mut self,
         tree: &BspTree,
@@ -47,13 +47,14 @@ impl Overlay {
         self.refill(tree, shapes, &Watch::default())
     }
 
-    /// The same, with progress reported to a callback that can cancel, as
-    /// [`BuildOptions::build_with_progress`](crate::BuildOptions::build_with_progress) does.
+    /// Replaces the contents like [`replace_with`](Self::replace_with), and reports progress to a callback
+    /// that can cancel, as in
+    /// [`BuildOptions::build_with_progress`](crate::BuildOptions::build_with_progress).
     ///
     /// # Errors
     ///
-    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. The overlay is empty then,
-    /// and so it is after a panic of the callback.
+    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. After an error or a panic of the
+    /// callback the overlay is empty.
     pub fn replace_with_progress<P, L, Q>(
         &mut self,
         tree: &BspTree,
@@ -109,7 +110,7 @@ impl Overlay {
     }
 }
 
-/// An overlay that is being filled. It is emptied if that ends early: after an error, and where the
+/// An overlay that is being filled. If filling ends early, the overlay is emptied: after an error, or if the
 /// caller's callback or iterators panic.
 struct Filling<'a>(&'a mut Overlay);
 
@@ -136,7 +137,7 @@ pub struct Shapes<P, L, Q> {
 }
 
 impl Shapes<[[DVec3; 3]; 0], [[DVec3; 2]; 0], [DVec3; 0]> {
-    /// Nothing.
+    /// No shapes.
     pub const NONE: Self = Self { polygons: [], lines: [], points: [] };
 }
 
@@ -148,9 +149,9 @@ impl<P, L, Q> Shapes<P, L, Q> {
         Shapes { polygons, lines, points }
     }
 
-    /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon), whose corners are joined
-    /// in order. The last is not joined to the first: to close a line, repeat its first corner. Of one
-    /// corner there is no line.
+    /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon), whose corners are joined in
+    /// order. The last corner is not joined to the first: to close a line, repeat its first corner. A single
+    /// corner makes no line.
     #[must_use]
     pub fn with_lines<T>(self, lines: T) -> Shapes<P, T, Q> {
         let Self { polygons, points, .. } = self;
@@ -178,7 +179,7 @@ pub enum Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
+    /// Returns the piece's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         match self {
             Self::Fragment(fragment) => fragment.index(),
@@ -187,7 +188,7 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// The fragment or piece of a polygon, if it is one.
+    /// Returns the fragment or the piece of a polygon; `None` for segments and markers.
     pub fn fragment(self) -> Option<Fragment<'a>> {
         match self {
             Self::Fragment(fragment) => Some(fragment),
@@ -196,7 +197,7 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// A piece of a segment, which joins two corners of a line of an overlay.
+/// A piece of a segment. A segment joins two consecutive corners of an overlay's line.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment<'a> {
     /// Two vertices on the segment's face.
@@ -205,31 +206,32 @@ pub struct Segment<'a> {
 }
 
 impl Segment<'_> {
-    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
+    /// Returns the piece's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         self.piece.index()
     }
 
-    /// The index of the line among the lines that were given.
+    /// Returns the index of the line, in input order.
     pub fn line(&self) -> usize {
         self.piece.polygon()
     }
 
-    /// The number of the segment in its line: it joins the corners of this number and the next.
+    /// Returns the number of the segment in its line: it joins the corners of this number and the next
+    /// number.
     pub fn number(&self) -> usize {
         self.number as usize
     }
 
-    /// Its two ends, in the direction of the line. A corner of the line is rounded to the
-    /// grid; a cut end is rounded as [`Fragment::vertices`] are. The two pieces at a cut have the same
-    /// bits there.
+    /// Returns the two ends of the piece, in the direction of the line. A corner of the line is rounded to
+    /// the grid; a cut end is rounded like [`Fragment::vertices`]. The two pieces at a cut have the same bits
+    /// there.
     pub fn ends(&self) -> [DVec3; 2] {
         let mut ends = self.piece.vertices();
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Where its ends are on the segment, from 0 at the first corner to 1 at the second, rounded: of a
-    /// piece shorter than a rounding, the first may be larger than the second.
+    /// Returns the positions of the ends on the segment, from 0 at the first corner to 1 at the second,
+    /// rounded. For a piece shorter than a rounding, the first may be larger than the second.
     pub fn shares(&self) -> [f64; 2] {
         let mut ends = self.piece.weights().map(|weights| {
             weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()
@@ -237,7 +239,7 @@ impl Segment<'_> {
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Whether each of its ends was cut, and so is no corner of the line.
+    /// Returns, for each end, whether it was cut, and so is no corner of the line.
     pub fn cuts(&self) -> [bool; 2] {
         let mut ends = self.piece.vertex_ids();
         [(); 2]
@@ -254,24 +256,25 @@ pub struct Marker {
 }
 
 impl Marker {
-    /// Its number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
+    /// Returns the piece's number, as in [`OverlayOrder::write_into`](super::OverlayOrder::write_into).
     pub fn index(&self) -> u32 {
         self.index
     }
 
-    /// The index of the point among the points that were given.
+    /// Returns the index of the point, in input order.
     pub fn point(&self) -> usize {
         self.point as usize
     }
 
-    /// The given point, rounded to the grid.
+    /// Returns the given point, rounded to the grid.
     pub fn position(&self) -> DVec3 {
         self.position
     }
 }
 
 impl Overlay {
-    /// The piece with a number; `None` if a fragment of the tree or nothing has the number.
+    /// Returns the piece with a number; `None` if the number belongs to a fragment of the tree or to no
+    /// shape.
     pub fn shape(&self, number: u32) -> Option<Shape<'_>> {
         let face = self.record(number)?.face;
         let piece = self.stored(number);
@@ -289,7 +292,7 @@ impl Overlay {
         })
     }
 
-    /// The piece of a polygon by its number; `None` if the number is not a polygon's piece.
+    /// Returns the piece of a polygon with a number; `None` if the number belongs to no piece of a polygon.
     pub fn piece(&self, number: u32) -> Option<Fragment<'_>> {
         self.shape(number)?.fragment()
     }

@@ -10,20 +10,20 @@ use crate::exact::faces::Thin;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
 use crate::progress::Watch;
 
-/// How many pieces of a set a plane is tried on, spread evenly over the set. Too small: worse planes for
-/// large sets. Too large: more time.
+/// The number of pieces of a set, spread evenly, on which a plane is tried. Too small: worse planes for large
+/// sets. Too large: more time.
 const SAMPLE: usize = 64;
-/// How many planes of segments are tried. Too small: more cuts in a tangle of crossing lines. Too large: more
-/// time.
+/// The number of segments whose planes are tried. Too small: more cuts in a tangle of crossing lines. Too
+/// large: more time.
 const OWN: usize = 6;
-/// A cut costs as much as this many pieces more on one side. Too small: more pieces. Too large:
-/// trees degenerate to lists, which take quadratic time.
+/// A cut costs as much as this many additional pieces on one side. Too small: more pieces. Too large: trees
+/// degenerate to lists, which take quadratic time.
 const CUT: usize = 4;
 
 type Sample<'a> = SmallVec<[&'a Piece; SAMPLE]>;
 
-/// Chooses the plane that divides a non-empty set of lines and points. On either side there are
-/// fewer pieces than in the set.
+/// Chooses the plane that divides a non-empty set of lines and points. Each side has fewer pieces than the
+/// set.
 pub(super) fn between(
     faces: &Faces,
     anchors: &Anchors,
@@ -35,7 +35,7 @@ pub(super) fn between(
     let own = spread(pieces, OWN).skip(1).map(|piece| own_plane(faces, piece.face));
     let own = medians(faces, &sample, arena).chain(own);
     let plain = cheapest(faces, &sample, arena, [first].into_iter().chain(own));
-    // All of the sample lie in one plane.
+    // The whole sample lies in one plane.
     if let Some((0, plane)) = plain {
         return plane;
     }
@@ -57,7 +57,7 @@ fn cheapest(
         if best.is_none_or(|(least, _)| cost < least) {
             best = Some((cost, plane));
         }
-        // Cheap enough: both sides are left with few of the sample.
+        // Cheap enough: both sides have few pieces of the sample.
         if cost <= sample.len() / 2 {
             break;
         }
@@ -128,16 +128,16 @@ fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) ->
     divides.then_some(front.max(back) + CUT * cuts)
 }
 
-/// For each point, a segment that it is an end of, if there is one.
+/// For each point, a segment that ends or begins at it, if any.
 ///
-/// A mark on a curve is to be painted over the curve. If a plane came between the two segments that
-/// meet at the mark, one of them would come later than the mark. The plane of the one that ends there
-/// has the next one on it as well (see `third_corner`), and the point.
+/// A mark on a curve is to be painted over the curve. If a plane separated the two segments that meet at the
+/// mark, one segment would be painted after the mark. The plane of the segment that ends there also contains
+/// the next segment (see `third_corner`) and the point.
 #[derive(Debug, Default)]
 pub(super) struct Anchors {
     /// The first point's face.
     first: u32,
-    /// A segment for the place of each point, by the bits of its coordinates. (On the lattice 0 has one
+    /// A segment for each point, by the bits of the point's coordinates. (On the lattice 0 has only one
     /// form.)
     segments: HashMap<[u64; 3], Option<u32>>,
 }
@@ -165,12 +165,12 @@ impl Anchors {
         Ok(())
     }
 
-    /// The points of a set of pieces, which is in the order of faces.
+    /// The points of a set of pieces; the set is in the order of faces.
     fn points<'p>(&self, pieces: &'p [Piece]) -> &'p [Piece] {
         &pieces[pieces.partition_point(|piece| piece.face < self.first)..]
     }
 
-    /// The segment of a point, if the piece of it that ends there is in the same set.
+    /// The segment of a point, if the segment's piece that ends there is in the same set.
     fn segment(&self, point: &Piece, pieces: &[Piece], arena: &[Vertex]) -> Option<u32> {
         let face = (*self.segments.get(&point.min.map(f64::to_bits))?)?;
         let start = pieces.partition_point(|piece| piece.face < face);

@@ -29,7 +29,7 @@ impl Partition {
         let mut points: Vec<[f64; 3]> = Vec::new();
         for sample in samples {
             let point = sample.to_dvec3();
-            // Samples only choose planes, so NaN and infinite ones are left out.
+            // Samples only choose planes, so NaN and infinite samples are left out.
             if point.is_finite() {
                 let limit = |c: f64| c.clamp(-LATTICE_LIMIT, LATTICE_LIMIT);
                 points.push(lattice.snap(point).map(limit));
@@ -69,8 +69,9 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
     planes
 }
 
-/// The plane that divides a box into two parts, for `count` cells in all. It goes through a sample, because
-/// that often is a corner, which cuts fewer polygons. Independent of the order of the samples.
+/// The plane that divides a box into two parts, for `count` cells in total. It goes through a sample, because
+/// that often is a corner, and planes through corners cut fewer polygons. It is independent of the order of
+/// the samples.
 fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {
@@ -90,7 +91,8 @@ fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitP
     let place = (samples.len() as u128 * (count / 2) as u128 / count as u128) as usize;
     let by_axis = |a: &[f64; 3], b: &[f64; 3]| a[axis].total_cmp(&b[axis]);
     let at = samples.select_nth_unstable_by(place, by_axis).1[axis];
-    // If many samples are at the lower end, that plane would have nothing behind it; use the next larger.
+    // If many samples are at the lower end, that plane would have nothing behind it: use the next larger
+    // coordinate.
     let next = || {
         let above = samples.iter().map(|sample| sample[axis]).filter(|&c| c > least);
         above.fold(f64::INFINITY, f64::min)

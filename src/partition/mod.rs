@@ -16,10 +16,10 @@ use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
 ///
-/// Use it for scenes too large for one tree, or for one machine. Each cell has its own tree of the
-/// polygons' parts in the cell, which can be built anywhere and at any time. Concatenated in the
-/// [order](Self::back_to_front) of the cells for a viewpoint, the orders of the trees are one order of the
-/// whole scene, as exact as that of one tree.
+/// Use it for scenes too large for one tree, or for one machine. Each cell has a separate tree of the
+/// polygons' parts in the cell. The tree can be built anywhere and at any time. Concatenate the orders of the
+/// trees in the [order](Self::back_to_front) of the cells for a viewpoint: the result is an order of the
+/// whole scene, as exact as the order of one tree.
 ///
 /// ```
 /// use binspace::partition::Extent;
@@ -55,33 +55,34 @@ use crate::viewpoint::Viewpoint;
 ///
 /// # Cells
 ///
-/// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of
-/// a plane have bit for bit the same vertices on it. So do two faces on one side that share an edge, if
-/// both are cut and the tolerance moved no corner of either. (As in one tree, further cuts end in
-/// T-junctions.) Each point of each polygon is in one cell: points in a plane between two cells, or within
-/// the tolerance of it, belong to the cell on the side of larger coordinates.
+/// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of a
+/// plane have bit for bit the same vertices on it. Two faces on one side that share an edge also have the
+/// same vertices on the plane, if both are cut and the tolerance moved no corner of either. (As in one tree,
+/// further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a plane between two
+/// cells, or within the tolerance of it, belong to the cell on the side of larger coordinates.
 ///
-/// All cells have the same grid and tolerance, so all prepare a polygon in the same way: a polygon that is
-/// triangulated or moved onto its plane in one cell is so in all of them.
+/// All cells have the same grid and tolerance, so they prepare a polygon in the same way: a polygon that is
+/// triangulated or flattened in one cell is triangulated or flattened in all cells.
 ///
 /// # Tolerance
 ///
-/// All cells have one tolerance, a length: that of the [options](crate::BuildOptions::partition) with which
-/// the partition was made. By default it follows the extent and the precision of all polygons, as in one
-/// tree of them. The options with which a cell is built do not affect it. Across the planes between cells,
-/// orders are right up to the tolerance as across those of a tree: polygons nearer to one another than
-/// that, and not coplanar, may be exchanged, as in another tree of the scene.
+/// All cells have one tolerance, a length: the tolerance of the [options](crate::BuildOptions::partition)
+/// with which the partition was made. By default it depends on the extent and the precision of all polygons,
+/// as in one tree of the scene. The options with which a cell is built do not affect it. Across the planes
+/// between cells, orders are right up to the tolerance, as across the planes of a tree: polygons that are
+/// closer to one another than the tolerance, and not coplanar, may be exchanged, as in another tree of the
+/// scene.
 ///
 /// # Trees of cells
 ///
-/// The tree of a cell gives orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// It cannot be used where whole polygons are needed: for a `drawing`, which is an error, for the depth
-/// buffer of `raster`, and so for `verify`. Its [`dropped`](crate::BspTree::dropped) polygons include those
-/// outside the cell. Other counts of its [preparation](crate::BspTree::preparation) are of all polygons
-/// given to it, and [`preparation`](Self::preparation) counts for all cells.
+/// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
+/// It cannot be used where whole polygons are needed: for a `drawing`, which returns an error, for the depth
+/// buffer of `raster`, and so for `verify`. Its [`dropped`](crate::BspTree::dropped) polygons include
+/// polygons outside the cell. The other counts of its [preparation](crate::BspTree::preparation) include all
+/// polygons passed to it; [`preparation`](Self::preparation) counts for all cells.
 /// [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
-/// [`Overlay`](crate::overlay::Overlay) on it is not cut: its polygons are in each cell to which you give
-/// them.
+/// [`Overlay`](crate::overlay::Overlay) on it is not cut to the cell: its polygons are in each cell to whose
+/// overlay you add them.
 ///
 /// With the feature `save`, `Partition::write` and `Partition::read` store a partition, for instance to
 /// send it to other machines.
@@ -90,8 +91,8 @@ pub struct Partition {
     lattice: Lattice,
     /// The tolerance in lattice units.
     tolerance: f64,
-    /// The planes, depth first, the subtree behind a plane before the subtree in front. A plane over n
-    /// cells has n / 2 of them behind it, rounded down, so the numbers alone locate every subtree.
+    /// The planes, depth first, the subtree behind a plane before the subtree in front. A plane that divides
+    /// n cells has n / 2 cells behind it, rounded down, so the numbers alone locate every subtree.
     planes: Vec<SplitPlane>,
 }
 
@@ -99,11 +100,11 @@ pub struct Partition {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SplitPlane {
     axis: usize,
-    /// Its position on the axis, a lattice coordinate.
+    /// The position of the plane on the axis, a lattice coordinate.
     at: f64,
 }
 
-/// A subtree: its first plane, and its cells.
+/// A subtree: the number of its first plane, and its cells.
 #[derive(Clone, Debug)]
 struct CellRange {
     plane: usize,
@@ -111,7 +112,7 @@ struct CellRange {
 }
 
 impl CellRange {
-    /// The parts behind and in front of its plane. There is a plane if there are two cells or more.
+    /// The parts behind and in front of the subtree's plane. A subtree of two cells or more has a plane.
     fn sides(&self) -> [Self; 2] {
         let Self { plane, cells } = self;
         let behind = cells.start + cells.len() / 2;
@@ -122,17 +123,17 @@ impl CellRange {
 }
 
 impl Partition {
-    /// The number of cells; at least one.
+    /// Returns the number of cells, at least one.
     pub fn cells(&self) -> usize {
         self.planes.len() + 1
     }
 
-    /// The tolerance of all cells, a length.
+    /// Returns the tolerance of all cells, a length.
     pub fn tolerance(&self) -> f64 {
         self.lattice.length_to_world(self.tolerance)
     }
 
-    /// The lower and the upper corner of a cell, rounded outwards; infinite on sides without a plane.
+    /// Returns the lower and the upper corner of a cell, rounded outwards; infinite on sides without a plane.
     ///
     /// # Panics
     ///
@@ -174,8 +175,8 @@ impl Partition {
         found
     }
 
-    /// The numbers of all cells, the furthest first: no cell hides a later one. O(cells). An eye on a plane
-    /// between two counts as on either side of it, as in a tree.
+    /// Returns the numbers of all cells, furthest first: no cell hides a later cell. O(cells). An eye on a
+    /// plane between two cells counts as on either side of it, as in a tree.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let eye = Eye::new(viewpoint, &self.lattice);
         let mut order = Vec::with_capacity(self.cells());
@@ -188,13 +189,13 @@ impl Partition {
             let SplitPlane { axis, at } = self.planes[subtree.plane];
             let [back, front] = subtree.sides();
             let is_in_front = Plane::axis(axis, [at; 3]).at_eye(&eye).is_gt();
-            // The nearer side is pushed first, so that it comes later.
+            // The nearer side is pushed first, so that it is popped later.
             rest.extend(if is_in_front { [front, back] } else { [back, front] });
         }
         order
     }
 
-    /// The numbers of all cells, the nearest first: the reverse of
+    /// Returns the numbers of all cells, nearest first: the reverse of
     /// [`back_to_front`](Self::back_to_front).
     pub fn front_to_back(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let mut order = self.back_to_front(viewpoint);
@@ -205,10 +206,10 @@ impl Partition {
     /// Replaces `cells` by the cells that a polygon may reach, in ascending order.
     /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach its cell.
     ///
-    /// Conservative: a cell is listed if its box meets both the polygon's box, widened by the tolerance,
-    /// and the layer along its plane. So a few cells are listed that contain no part of the polygon, which
-    /// does no harm. A polygon with a corner that is NaN or beyond the partition's grid is listed for all
-    /// cells, and building them returns an error.
+    /// The test is conservative: a cell is listed if its box meets both the polygon's box, widened by the
+    /// tolerance, and the layer along its plane. So a few cells are listed that contain no part of the
+    /// polygon, which does no harm. A polygon with a corner that is NaN or beyond the partition's grid is
+    /// listed for all cells, and building them returns an error.
     ///
     /// O(corners + cells reached · log cells).
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
@@ -247,7 +248,7 @@ impl Partition {
             let [mut back_part, mut front_part] = [part; 2];
             back_part[1][axis] = at.min(part[1][axis]);
             front_part[0][axis] = at.max(part[0][axis]);
-            // The back is pushed last and popped first, so that cells come in ascending order.
+            // The back is pushed last and popped first, so that cells are listed in ascending order.
             if part[1][axis] >= at {
                 rest.push((front, front_part));
             }
@@ -260,8 +261,8 @@ impl Partition {
 
 /// The bounding box of a scene and its precision: the data that all builders of its cells must agree on.
 ///
-/// Each builder may compute it for its own polygons; [`merge`](Self::merge) combines the results, in any
-/// order.
+/// Each builder may compute the extent of its own polygons; [`merge`](Self::merge) combines the results, in
+/// any order.
 ///
 /// ```
 /// use binspace::partition::Extent;
@@ -272,7 +273,7 @@ impl Partition {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// The least coordinates; infinite if there is no corner, NaN if a coordinate is infinite or NaN.
+    /// The least coordinates; ∞ if there is no corner, NaN if a coordinate is infinite or NaN.
     pub low: DVec3,
     /// The largest coordinates; −∞ if there is no corner.
     pub high: DVec3,
@@ -281,7 +282,7 @@ pub struct Extent {
 }
 
 impl Default for Extent {
-    /// The extent of no polygons.
+    /// Returns the extent of no polygons.
     fn default() -> Self {
         Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, precision: 0.0 }
     }
@@ -319,13 +320,14 @@ impl Extent {
 /// The distance that a polygon may reach beyond its corners, in tolerances and in steps of the lattice.
 /// Moving a corner onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one
 /// tolerance: together 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells
-/// get polygons that do not reach them.
+/// receive polygons that do not reach them.
 const MARGIN: [f64; 2] = [3.0, 2.0];
 /// A bound on the rounding error of a corner's distance from a plane, as a share of the lengths in its
 /// computation. Any normal is used as given. With u = 2⁻⁵³: arms of corners are exact, so a scalar product
-/// with one is off by 3u, three for the product and the sums on the way; an end of a box by u and its
-/// difference from a corner by u, its middle and its half by u more, and their products by 3u each.
-/// Together with the sums and differences in `meets`, and the slack itself, that is less than 20u.
+/// with an arm is off by 3u, for the product and the sums. An end of a box is off by u, its difference from a
+/// corner by u, its middle and its half by u more, and their products by 3u each. Together with the sums and
+/// differences in `meets`, and the slack itself, the error is less than 20u. Too small: cells miss polygons.
+/// Too large: cells receive polygons that do not reach them.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.
@@ -339,8 +341,8 @@ struct Layer {
 }
 
 impl Layer {
-    /// Perpendicular to Newell's normal, which makes the layer of a planar polygon thin. Any normal would
-    /// be right.
+    /// The layer perpendicular to Newell's normal, which makes the layer of a planar polygon thin. Any normal
+    /// would be right.
     fn new(corners: &[[f64; 3]], margin: f64) -> Self {
         let from = DVec3::from(corners[0]);
         // Differences of lattice coordinates are exact.

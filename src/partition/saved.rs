@@ -10,11 +10,12 @@ use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
-/// The largest number of planes: more than anyone builds trees of cells for.
+/// The largest number of planes. Too small: large partitions cannot be read. Too large: a forged file takes
+/// more memory.
 const MOST: usize = 1 << 28;
 
 impl Partition {
-    /// Writes the partition, so that [`read`](Self::read) returns an equal one.
+    /// Writes the partition. [`read`](Self::read) returns an equal partition.
     ///
     /// # Layout
     ///
@@ -24,12 +25,12 @@ impl Partition {
     /// |---|---|
     /// | head | the bytes `binspacepart`, the version as `u32` |
     /// | grid, tolerance | as in the file of a [tree](crate::BspTree::write) |
-    /// | planes | their number as `u64`, one less than the cells, depth first, and behind a plane before in front; each is the axis as `u32`, and the coordinate on the grid as `i64`. Of n cells, n / 2, rounded down, are behind |
+    /// | planes | their number as `u64`, one less than the number of cells; then each plane, depth first, the planes behind it before the planes in front: the axis as `u32`, and the coordinate on the grid as `i64`. Of n cells, n / 2, rounded down, are behind |
     /// | end | the CRC-32 of all bytes before, `u32` |
     ///
     /// # Errors
     ///
-    /// Those of the writer.
+    /// The errors of the writer.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         self.lattice.write(&mut file)?;
@@ -41,11 +42,11 @@ impl Partition {
         file.finish()
     }
 
-    /// Reads a partition that [`write`](Self::write) has written. Reads only its bytes.
+    /// Reads a partition that [`write`](Self::write) has written. Reads only the partition's bytes, so other
+    /// data may follow.
     ///
-    /// Any file is safe to read, and memory grows with the bytes read. Cells of the same partition have
-    /// each point of a polygon once, even for a forged file, but forged planes can put all of them into one
-    /// cell.
+    /// Any file is safe to read, and memory grows with the bytes read. Even for a forged file, each point of
+    /// a polygon is in exactly one cell, but forged planes can put all points into one cell.
     ///
     /// # Errors
     ///
@@ -73,7 +74,7 @@ impl Partition {
         Ok(partition)
     }
 
-    /// An error unless each plane is inside the box that it divides.
+    /// Returns an error unless each plane is inside the box that it divides.
     fn check_planes(&self) -> Result<(), Error> {
         let mut rest = vec![(self.root(), EVERYWHERE)];
         while let Some((subtree, part)) = rest.pop() {

@@ -1,4 +1,4 @@
-//! The hits of a ray, the nearest first; whether there is one; and the properties of a hit.
+//! The hits of a ray, nearest first; occlusion; and the properties of a hit.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -17,7 +17,8 @@ use crate::tree::parts::Stored;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
-/// What rays meet: the fragments of a tree, and pieces of an overlay that are numbered after them.
+/// The fragments that rays may meet: a tree's, and the pieces of an overlay, which are numbered after the
+/// tree's.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tree: &'t BspTree,
@@ -96,7 +97,7 @@ impl<'t> Targets<'t> {
 pub(crate) struct Hits<'t> {
     targets: Targets<'t>,
     ray: Ray,
-    /// None if the ray meets nothing.
+    /// `None` if the ray meets nothing.
     search: Option<Search<'t>>,
 }
 
@@ -104,11 +105,11 @@ pub(crate) struct Hits<'t> {
 struct Search<'t> {
     query: RayQuery,
     walk: Walk<'t>,
-    /// What the ray meets of the fragments that it has come to.
+    /// The hits found so far that have not been returned.
     found: HitQueue,
-    /// The polygon of the last hit, and where that ends.
+    /// The polygon of the last hit, and the end of that hit.
     last: Option<(usize, Depth)>,
-    /// Where the hits of polygons end that lie in the plane of the ray.
+    /// The ends of the hits of polygons whose planes contain the ray.
     ends: BTreeMap<usize, Depth>,
 }
 
@@ -117,7 +118,7 @@ impl Search<'_> {
     fn next(&mut self, tree: &BspTree, faces: &Faces) -> Option<Interval> {
         let Self { query, walk, found, .. } = self;
         loop {
-            // Fragments behind the nearest that is found need not be looked at.
+            // Fragments behind the nearest hit found need not be tested.
             let limit = found.first().map_or(f64::INFINITY, |nearest| nearest.enter.high);
             let Some(fragment) = walk.next(limit) else { return found.pop(query, faces) };
             let fragment = tree.fragment(fragment);
@@ -127,8 +128,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether an interval is a hit, rather than more of the last hit of its polygon. At one point a polygon's
-    /// intervals come in a row, so its last hit is the last of all, unless it goes on along the ray.
+    /// Whether an interval is a new hit, and does not continue the last hit of its polygon. At one point, the
+    /// intervals of a polygon follow each other. So the polygon's last hit is the last hit of all, unless it
+    /// extends along the ray.
     fn is_new(&mut self, faces: &Faces, interval: &Interval) -> bool {
         let Self { query, last, ends, .. } = self;
         let (polygon, Interval { enter, leave, .. }) = (faces.polygon(interval.face), interval);
@@ -168,7 +170,7 @@ impl<'t> Iterator for Hits<'t> {
 impl FusedIterator for Hits<'_> {}
 
 impl BspTree {
-    /// What a ray or a segment hits, the nearest first. The first hit is the nearest polygon.
+    /// Returns the hits of a ray or a segment, nearest first. The first hit is the nearest polygon.
     ///
     /// ```
     /// use binspace::{BspTree, Facing, Ray};
@@ -189,37 +191,37 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// # What is a hit
+    /// # Definition of a hit
     ///
-    /// Polygons are as the tree has them: corners on its grid, and moved onto the polygon's plane if
-    /// they were off it by less than the tolerance. Their edges and corners belong to them, and both
-    /// ends belong to a segment, as its beginning does to a ray. What a ray and a polygon have in common
-    /// are points and segments, and each of these is one hit, at its nearest point. So
+    /// Polygons are as the tree stores them: their corners are rounded to its grid, and moved onto the
+    /// polygon's plane if they were off it by less than the tolerance. A polygon includes its edges and
+    /// corners, a segment both ends, and a ray its start. The intersection of a ray and a polygon consists of
+    /// points and segments, and each of these is one hit, at its nearest point:
     ///
-    /// - a ray through an edge that several polygons share, or through a corner, hits all of them
-    ///   there, and each once, however the tree has cut it;
-    /// - a ray that lies in the plane of a polygon hits it where it enters it, or where the ray begins if
-    ///   that is inside, and is then [`facing`](Hit::facing) neither side. It is no second hit where
-    ///   it leaves, nor where it goes from one fragment of the polygon to another;
+    /// - a ray through an edge that several polygons share, or through a corner, hits each of these polygons
+    ///   once, however the tree has cut it;
+    /// - a ray in the plane of a polygon hits it where it enters the polygon, or at the ray's start if that
+    ///   is inside. The hit then [faces](Hit::facing) neither side. There is no second hit where the ray
+    ///   leaves the polygon or passes from one of its fragments to another;
     /// - only a polygon that is not convex, or not planar, can be hit more than once.
     ///
-    /// Hits at the same point come in input order. All of this is exact: which polygons are hit, in which
-    /// order, and from which side. So hits do not depend on how a tree was built.
+    /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
+    /// exact. So hits do not depend on how a tree was built.
     ///
-    /// The iterator searches only as far along the ray as the next hit requires. Nothing is allocated unless
+    /// The iterator searches only as far along the ray as the next hit requires. It allocates nothing unless
     /// dozens of parts of the tree or more than eight fragments are pending at once, or polygons lie in the
     /// plane of the ray.
     ///
-    /// Time is proportional to the number of boxes that the ray crosses, as far as it is read; the first
-    /// call makes the boxes, in O(n) time ([`bounds`](Self::bounds)). Where k fragments are met at one
-    /// place, as in a stack of coplanar polygons, that adds O(k log k) for all of them, and the first is
-    /// there after O(k log k) in the worst case, O(k) if they are met in input order.
+    /// Time is proportional to the number of boxes that the ray crosses until you stop reading. The first
+    /// call computes the boxes, in O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one
+    /// point, as in a stack of coplanar polygons, their hits take O(k log k) time. The first of these hits
+    /// takes O(k log k) in the worst case, and O(k) if the fragments are found in input order.
     pub fn hits(&self, ray: Ray) -> impl FusedIterator<Item = Hit<'_>> + Clone + Debug {
         Targets { tree: self, pieces: None }.hits(ray)
     }
 }
 
-/// Where a ray hits a polygon: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
+/// A hit of a ray on a polygon: [`BspTree::hits`], [`Overlay::hits`](crate::overlay::Overlay::hits).
 #[derive(Clone, Copy)]
 pub struct Hit<'t> {
     fragment: Fragment<'t>,
@@ -229,47 +231,50 @@ pub struct Hit<'t> {
 }
 
 impl<'t> Hit<'t> {
-    /// The fragment that is hit. Where several fragments of the polygon meet in the point, it is one
-    /// of them.
+    /// Returns the fragment that is hit, for instance for its [normal](Fragment::normal). If several
+    /// fragments of the polygon meet at the point, it is one of them.
+    #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment
     }
 
-    /// The index, in the input, of the polygon that is hit.
+    /// Returns the index, in input order, of the polygon that is hit.
     pub fn polygon(&self) -> usize {
         self.fragment.polygon()
     }
 
-    /// The side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the fragment's
-    /// plane. It depends on the ray's direction alone, so it is the same for a ray that begins on the
-    /// fragment.
+    /// Returns the side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the
+    /// fragment's plane. It depends only on the ray's direction, also for a ray that begins on the fragment.
     pub fn facing(&self) -> Facing {
         self.facing.into()
     }
 
-    /// How far along the ray the point is: it is at `from + parameter * direction`. It is the `f64` that is
-    /// nearest to the exact fraction, or its neighbour where these are about as near; infinite if `f64`
-    /// cannot hold it.
+    /// Returns the parameter of the hit: its point is at `from + parameter * direction`. The value is the
+    /// `f64` nearest to the exact fraction, or its neighbour if that is about as near. It is infinite if it
+    /// is too large for `f64`.
     ///
-    /// Computed at each call, about 0.1 µs.
+    /// The distance is the parameter times the length of the direction. Each call computes the parameter, in
+    /// about 0.1 µs.
+    #[doc(alias = "distance")]
+    #[doc(alias = "t")]
     pub fn parameter(&self) -> f64 {
         let exact = self.exact();
         exact.map_or(f64::NAN, |(ray, t)| ray.parameter(&t))
     }
 
-    /// The point. It is rounded as a fragment's vertices are: each coordinate is within 2⁻⁵¹ of the
-    /// scene's extent plus one step of `f64` of its exact value, however far away the ray begins and
-    /// however flat it comes in.
+    /// Returns the point of the hit, rounded like a fragment's vertices: the error of each coordinate is at
+    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`, however far away the ray begins and however
+    /// small its angle to the polygon.
     ///
-    /// Computed at each call, about 0.2 µs.
+    /// Each call computes the point, in about 0.2 µs.
     pub fn point(&self) -> DVec3 {
         let exact = self.exact();
         exact.map_or(DVec3::NAN, |(ray, t)| self.fragment.faces.lattice().to_world(ray.point(&t)))
     }
 
-    /// How far two hits of the same ray are along it: `Less` if this one is nearer. It is exact, where
-    /// [`parameter`](Self::parameter) and [`point`](Self::point) may have been rounded to the same.
-    /// Hits of different rays, or of different trees, do not compare in any useful way.
+    /// Compares the distances of two hits along the same ray: `Less` if this hit is nearer. The comparison is
+    /// exact, even if the [parameters](Self::parameter) or [points](Self::point) are rounded to the same
+    /// values. It is meaningless for hits of different rays or trees.
     pub fn compare(&self, other: &Self) -> Ordering {
         match (self.exact(), other.exact()) {
             (Some((_, t)), Some((_, other))) => t.compare(&other),
@@ -277,24 +282,24 @@ impl<'t> Hit<'t> {
         }
     }
 
-    /// The exact point, by its definition: three points of the tree's [grid](BspTree::grid). The hit is where
-    /// the ray meets the plane through them: mostly that of the fragment; for a ray that lies in the
-    /// fragment's plane, one through an edge. `None` if it is an end of the ray, which is then within the
-    /// polygon: its beginning if [`parameter`](Self::parameter) is 0.
+    /// Returns the exact definition of the hit's point: three points of the tree's [grid](BspTree::grid). The
+    /// ray meets the plane through these points at the hit. Mostly this is the fragment's plane; for a ray in
+    /// the fragment's plane it is a plane through an edge. `None` if the point is an end of the ray inside
+    /// the polygon: the start if [`parameter`](Self::parameter) is 0.
     ///
-    /// With the ray as it is given (see [`Ray`]) this is the point exactly, as a fraction: with n the
-    /// vector product of q − p and r − p, its parameter is n·(p − from) / n·direction.
+    /// For the ray as given (see [`Ray`]), the exact parameter is the fraction n·(p − from) / n·direction,
+    /// where n is the vector product of q − p and r − p.
     pub fn grid_points(&self) -> Option<[[i64; 3]; 3]> {
         self.spot.grid_points(self.fragment.faces)
     }
 
-    /// The point by its definition: a plane, usually the face's, and the ray.
+    /// Returns the definition of the point: a plane, usually the face's, and the ray.
     #[doc(hidden)]
     pub fn spot(&self) -> Spot {
         self.spot
     }
 
-    /// The ray in integers, and the parameter. There is no hit without.
+    /// The ray in integers, and the parameter; always `Some` for a hit.
     fn exact(&self) -> Option<(ExactRay, Parameter)> {
         let faces = self.fragment.faces;
         let ray = ExactRay::new(self.ray, faces.lattice())?;
@@ -314,35 +319,35 @@ impl std::fmt::Debug for Hit<'_> {
     }
 }
 
-/// A binary heap: each interval comes before the two below it. (The heap of the standard library cannot pass
-/// the ray to comparisons.)
+/// A binary heap in which each interval precedes its two children. (The heap of the standard library cannot
+/// pass the ray to comparisons.)
 ///
-/// Pushing takes a few comparisons if the interval comes later than most, as at one place, where faces
-/// are met in input order. Popping takes one or two a level.
+/// Pushing takes a few comparisons if the interval follows most others, as at one point, where faces are
+/// found in input order. Popping takes one or two comparisons per level.
 #[derive(Clone, Debug, Default)]
 struct HitQueue {
     heap: SmallVec<[Interval; 8]>,
 }
 
 impl HitQueue {
-    /// The nearest.
+    /// The nearest interval.
     fn first(&self) -> Option<&Interval> {
         self.heap.first()
     }
 
-    /// Puts one in: O(log n) comparisons.
+    /// Adds an interval: O(log n) comparisons.
     fn push(&mut self, interval: Interval, query: &RayQuery, faces: &Faces) {
         self.heap.push(interval);
         self.rise(self.heap.len() - 1, query, faces);
     }
 
-    /// Takes the nearest out: O(log n) comparisons.
+    /// Removes the nearest interval: O(log n) comparisons.
     fn pop(&mut self, query: &RayQuery, faces: &Faces) -> Option<Interval> {
         if self.heap.len() <= 1 {
             return self.heap.pop();
         }
         let first = self.heap.swap_remove(0);
-        // The last goes down as far as it can without being compared: mostly it belongs there.
+        // The last interval moves to the bottom without being compared: mostly it belongs there.
         let (mut at, mut below) = (0, 1);
         while below < self.heap.len() {
             let other = below + 1;
@@ -372,9 +377,9 @@ impl HitQueue {
 }
 
 impl BspTree {
-    /// Whether a polygon lies between two points, so that there is no line of sight: whether it has a
-    /// point of the segment in common that is neither of its two ends. Of an endless ray, whether it
-    /// has another point than the first.
+    /// Returns whether a polygon blocks the line of sight between two points: whether it contains a point of
+    /// the segment other than its two ends. For an endless ray: whether a polygon contains a point of the ray
+    /// other than its start.
     ///
     /// ```
     /// use binspace::{BspTree, Ray};
@@ -390,9 +395,9 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// A point that you have computed, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is
-    /// rounded, so it may lie behind the surface that it was meant to be on, which then occludes it. To ask
-    /// whether such a point is visible, end the segment before the surface:
+    /// A computed point, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is rounded. So it
+    /// may lie behind its own surface, which then occludes it. To test whether such a point is visible, end
+    /// the segment before the surface:
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -409,15 +414,14 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// That a polygon touches the segment with an edge or a corner is enough, and so is that it has some of
-    /// the segment in its plane, such as a floor seen edge-on. This is exact. Where an eye along a floor
-    /// should see, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not
-    /// [`Facing::EdgeOn`].
+    /// A polygon also blocks the segment if it only touches it with an edge or a corner, or contains a part
+    /// of it in its plane, such as a floor seen edge-on. The test is exact. If an eye should see along a
+    /// floor, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
     ///
-    /// It stops at the first polygon that it finds, which need not be the nearest. Until then its time is
-    /// proportional to the number of boxes that the segment crosses; the first call makes the boxes, in
-    /// O(n) time ([`bounds`](Self::bounds)). After that nothing is allocated unless dozens of parts of the
-    /// tree are pending at once.
+    /// The search stops at the first polygon that it finds, which need not be the nearest. Its time is
+    /// proportional to the number of boxes that the segment crosses before that polygon. The first call
+    /// computes the boxes, in O(n) time ([`bounds`](Self::bounds)). Later calls allocate nothing unless
+    /// dozens of parts of the tree are pending at once.
     pub fn is_occluded(&self, ray: Ray) -> bool {
         Targets { tree: self, pieces: None }.is_occluded(ray)
     }

@@ -1,4 +1,4 @@
-//! In which leaf of a tree a point is.
+//! The leaf of a tree that contains a point.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -10,9 +10,9 @@ use crate::exact::eye::ExactRay;
 use crate::tree::{BspTree, Child, Node};
 use crate::viewpoint::Ray;
 
-/// Where a point is in a tree: [`BspTree::locate`].
+/// The place of a point in a tree: [`BspTree::locate`].
 ///
-/// Two are equal if they are the same leaf, and on the same of its planes.
+/// Two locations are equal if they are in the same leaf and on the same planes.
 #[derive(Clone, Debug)]
 pub struct Location<'t> {
     tree: &'t BspTree,
@@ -23,23 +23,24 @@ pub struct Location<'t> {
 }
 
 impl<'t> Location<'t> {
-    /// The node whose front or back is the leaf. `None` if the tree has no nodes: then it is one leaf.
+    /// Returns the node whose front or back is the leaf. `None` if the tree has no nodes: then it is one
+    /// leaf.
     pub fn node(&self) -> Option<Node<'t>> {
         self.node
     }
 
-    /// Whether the leaf is the front of the node, rather than its back.
+    /// Returns whether the leaf is the front of the node, rather than its back.
     pub fn is_in_front(&self) -> bool {
         self.is_in_front
     }
 
-    /// The numbers of the fragments of the leaf: one, or none.
+    /// Returns the number of the leaf's fragment; an empty range for a leaf without a fragment.
     pub fn fragments(&self) -> Range<u32> {
         self.fragments.clone()
     }
 
-    /// The nodes on the way to the leaf in whose planes the point lies, exactly, from the top down. What
-    /// lies [`on`](Node::on) them is in the same plane as the point, or within the tolerance.
+    /// Returns the nodes above the leaf whose planes contain the point, exactly, from the root down. The
+    /// fragments [`on`](Node::on) these nodes are in the same plane as the point, up to the tolerance.
     pub fn planes(&self) -> &[Node<'t>] {
         &self.planes
     }
@@ -55,11 +56,12 @@ impl PartialEq for Location<'_> {
 }
 
 impl BspTree {
-    /// The leaf that a point is in, and the partition planes that it is on: exact for the point as it is
-    /// given, as for a [`Ray`] from it. A point on a plane counts as in front of it. `None` if a coordinate
-    /// is NaN or infinite, and possibly if the point is further from the scene than 2⁶⁸ extents. O(depth).
+    /// Returns the leaf that contains a point, and the partition planes through the point. The result is
+    /// exact for the given point, as for a [`Ray`] from it. A point on a plane counts as in front of it.
+    /// `None` if a coordinate is NaN or infinite, and possibly if the point is further from the scene than
+    /// 2⁶⁸ extents. O(depth).
     ///
-    /// A leaf is a convex region that no partition plane divides, with a fragment in it or none.
+    /// A leaf is a convex region that no partition plane divides. It contains at most one fragment.
     ///
     /// ```
     /// use binspace::{BspTree, Ray};

@@ -1,5 +1,5 @@
-//! A ray, prepared to be compared with a tree, and its intersection with a fragment: by floats where these
-//! are certain, else by integers.
+//! A ray, prepared to be compared with a tree, and its intersection with a fragment: by floats if these are
+//! certain, otherwise by integers.
 
 use std::cmp::Ordering;
 
@@ -15,39 +15,39 @@ use crate::viewpoint::Ray;
 pub(super) struct RayQuery {
     pub(super) exact: ExactRay,
     pub(super) origin: [f64; 3],
-    /// The point of parameter t is at origin + t · direction. For an endless ray t has a unit of its
-    /// own, in which the largest coordinate here is from 2⁵¹ to 2⁵².
+    /// The point of parameter t is at origin + t · direction. For an endless ray, the unit of t is chosen so
+    /// that the largest coordinate here is from 2⁵¹ to 2⁵².
     pub(super) direction: [f64; 3],
-    /// More than any coordinate of the origin less one of a corner.
+    /// More than any coordinate of the difference between the origin and a corner.
     pub(super) reach: f64,
     /// The largest magnitude in the direction.
     pub(super) speed: f64,
     pub(super) is_endless: bool,
-    /// Whether each coordinate of the direction is off, from that in integers, by no more than one rounding
-    /// and a thousandth of one, as those of the origin always are.
+    /// Whether each coordinate of the direction differs from its integer form by at most 1.001 roundings.
+    /// Coordinates of the origin always do.
     pub(super) is_precise: bool,
 }
 
-/// Bits of the largest coordinate of an endless ray's rounded direction.
+/// The number of bits of the largest coordinate of an endless ray's rounded direction.
 const SPEED_BITS: i32 = 52;
 
-/// Segments that are shorter than this share of their largest coordinate lose more of their direction, in
-/// integers, than a thousandth of a rounding in floats.
+/// For segments shorter than this share of their largest coordinate, the integer form of the direction loses
+/// more than a thousandth of a rounding in floats.
 ///
 /// The grid of a segment's ends has steps of up to 2⁻¹²² of that coordinate, and each end is off by half a
-/// step: together 2⁻¹²², where a thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this is
-/// its double. (Down to 2⁻⁶⁹ the grid holds the places half way between two floats. Then rounding to the grid
-/// leads to the same float, and nothing is lost.)
+/// step: together 2⁻¹²². A thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this
+/// constant is twice as large. (Down to 2⁻⁶⁹ the grid contains the midpoints between two floats. Then
+/// rounding to the grid leads to the same float, and nothing is lost.)
 ///
 /// The origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is 2⁻⁵³ of the
 /// reach, which is at least 2⁵¹, and no lattice is further than 2¹¹⁰ from the world's origin. So the loss is
 /// below a thousandth of the rounding, however far out the origin is.
 ///
-/// Too small: floats decide wrongly. Too large: more is decided by integers.
+/// Too small: floats decide wrongly. Too large: integers decide more cases.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
 
 impl RayQuery {
-    /// A ray on a scene's lattice. `None` if it is one that meets nothing: see [`Ray`].
+    /// A ray on a scene's lattice. `None` for a ray that meets nothing: see [`Ray`].
     pub(super) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
         let exact = ExactRay::new(ray, lattice)?;
         let (from, direction, least) = match ray {
@@ -88,22 +88,22 @@ impl RayQuery {
 struct RoundedAtRay {
     start: f64,
     slope: f64,
-    /// The sum of the magnitudes of all products that the components of the normal are made of.
+    /// The sum of the magnitudes of all products in the components of the normal.
     size: f64,
 }
 
 /// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`RoundedAtRay::size`], M the query's reach
-/// and d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ; the origin
-/// less a corner by 2uM, the direction by ud. With three products and two sums, the start is off by 7uπM and
-/// the slope by 6uπd, less for planes along an axis; a thousandth of that for what [`RayQuery::is_precise`]
-/// allows. Too small: wrong signs pass. Too large: more signs are computed in integers.
+/// and d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ. The origin
+/// minus a corner is off by 2uM, and the direction by ud. With three products and two sums, the start is off
+/// by 7uπM and the slope by 6uπd; less for planes along an axis. [`RayQuery::is_precise`] adds a thousandth
+/// of that. Too small: wrong signs pass. Too large: more signs are computed in integers.
 const START_ERROR: f64 = 3.6 * f64::EPSILON;
 const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
 
 /// Error bound of a bounding plane at the point where the ray meets the face: start · slope of the face's
-/// plane − slope · start of the face's plane, as a multiple of the two sizes, M and d. By the bounds
-/// above that is (7 + 6) u for each product and its factors, 1u for its rounding, and 2u for that of
-/// the difference: 30u.
+/// plane − slope · start of the face's plane, as a multiple of the two sizes, M and d. By the bounds above,
+/// each product is off by (7 + 6) u for its factors and 1u for its rounding. The difference adds 2u: 30u in
+/// total.
 const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
 impl RoundedAtRay {
@@ -150,18 +150,18 @@ impl RoundedAtRay {
 /// A point of a ray by its definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
-    /// Where the ray begins.
+    /// The start of the ray.
     Start,
-    /// Where the segment ends.
+    /// The end of the segment.
     End,
-    /// Where the ray meets a plane.
+    /// The intersection of the ray and a plane.
     Plane(PlaneId),
-    /// Where the ray, which lies in the plane of a face, meets the line of an edge of it.
+    /// The intersection of the ray, which lies in the plane of a face, and the line of an edge of the face.
     Edge(u32, u32),
 }
 
 impl Spot {
-    /// How far along the ray it is.
+    /// The parameter of the spot along the ray.
     pub(super) fn parameter(self, ray: &ExactRay, faces: &Faces) -> Parameter {
         match self {
             Self::Start => Parameter::ZERO,
@@ -171,7 +171,7 @@ impl Spot {
         }
     }
 
-    /// Three lattice points of the plane that it is on; `None` for an end of the ray.
+    /// Three lattice points of the plane through the spot; `None` for an end of the ray.
     pub(super) fn grid_points(self, faces: &Faces) -> Option<[[i64; 3]; 3]> {
         match self {
             Self::Start | Self::End => None,
@@ -186,8 +186,8 @@ impl Spot {
     }
 }
 
-/// The plane through an edge of a face and along the axis in which the face is least steep, and the
-/// side of it on which the face is.
+/// The plane through an edge of a face and along the axis in which the face is least steep, and the face's
+/// side of this plane.
 pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     let own = faces.plane(PlaneId::face(face));
     let axis = dominant_axis(faces, face);
@@ -197,7 +197,7 @@ pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     (Plane::upright(corners[k], corners[next], axis), inside)
 }
 
-/// The axis in which a face is least steep: the one along which its corners were moved, if they were.
+/// The axis in which a face is least steep; if its corners were moved, the axis along which they were moved.
 fn dominant_axis(faces: &Faces, face: u32) -> usize {
     faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
@@ -210,11 +210,11 @@ pub(super) struct Depth {
     pub(super) high: f64,
 }
 
-/// A parameter that is rounded from the exact one is off by less than this share of it.
+/// A rounded parameter is off by less than this share of it.
 ///
-/// With ε = 2⁻⁵², a quotient of integers has one rounding and the lost digits of its second part, ε / 2 and
-/// some ε²; the product with 1 ± this share has another ε / 2. So this is about four times as much as is
-/// needed. Too small: depths compare in the wrong order. Too large: more of them are compared by integers.
+/// With ε = 2⁻⁵², a quotient of integers loses one rounding, ε / 2, and the digits of its second part, some
+/// ε². The product with 1 ± this share loses another ε / 2. So this is about four times as much as necessary.
+/// Too small: depths compare in the wrong order. Too large: integers compare more depths.
 const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Depth {
@@ -226,7 +226,7 @@ impl Depth {
         Self { spot, low: t * (1.0 - QUOTIENT_ERROR), high: t * (1.0 + QUOTIENT_ERROR) }
     }
 
-    /// How the depths of two spots of a ray compare: exact.
+    /// Compares the depths of two spots of a ray, exactly.
     pub(super) fn compare(&self, other: &Self, query: &RayQuery, faces: &Faces) -> Ordering {
         if self.high < other.low {
             return Ordering::Less;
@@ -242,29 +242,30 @@ impl Depth {
     }
 }
 
-/// What a ray and a fragment have in common: a point, or a segment of the ray.
+/// The intersection of a ray and a fragment: a point, or a segment of the ray.
 ///
-/// A fragment is closed: its edges and vertices belong to it. It is the part of its face's plane on
-/// the inner sides of the planes that bound it. These are the planes that cut it and, for an edge of the
-/// face, the plane through that edge along the axis in which the face is least steep.
+/// A fragment is closed: it includes its edges and vertices. It is the part of its face's plane on the inner
+/// sides of its bounding planes. These are the planes that cut it and, for an edge of the face, the plane
+/// through that edge along the axis in which the face is least steep.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interval {
     pub(super) fragment: u32,
     pub(super) face: u32,
     pub(super) enter: Depth,
     pub(super) leave: Depth,
-    /// The side of the fragment that the ray comes from; `Equal` if it lies in the plane.
+    /// The side of the fragment that the ray comes from; `Equal` if the ray lies in the plane.
     pub(super) facing: Ordering,
 }
 
 impl Interval {
-    /// `None` if the ray and the fragment have nothing in common.
+    /// `None` if the ray and the fragment do not meet.
     pub(super) fn new(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let guess = Self::guess(query, fragment, faces);
         guess.unwrap_or_else(|| Self::exact(&query.exact, fragment, faces))
     }
 
-    /// By floats, inside of the fragment and strictly between the ends of the ray. `None` if they cannot tell.
+    /// By floats, inside the fragment and strictly between the ends of the ray. `None` if floats cannot
+    /// decide.
     fn guess(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Option<Self>> {
         if !query.is_precise {
             return None;
@@ -273,14 +274,14 @@ impl Interval {
         let (own, rounded) = RoundedAtRay::face(query, faces, face);
         let (start_error, slope_error) =
             (START_ERROR * own.size * query.reach, SLOPE_ERROR * own.size * query.speed);
-        // As if the ray went to the front.
+        // Signs as for a ray that leads to the front.
         let turn = own.slope.signum();
         let (start, slope) = (own.start * turn, own.slope * turn);
         if slope <= 2.0 * slope_error {
-            // Along the plane, or nearly.
+            // The ray is parallel to the plane, or nearly.
             return None;
         }
-        // It meets the plane between its ends if it begins behind and ends in front.
+        // The ray meets the plane between its ends if it begins behind and ends in front.
         let is_after = start < -start_error;
         let is_before = query.is_endless || start + slope > start_error + slope_error;
         if start > start_error || !query.is_endless && start + slope < -(start_error + slope_error)
@@ -320,8 +321,8 @@ impl Interval {
         Some(Some(Self { fragment, face, enter: depth, leave: depth, facing }))
     }
 
-    /// By integers. The plane of the face leaves a point of the ray, or all of a ray that lies in it;
-    /// one bound after the other cuts it off (Cyrus and Beck 1978).
+    /// By integers: intersects the ray with the plane of the face, and then clips it by each bounding plane
+    /// (Cyrus and Beck 1978).
     fn exact(ray: &ExactRay, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let face = fragment.face();
         let own = ray.at(&faces.plane(PlaneId::face(face)));
@@ -354,23 +355,23 @@ impl Interval {
                 return None;
             }
         }
-        // An endless ray leaves by one of the bounds.
+        // An endless ray leaves through a bounding plane.
         let leave = Depth::new(leave.unwrap_or(enter), ray);
         let (enter, fragment) = (Depth::new(enter, ray), fragment.index());
-        // A ray that goes to the back comes from the front.
+        // A ray that leads to the back comes from the front.
         Some(Self { fragment, face, enter, leave, facing: own.slope().reverse() })
     }
 
-    /// Whether it has a point that is no end of the ray.
+    /// Whether the interval contains a point that is no end of the ray.
     pub(super) fn has_inner_point(&self, query: &RayQuery, faces: &Faces) -> bool {
         let Self { enter, leave, .. } = self;
         let is_before_end = query.is_endless || enter.compare(&Depth::END, query, faces).is_lt();
         is_before_end && enter.compare(&Depth::START, query, faces).is_gt()
-            // More than a point has more than ends.
+            // An interval that is more than a point contains more than ends.
             || enter.compare(leave, query, faces).is_lt()
     }
 
-    /// Nearest first; at the same point, in the order of the input.
+    /// Orders intervals nearest first; at the same point, in input order.
     pub(super) fn compare(&self, other: &Self, query: &RayQuery, faces: &Faces) -> Ordering {
         // Faces are numbered in the order of their polygons.
         self.enter
@@ -380,8 +381,8 @@ impl Interval {
     }
 }
 
-/// A plane that bounds a fragment of a face: where the ray meets it, how it lies along the ray, and the side
-/// of it on which the fragment is.
+/// A bounding plane of a fragment: the spot where the ray meets it, the plane along the ray, and the
+/// fragment's side of it.
 fn bound(ray: &ExactRay, line: EdgeLine, face: u32, faces: &Faces) -> (Spot, AtRay, Ordering) {
     match line.as_cut() {
         Some(plane) => {

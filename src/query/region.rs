@@ -1,4 +1,4 @@
-//! Which fragments have points in a convex region.
+//! The fragments that have points in a convex region.
 
 use std::fmt::Debug;
 use std::iter::FusedIterator;
@@ -21,7 +21,7 @@ struct FragmentsIn<'t> {
     bounds: &'t Bounds,
     sides: SmallVec<[RegionPlane; 6]>,
     rest: Range<u32>,
-    /// Fragments that are inside and come before the rest.
+    /// Fragments that are inside and precede all others.
     inside: Range<u32>,
 }
 
@@ -29,9 +29,9 @@ struct FragmentsIn<'t> {
 #[derive(Clone, Debug)]
 struct RegionPlane {
     exact: ExactHalfSpace,
-    /// A box that is behind this has no point in front of the plane or on it.
+    /// A box behind this half-space has no point in front of the plane or on it.
     outer: HalfSpace,
-    /// A box that is behind this is in front of the plane.
+    /// A box behind this half-space is in front of the plane.
     inner: HalfSpace,
 }
 
@@ -47,11 +47,11 @@ impl<'t> FragmentsIn<'t> {
         Self { tree, bounds: tree.boxes(), sides, rest: 0..tree.len() as u32, inside: 0..0 }
     }
 
-    /// Whether a fragment has a point in the region: exact.
+    /// Whether a fragment has a point in the region, exactly.
     fn meets(&self, number: u32) -> bool {
         let (fragment, faces) = (self.tree.fragment(number), &self.tree.faces);
         let bounds = &self.bounds.get(0, number);
-        // Those that the whole fragment is in front of need not be looked at.
+        // Planes that the whole fragment is in front of need not be tested.
         let crossed = self.sides.iter().filter(|side| !side.inner.is_behind(bounds));
         let crossed: SmallVec<[&ExactHalfSpace; 6]> = crossed.map(|side| &side.exact).collect();
         match guess(&fragment, faces, &crossed) {
@@ -61,8 +61,8 @@ impl<'t> FragmentsIn<'t> {
     }
 }
 
-/// Whether a fragment has a point in all of some half-spaces, where the rounded positions of its vertices
-/// tell: one of them is inside of all, or all of them are outside of one.
+/// Whether a fragment has a point in the intersection of some half-spaces, if the rounded positions of its
+/// vertices decide it: one vertex is inside all half-spaces, or all vertices are outside one half-space.
 fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> Option<bool> {
     let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
     let moved = faces.moved_axis(fragment.face());
@@ -82,7 +82,7 @@ fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> O
     is_out.contains(&true).then_some(false)
 }
 
-/// The vertices of a fragment, with the line from each to the next.
+/// The vertices of a fragment, with the line from each vertex to the next.
 fn outline<'f>(
     fragment: &Fragment<'f>,
     faces: &'f Faces,
@@ -125,9 +125,10 @@ impl Iterator for FragmentsIn<'_> {
 impl FusedIterator for FragmentsIn<'_> {}
 
 impl BspTree {
-    /// The numbers of the fragments that have a point in a region, in ascending order: the fragments in a
-    /// box, or in front of planes. It is exact: a fragment is among them if, and only if, its closed polygon
-    /// meets the closed region. ([`Culling`](crate::Culling) goes by boxes, and keeps some more for speed.)
+    /// Returns the numbers of the fragments that have a point in a region, in ascending order: the fragments
+    /// in a box, or in front of planes. The result is exact: it contains a fragment if, and only if, the
+    /// closed fragment meets the closed region. ([`Culling`](crate::Culling) is faster: it tests boxes, and
+    /// keeps some more fragments.)
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -143,14 +144,14 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// Fragments are as the tree has them, as for [`BspTree::hits`]. The numbers of the planes are exact,
-    /// except for digits below 2⁻¹¹⁵ of the normal's largest coordinate, and in the offset below 2⁻¹¹⁵ of the
-    /// scene's extent. All of the region's planes are used, except those with an infinite number or NaN,
-    /// which keep everything.
+    /// Fragments are as the tree stores them, as for [`BspTree::hits`]. The numbers of the planes are exact,
+    /// except for digits below 2⁻¹¹⁵ of the normal's largest coordinate, and digits of the offset below 2⁻¹¹⁵
+    /// of the scene's extent. All planes of the region are used, except planes with an infinite or NaN
+    /// number, which exclude nothing.
     ///
-    /// Blocks of 16, 256, … fragments are taken or left out as a whole by their boxes, so the time goes
-    /// mostly with the fragments that are found or lie at the region's sides. The first call makes the
-    /// boxes, in O(n) time ([`bounds`](Self::bounds)).
+    /// Blocks of 16, 256, … fragments are included or excluded as a whole by their boxes. So the time is
+    /// mostly proportional to the number of fragments that are found or lie at the region's boundary. The
+    /// first call computes the boxes, in O(n) time ([`bounds`](Self::bounds)).
     pub fn fragments_in<'t>(
         &'t self,
         region: &Frustum,

@@ -1,10 +1,10 @@
-//! The parts of a tree that a ray may meet, the nearest first.
+//! The parts of a tree that a ray may meet, nearest first.
 //!
-//! A partition plane divides the ray: one side of the tree is met only before it, the other only behind.
-//! But the tolerance lets fragments reach across the plane, and the planes that are read here are rounded
-//! to `f32`. So both sides are met up to a small distance beyond the plane, and so are the fragments *on* it.
-//! Some parts are therefore visited without success, but no decision depends on it: `ray` decides which
-//! fragments are met, and which of them first.
+//! A partition plane divides the ray: the ray can meet one side of the tree only before the plane, and the
+//! other side only behind it. But the tolerance lets fragments reach across the plane, and the planes that
+//! are read here are rounded to `f32`. So each side, and the fragments *on* the plane, are visited up to a
+//! small distance beyond the plane. Some parts are therefore visited without success, but no decision depends
+//! on it: `ray` decides which fragments are met, and in which order.
 
 use std::ops::Range;
 
@@ -17,41 +17,42 @@ use crate::tree::bounds::Bounds;
 use crate::tree::node::Ranges;
 use crate::tree::{BLOCK, BspTree, Flat};
 
-/// The parts of a tree that a ray has not come to.
+/// The parts of a tree that a ray has not reached yet.
 #[derive(Clone, Debug)]
 pub(super) struct Walk<'t> {
     tree: &'t BspTree,
     boxes: Option<Boxes<'t>>,
     /// A stack: the nearest part is on top.
     pending: SmallVec<[Pending; 24]>,
-    /// The ray in units of 2⁵¹ lattice steps, as the tree's planes are given.
+    /// The ray in units of 2⁵¹ lattice steps, like the tree's planes.
     origin: [f64; 3],
     direction: [f64; 3],
-    /// How far beyond a plane fragments may be that count as in front, behind or on it.
+    /// The largest distance beyond a plane of fragments that count as in front of it, behind it or on it.
     slack: f64,
-    /// Fragments that the ray has come to and may meet between these parameters.
+    /// Fragments that the ray has reached and may meet between these parameters.
     run: Range<u32>,
     span: [f64; 2],
 }
 
-/// A subtree, or fragments alone, and between which parameters the ray may meet them.
+/// A subtree, or fragments without nodes, and the parameters between which the ray may meet them.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
-    /// [`LEAF`] for fragments alone.
+    /// [`LEAF`] for fragments without nodes.
     node: u32,
     first: u32,
     end: u32,
     from: f64,
     to: f64,
-    /// Neither this part nor those below it on the stack are met before this.
+    /// Neither this part nor the parts below it on the stack are met before this parameter.
     floor: f64,
 }
 
 const LEAF: u32 = u32::MAX;
 
-/// Error bound of a plane that is rounded to `f32`, at points of the scene, in units of 2⁵¹ lattice
-/// steps: 2⁻²⁴ of the normal's coordinates, which the point's are at most 1.014 times, and of the offset.
-/// With a unit normal that is 2⁻²⁴ · 1.014 · (√3 + √3).
+/// Error bound of a plane that is rounded to `f32`, at points of the scene, in units of 2⁵¹ lattice steps:
+/// 2⁻²⁴ of the normal's coordinates, times the point's coordinates of at most 1.014, and 2⁻²⁴ of the offset.
+/// With a unit normal that is at most 2⁻²⁴ · 1.014 · (√3 + √3). Too small: fragments that are met are missed.
+/// Too large: more fragments are visited without success.
 const PLANE_ERROR: f64 = 2.2e-7;
 
 /// Rounding of a plane's distance at a point of the ray, as a share of the query's reach.
@@ -79,8 +80,7 @@ impl<'t> Walk<'t> {
         walk
     }
 
-    /// The next fragment that the ray may meet; `None` if none is left that it meets at a limit or
-    /// before.
+    /// The next fragment that the ray may meet; `None` if the ray meets no further fragment up to a limit.
     #[inline]
     pub(super) fn next(&mut self, limit: f64) -> Option<u32> {
         loop {
@@ -99,16 +99,17 @@ impl<'t> Walk<'t> {
         }
     }
 
-    /// No pending part is met before this.
+    /// No pending part is met before this parameter.
     fn floor(&self) -> f64 {
         self.pending.last().map_or(f64::INFINITY, |part| part.floor)
     }
 
-    /// Goes down the near side of a subtree to the first fragments, and leaves the rest on the stack.
+    /// Descends on the near side of a subtree to the first fragments, and pushes the other parts onto the
+    /// stack.
     fn descend(&mut self, part: Pending, limit: f64) {
         let Pending { mut node, first, end, mut from, mut to, .. } = part;
         let mut all = first..end;
-        // How many fragments the last box that was compared has; at first none was.
+        // The number of fragments of the last box compared; initially no box was compared.
         let mut boxed = u32::MAX;
         while node != LEAF {
             let index = node as usize;
@@ -145,8 +146,8 @@ impl<'t> Walk<'t> {
             }
             let (near, far, toward) =
                 if slope >= 0.0 { (back, front, -start) } else { (front, back, start) };
-            // The ray is within the slack of the plane between these. Without a slope they are infinite, or
-            // NaN, for which every comparison is false.
+            // The ray is within the slack of the plane between these parameters. Without a slope they are
+            // infinite, or NaN, for which every comparison is false.
             let [enter, leave] =
                 [toward - self.slack, toward + self.slack].map(|d| d / slope.abs());
             let begin = if enter > from { enter } else { from };
@@ -175,14 +176,14 @@ impl<'t> Walk<'t> {
         }
     }
 
-    /// The parameters between which the ray is where corners can be; `None` if it never is.
+    /// The parameters between which the ray is in the space of possible corners; `None` if it never is.
     fn within_reach(&self, query: &RayQuery) -> Option<[f64; 2]> {
         let reach = MAX_CORNER / LATTICE_LIMIT + self.slack;
-        // An endless ray without a direction is a point as well.
+        // An endless ray without a direction is also a point.
         let is_endless = query.is_endless && query.speed > 0.0;
         let (mut from, mut to) = (0.0_f64, if is_endless { f64::INFINITY } else { 1.0 });
         for (start, slope) in self.origin.into_iter().zip(self.direction) {
-            // Without a slope these are infinite, or not a number, which `min` and `max` pass over.
+            // Without a slope these are infinite, or NaN, which `min` and `max` ignore.
             let [a, b] = [-reach, reach].map(|side| (side - start) / slope);
             (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
         }
@@ -190,25 +191,25 @@ impl<'t> Walk<'t> {
     }
 }
 
-/// A ray and the boxes of fragments, in the unit of these.
+/// A ray and the boxes of fragments, in the unit of the boxes.
 #[derive(Clone, Debug)]
 pub(super) struct Boxes<'t> {
     bounds: &'t Bounds,
-    /// For each axis: the origin, with the slack added and taken off, and one over the direction.
+    /// For each axis: the origin plus and minus the slack, and 1 divided by the direction.
     origins: [[f64; 2]; 3],
     inverses: [f64; 3],
 }
 
-/// Boxes count as larger by this share of the largest coordinate: what the direction, its inverse, the
-/// way to a side and the product with it lose is a fourth of that.
-/// Too small: fragments that are met are passed over. Too large: more are visited without success.
+/// Boxes count as larger by this share of the largest coordinate. The direction, its inverse, the distance to
+/// a side and their product lose a fourth of this. Too small: fragments that are met are missed. Too large:
+/// more fragments are visited without success.
 const PARAMETER_ERROR: f64 = 8.0 * f64::EPSILON;
 
-/// One over the smallest coordinate of a direction that counts.
+/// 1 divided by the smallest coordinate of a direction that counts.
 const STEEP: f64 = 1e250;
 
-/// Origins and directions of other sizes, beside that of the scene, are looked at without boxes, whose floats
-/// would overflow or lose digits there.
+/// The sizes of origins and directions, relative to the scene, for which boxes are used. Outside this range,
+/// the boxes' floats would overflow or lose digits.
 const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
@@ -230,7 +231,8 @@ impl<'t> Boxes<'t> {
         })
     }
 
-    /// Between which parameters the line of the ray may be in a box; it is not if the first is larger.
+    /// The parameters between which the line of the ray may be in a box; it is outside if the first is
+    /// larger.
     #[inline]
     fn within(&self, bounds: &Flat) -> [f64; 2] {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -246,7 +248,7 @@ impl<'t> Boxes<'t> {
         [enter, leave]
     }
 
-    /// The next of some fragments whose box the ray meets between two parameters.
+    /// The next fragment whose box the ray meets between two parameters.
     #[inline]
     pub(super) fn next(&self, run: &mut Range<u32>, [from, to]: [f64; 2]) -> Option<u32> {
         let is_passed = |bounds: &Flat| {
@@ -258,9 +260,9 @@ impl<'t> Boxes<'t> {
     }
 }
 
-/// Takes blocks off the beginning of a run of fragments, up to the first that may be inside of something, and
-/// returns that one, and whether it certainly is inside; otherwise it is one fragment. `is_inside` says so of a
-/// box, if it can tell.
+/// Removes blocks from the start of a run of fragments, up to the first block that may be inside a region.
+/// Returns that block, and whether it is certainly inside; otherwise it is one fragment. `is_inside` decides
+/// this for a box, if it can.
 #[inline]
 pub(super) fn next_block(
     bounds: &Bounds,

@@ -12,17 +12,17 @@ use crate::tree::{BspTree, Flat};
 use crate::viewpoint::Ray;
 
 /// Boxes are treated as wider by this, in units of 2⁵¹ lattice steps: more than the rounding of the point.
-/// Too small: faces above the point are missed. Too large: more of them are examined.
+/// Too small: faces above the point are missed. Too large: more faces are examined.
 const MARGIN: f64 = 1e-6;
 
 impl BspTree {
-    /// How many times the polygons wind around a point: 0 outside, 1 inside a body whose fronts face
+    /// Returns how many times the polygons wind around a point: 0 outside, 1 inside a body whose fronts face
     /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` on the
     /// boundary; `hits(Ray::between(point, point))` returns the polygons there.
     ///
-    /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the point as
-    /// you give it, except for points within the tolerance of polygons that were
-    /// [flattened](crate::Preparation::flattened). A point with a NaN or infinite coordinate is outside.
+    /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the given
+    /// point, except within the tolerance of polygons that were [flattened](crate::Preparation::flattened). A
+    /// point with a NaN or infinite coordinate is outside.
     ///
     /// ```
     /// use binspace::BspTree;
@@ -39,17 +39,17 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The first call sorts all edges, to see that the bodies are closed: O(n log n). Each call takes time
+    /// The first call sorts all edges, to check that the bodies are closed: O(n log n). Each call takes time
     /// proportional to the number of boxes above the point.
     ///
-    /// Computed as the signed number of faces that a ray crosses (a point in polygon test in the
-    /// projection along the ray), with a ray moved by an infinitesimal step where it meets an edge (H.
+    /// The winding number is the signed number of faces that a ray crosses, by a point-in-polygon test in the
+    /// projection along the ray. Where the ray meets an edge, it is moved by an infinitesimal step (H.
     /// Edelsbrunner and E. Mücke, "Simulation of simplicity", 1990).
     ///
     /// # Errors
     ///
-    /// If no edges of other polygons run back along an edge: the error names its polygon, and
-    /// [`open_edges`](Self::open_edges) returns all such edges. If the tree is of a cell.
+    /// If an edge is open, because no edges of other polygons run back along it: the error names its polygon,
+    /// and [`open_edges`](Self::open_edges) returns all open edges. Also if the tree is the tree of a cell.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
@@ -68,16 +68,16 @@ impl BspTree {
         Ok(Some(faces.map(|face| winding_below(&self.faces, face, &exact)).sum()))
     }
 
-    /// The edges that keep bodies from being closed, in the order of polygons: each with the index of its
-    /// polygon and the number of the corner where it begins. An edge is closed by edges that run back along
-    /// it, one or several in a row. O(n log n) for the first call, which keeps them.
+    /// Returns the open edges of bodies, in the order of polygons: the index of the polygon, and the number
+    /// of the corner where the edge begins. An edge is closed by one or more consecutive edges that run back
+    /// along it. The first call takes O(n log n) time and stores the result.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)
         })
     }
 
-    /// These edges by the number of their face and of the edge in it.
+    /// The open edges, by the number of the face and of the edge in it.
     fn open_edges_of_faces(&self) -> &[[u32; 2]] {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
@@ -109,7 +109,8 @@ impl BspTree {
     }
 }
 
-/// How many times a face winds around the ray along z from a point, if the face is above the point; else 0.
+/// How many times a face winds around the ray along z from a point, if the face is above the point; otherwise
+/// 0.
 fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     // Corners as given, which neighbours share: so no ray slips between them.
     let corners: Vec<[f64; 3]> =
@@ -133,8 +134,8 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if winding == 0 {
         return 0;
     }
-    // Where only the given corners wind around the ray, and not those that were moved, the face's plane meets
-    // the ray anywhere, or nowhere. So corners decide for a point above or below all of them.
+    // If the given corners wind around the ray but the moved corners do not, the face's plane may meet the
+    // ray anywhere. So corners decide for a point above or below all of them.
     let is_below_of = |&corner: &[f64; 3]| point.at(&Plane::axis(2, corner)).start().is_lt();
     let below = corners.iter().filter(|&corner| is_below_of(corner)).count();
     let plane = faces.plane(PlaneId::face(face));
@@ -147,7 +148,7 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if is_below { winding } else { 0 }
 }
 
-/// An edge between lattice points: where it begins and ends, and its face and number.
+/// An edge between lattice points: its start and end, and its face and number.
 type Edge = ([i64; 3], [i64; 3], [u32; 2]);
 
 /// The edges of faces, by face and number, that other edges do not run back along.
@@ -159,7 +160,7 @@ fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
             |k: usize| faces.given_corner((range.start + k % range.len()) as u32).map(|c| c as i64);
         edges.extend((0..range.len()).map(|k| (corner(k), corner(k + 1), [face, k as u32])));
     }
-    // Nearly all edges have an equal one in the opposite direction.
+    // Nearly all edges have an equal edge in the opposite direction.
     let ends = |&(a, b, _): &Edge| (a.min(b), a.max(b));
     edges.sort_unstable_by_key(|edge| (ends(edge), edge.0 < edge.1, edge.2));
     let mut left = Vec::new();
@@ -171,7 +172,8 @@ fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
             left.extend_from_slice(&more[more.len() - surplus..]);
         }
     }
-    // The others may be closed by several edges of their line, as where a corner is on a neighbour's edge.
+    // The other edges may be closed by several collinear edges, for example if a corner is on a neighbour's
+    // edge.
     left.sort_by_cached_key(|&(a, b, _)| line(a, b));
     let mut open = Vec::new();
     for edges in left.chunk_by(|one, other| line(one.0, one.1) == line(other.0, other.1)) {
@@ -181,18 +183,18 @@ fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
     open
 }
 
-/// The line through two points: its direction, without a common divisor and with its first coordinate that is
-/// not 0 above 0, and the moment of its points about the origin.
+/// The line through two points: its direction, and the moment of its points about the origin. The direction
+/// has no common divisor, and its first coordinate that is not 0 is positive.
 fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     let way: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
     let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;
     let sign = way.iter().find(|&&c| c != 0).map_or(1, |c| c.signum());
     let way = way.map(|c| c / divisor.max(1) * sign);
-    // Numbers of the lattice are exact in `f64`.
+    // Lattice coordinates are exact in `f64`.
     (way, cross([0.0; 3], a.map(|c| c as f64), way.map(|c| c as f64)))
 }
 
-/// Of edges along one line, those with a stretch where more of them run in their direction than back.
+/// Of collinear edges, the edges with a stretch that more edges traverse in their direction than backwards.
 fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
     // Points of a line have the same order as their coordinates, compared one after the other.
     let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());
@@ -200,7 +202,7 @@ fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
         ends.extend([(a, 1), (b, -1)]);
     }
     ends.sort_unstable();
-    // Before each end, how many stretches so far have a surplus of edges that run up, and that run down.
+    // Before each end, the numbers of earlier stretches with a surplus of upward and of downward edges.
     let (mut surplus, mut counts) = (0, vec![[0, 0]]);
     for (i, &(end, step)) in ends.iter().enumerate() {
         surplus += step;

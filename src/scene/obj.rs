@@ -414,6 +414,8 @@ pub struct ObjReport {
     /// `newmtl`, `Kd`, `d` and `Tr` lines in material libraries that are malformed or of an
     /// unsupported kind, such as spectral curves.
     pub skipped_material_lines: usize,
+    /// `map_Kd` and `map_d` lines in material libraries: textures, which are not read.
+    pub skipped_textures: usize,
     /// `Kd`, `d` and `Tr` lines in material libraries with a number below 0 or above 1, which was taken as 0
     /// or 1: the library and the line, as in `parts.mtl:7`.
     pub clamped_material_lines: Vec<String>,
@@ -445,6 +447,7 @@ impl fmt::Display for ObjReport {
             ("texture coordinates and normals skipped", count(self.skipped_attributes)),
             ("unknown statements skipped", count(self.skipped_statements)),
             ("material properties skipped", count(self.skipped_material_lines)),
+            ("textures skipped", count(self.skipped_textures)),
             ("material libraries not found", list(&self.missing_libraries)),
             (
                 "material libraries outside the file's folder, not read",

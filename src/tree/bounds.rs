@@ -38,14 +38,14 @@ const STEP: f64 = 1.0 / 64.0;
 const MOVED: f64 = 0.5;
 
 impl BspTree {
-    /// The bounding box `[low, high]` of all fragments, rounded outwards; `None` if there are none.
+    /// Returns the bounding box `[low, high]` of all fragments, rounded outwards; `None` for an empty tree.
     ///
     /// The first call computes boxes of all subtrees and fragments, in O(n) time, and keeps them with the
-    /// tree: about 90 bytes per fragment. So does the first call of [`Node::bounds`], [`Node::facing_all`],
-    /// [`hits`](Self::hits), [`is_occluded`](Self::is_occluded), [`fragments_in`](Self::fragments_in),
-    /// [`winding_number`](Self::winding_number), or the first [culled](crate::Order::culled) order, also of
-    /// an overlay. To compute them in advance, call this after building. Other threads that need the boxes
-    /// meanwhile wait for them.
+    /// tree: about 90 bytes per fragment. The same applies to the first call of [`Node::bounds`],
+    /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
+    /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
+    /// [culled](crate::Order::culled) order, also of an overlay. To compute the boxes in advance, call this
+    /// after building. Other threads that need the boxes at that time wait.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -60,15 +60,15 @@ impl BspTree {
 }
 
 impl Node<'_> {
-    /// The bounding box `[low, high]` of all fragments on the node's plane and on its sides, in the
-    /// polygons' unit. It is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of
-    /// `f64` on each side. O(1), but see [`BspTree::bounds`].
+    /// Returns the bounding box `[low, high]` of all fragments on the node's plane and on its sides, in the
+    /// polygons' unit. It is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64`
+    /// on each side. O(1), but see [`BspTree::bounds`].
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
-    /// The side that all fragments of the subtree show to a viewpoint, if their normals and their box
-    /// decide it. It is the exact [`Fragment::facing`] of each of them. O(1), but see [`BspTree::bounds`].
+    /// Returns the side that all fragments of the subtree show to a viewpoint, if their normals and their box
+    /// decide it. It is the exact [`Fragment::facing`] of each fragment. O(1), but see [`BspTree::bounds`].
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));
@@ -82,7 +82,7 @@ fn in_world(lattice: &Lattice, bounds: &Flat) -> [DVec3; 2] {
 }
 
 impl Fragment<'_> {
-    /// The bounding box `[low, high]`, in the polygons' unit, rounded outwards like [`Node::bounds`].
+    /// Returns the bounding box `[low, high]`, in the polygons' unit, rounded outwards like [`Node::bounds`].
     /// O(vertices).
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.faces.lattice(), &self.flat_bounds())
@@ -151,7 +151,7 @@ impl Bounds {
         Self { fragments: tree.len() as u32, nodes, normals, levels, planes }
     }
 
-    /// Those of fragments without nodes: an overlay's pieces.
+    /// The bounds of fragments without nodes: an overlay's pieces.
     pub(crate) fn of_pieces(len: usize, flat: impl Fn(usize) -> Flat) -> Self {
         let (nodes, normals, planes) = (vec![], vec![], Planes::of([].into_iter()));
         Self {
@@ -234,8 +234,8 @@ const NOTHING: Flat = [
     f32::NEG_INFINITY,
 ];
 
-/// The number of boxes summed up in one. Too small: more memory. Too large: more boxes are tested where few
-/// are met.
+/// The number of boxes summed up in one larger box. Too small: more memory. Too large: more boxes are tested
+/// where few are met.
 pub(crate) const BLOCK: usize = 16;
 
 /// Boxes that are compared with a plane at once.
@@ -269,15 +269,6 @@ impl Block {
     }
 }
 
-/// A box around points of the world.
-pub(crate) fn around<const N: usize>(lattice: &Lattice, points: [DVec3; N]) -> Flat {
-    let points = points.map(|point| lattice.to_lattice(point));
-    let most = |axis: usize, pick: fn(f64, f64) -> f64| {
-        points.iter().map(|point| point[axis]).reduce(pick).unwrap_or_default()
-    };
-    outwards([0, 1, 2].map(|axis| most(axis, f64::min)), [0, 1, 2].map(|axis| most(axis, f64::max)))
-}
-
 /// A box that contains a box in lattice units.
 fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     std::array::from_fn(|i| {
@@ -307,15 +298,15 @@ pub(crate) struct HalfSpace {
     normal: [f32; 3],
     /// Less than the offset, by more than the rounding error of all compared values.
     offset: f32,
-    /// The coordinates of a box's furthest corner along the normal, and of its nearest.
+    /// The coordinates of a box's furthest corner along the normal, and of its nearest corner.
     far: [usize; 3],
     near: [usize; 3],
 }
 
-/// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's
-/// magnitudes: coordinates are at most 1.014, and the normal, products and sums are rounded, which makes 4
-/// · 1.014 · 2⁻²⁴. The rest is more than a step of the scene's grid, by which the eye may be off. Too
-/// small: boxes that reach over the plane are behind. Too large: more boxes near it are not.
+/// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's magnitudes:
+/// coordinates are at most 1.014, and the normal, products and sums are rounded, by 4 · 1.014 · 2⁻²⁴ in
+/// total. The rest is more than a step of the scene's grid, by which the eye may be off. Too small: boxes
+/// that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
 const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
 /// Roundings of the plane's position, in `f64`.
@@ -343,8 +334,8 @@ impl HalfSpace {
         let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
         let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
         let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
-        // The same margin for all boxes, so that a box inside another is never in front of a plane that has
-        // the larger one behind.
+        // The same margin for all boxes: so if a box is behind a plane, no box inside it is in front of that
+        // plane.
         let offset = if least.is_nan() { f32::NEG_INFINITY } else { (least as f32).next_down() };
         let normal = if least.is_nan() { [0.0; 3] } else { normal.as_vec3().to_array() };
         let sides = |is_far| [0, 1, 2].map(|i| if (normal[i] > 0.0) == is_far { i + 3 } else { i });
@@ -391,11 +382,11 @@ pub(in crate::tree) struct Normals {
     high: [f32; 3],
 }
 
-/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this to it. With ε = 2⁻²³: a
-/// normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, which leaves less than ε
-/// / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and so is the sum, by ε / 2 where it is
-/// more than 1. So this is more than twice the error. Too small: a box may not contain the exact normal.
-/// Too large: fewer subtrees are decided at once.
+/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this bound to it. With ε =
+/// 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is less
+/// than ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and a sum of more than 1 by ε / 2.
+/// So this is more than twice the error. Too small: a box may not contain the exact normal. Too large: fewer
+/// subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {
@@ -417,8 +408,8 @@ impl Normals {
         }
     }
 
-    /// The side that all polygons with such normals and with vertices in a box show to an eye; `None` if
-    /// these do not decide.
+    /// The side that all polygons with such normals and with vertices in a box show to an eye; `None` if the
+    /// normals and the box do not decide it.
     ///
     /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
     /// bounds of n and p bound each product, and so the sum.
@@ -433,9 +424,9 @@ impl Normals {
             high += products.into_iter().fold(f64::NEG_INFINITY, f64::max);
             size += products.into_iter().fold(0.0, |size, product| product.abs().max(size));
         }
-        // With ε = 2⁻⁵²: each product has a rounding error of ε / 2 of it, and each sum one of ε / 2 of its
-        // terms. There are two sums that round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size
-        // is enough.
+        // With ε = 2⁻⁵²: each product has a rounding error of ε / 2 of the product, and each sum an error of
+        // ε / 2 of its terms. Two sums round (the first adds to 0), so ε / 2 + ε / 2 + ε / 2 of the size is
+        // enough.
         let margin = 4.0 * f64::EPSILON * size;
         if low > margin {
             Some(Ordering::Greater)

@@ -13,8 +13,8 @@ use crate::Error;
 use crate::exact::{Faces, Plane, PlaneId, StoredVertex};
 use crate::faces::Preparation;
 
-/// A binary space partition of polygons, which gives their exact back-to-front or front-to-back
-/// order for any viewpoint.
+/// A binary space partition of polygons. It returns their exact back-to-front or front-to-back order for any
+/// viewpoint.
 ///
 /// # Use
 ///
@@ -31,9 +31,9 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// Build the tree once for static polygons, then get an order from it every frame. An
-/// [`Overlay`](crate::overlay::Overlay) adds moving polygons, lines and points. If most polygons move, as
-/// in a compositor of layers, use a [`FrameBuilder`](crate::FrameBuilder), which builds a tree every frame.
+/// Build the tree once for static polygons, then read an order from it every frame. An
+/// [`Overlay`](crate::overlay::Overlay) adds moving polygons, lines and points. If most polygons move, as in
+/// a compositor of layers, use a [`FrameBuilder`](crate::FrameBuilder), which builds a tree every frame.
 ///
 /// # Contents
 ///
@@ -42,29 +42,30 @@ use crate::faces::Preparation;
 /// [`face_count`](Self::face_count). Polygons without area are dropped ([`dropped`](Self::dropped) lists
 /// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
-/// A [`Fragment`](crate::Fragment) returns the index of its polygon in the input, its vertices with their
-/// weights over the polygon's corners, its edges that are edges of the polygon, and the side that
+/// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, its vertices with their
+/// weights over the polygon's corners, those of its edges that are edges of the polygon, and the side that
 /// [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from 0 to [`len`](Self::len) − 1. A
 /// number is valid for its own tree only.
 ///
 /// # Order
 ///
-/// In back-to-front order, no fragment hides one that comes later. Front to back is exactly the reverse.
-/// Back to front, coplanar polygons come in input order from either side, so the later of two decals is
-/// painted over the earlier. The [exception](#exactness) is a third polygon that lies almost in their
-/// plane. An eye on a plane may count as on either side of it. [`Viewpoint`](crate::Viewpoint) defines the
-/// effect of a NaN, an infinite eye or a zero direction.
+/// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. Back
+/// to front, coplanar polygons follow each other in input order, seen from either side, so the later of two
+/// decals is painted over the earlier. A third polygon that lies almost in their plane can cause an
+/// [exception](#exactness). An eye on a plane may count as on either side of it.
+/// [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or a zero direction.
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
 /// | [`order`](Self::order), written as a list of numbers: [`write_into`](crate::Order::write_into) | O(n) | your buffer |
 /// | [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
-/// | iterated over, from both ends | O(n) for all of it | O(depth) |
+/// | iterated over, from both ends | O(n) for the whole order | O(depth) |
 /// | walked by subtrees, some skipped: [`walk`](crate::Order::walk) | O(subtrees and fragments visited) | O(depth) |
 ///
-/// The list is fastest: 1.4 to 4 ns per fragment on one thread. [`back_to_front`](Self::back_to_front) and
-/// [`back_to_front_into`](Self::back_to_front_into) are short for the iterator and the list.
-/// [`same_order`](Self::same_order) returns whether a moved eye still has the same order.
+/// Writing the list is fastest: 1.4 to 4 ns per fragment on one thread.
+/// [`back_to_front`](Self::back_to_front) and [`back_to_front_into`](Self::back_to_front_into) are shorthands
+/// for the iterator and the list. [`same_order`](Self::same_order) returns whether a moved eye still has the
+/// same order.
 ///
 /// # Drawing a frame
 ///
@@ -91,32 +92,32 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// The indices of an earlier frame are still right if [`same_order`](Self::same_order) is true of its eye
-/// and the new one: no partition plane lies between them.
+/// The indices of an earlier frame are still right if [`same_order`](Self::same_order) is true of the old and
+/// the new eye: then no partition plane lies between them.
 ///
-/// If most polygons are opaque, draw the opaque ones first, in any order, with a depth buffer. Then draw
-/// the translucent ones back to front, with the depth test on and depth writes off.
-/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of either kind. The
-/// picture differs from one drawn entirely in order only where polygons touch: at equal depth a translucent
-/// polygon is drawn over an opaque one, regardless of input order.
+/// If most polygons are opaque, draw the opaque polygons first, in any order, with a depth buffer. Then draw
+/// the translucent polygons back to front, with the depth test on and depth writes off.
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of either kind. The picture
+/// differs from a picture drawn entirely in order only where polygons touch: at equal depth a translucent
+/// polygon is drawn over an opaque polygon, regardless of input order.
 ///
 /// # Culling
 ///
 /// A [culled](crate::Order::culled) order leaves out fragments that are outside a camera's
-/// [`Frustum`](crate::Frustum) or seen from the wrong side, in time proportional to the rest. A
-/// [walk](crate::Order::walk) skips the subtrees that you choose, for instance by their
+/// [`Frustum`](crate::Frustum) or seen from the wrong side. Its time is proportional to the remaining
+/// fragments. A [walk](crate::Order::walk) skips the subtrees that you choose, for instance by their
 /// [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for occlusion. The
 /// first use of boxes computes the boxes of the whole tree, once.
 ///
 /// # Rays, lines of sight and points
 ///
 /// [`hits`](Self::hits) iterates lazily over the hits of a [`Ray`](crate::Ray), nearest first.
-/// [`is_occluded`](Self::is_occluded) returns whether anything lies between two points,
-/// [`winding_number`](Self::winding_number) whether a point is inside a closed body, and
-/// [`locate`](Self::locate) in which leaf it is. [`fragments_in`](Self::fragments_in) finds the fragments
-/// in a box or in front of planes. All of them decide exactly for the given numbers: a ray through an edge
-/// or a corner never slips between two polygons that share it (if neither was flattened: see
-/// [`Preparation::flattened`](crate::Preparation::flattened)).
+/// [`is_occluded`](Self::is_occluded) returns whether a polygon lies between two points,
+/// [`winding_number`](Self::winding_number) returns whether a point is inside a closed body, and
+/// [`locate`](Self::locate) returns the leaf of a point. [`fragments_in`](Self::fragments_in) finds the
+/// fragments in a box or in front of planes. All these queries decide exactly for the given numbers: a ray
+/// through an edge or a corner never slips between two polygons that share it (unless one was
+/// [flattened](crate::Preparation::flattened)).
 ///
 /// ```
 /// use binspace::{BspTree, Ray};
@@ -134,8 +135,8 @@ use crate::faces::Preparation;
 /// # Attributes
 ///
 /// A vertex made by a cut needs texture coordinates, colours or normals like a corner.
-/// [`Fragment::weights`](crate::Fragment::weights) returns the weights of each vertex over the corners of
-/// the polygon, and so does each [`MeshVertex`](crate::mesh::MeshVertex):
+/// [`Fragment::weights`](crate::Fragment::weights) returns the weights of each vertex over the corners of the
+/// polygon. Each [`MeshVertex`](crate::mesh::MeshVertex) stores them too:
 ///
 /// ```
 /// # let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -157,65 +158,65 @@ use crate::faces::Preparation;
 /// # Exactness
 ///
 /// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its bounding
-/// box). After that, every decision is exact, however often a polygon is cut. Only the vertices that you
-/// read are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of
-/// nodes, fragments and hits give the exact numbers.
+/// box). After that, every decision is exact, however often a polygon is cut. Only the vertices that you read
+/// are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of nodes,
+/// fragments and hits return the exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
-/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). Where polygons reach across a partition
-/// plane by less than τ, those parts may be painted in either order. This is visible along lines of sight
-/// that stay within τ of such a plane from one polygon to the other, or from the eye to the nearer polygon:
+/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). The parts of polygons that reach across a
+/// partition plane by less than τ may be painted in either order. This is visible along lines of sight that
+/// stay within τ of such a plane from one polygon to the other, or from the eye to the nearer polygon:
 ///
 /// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
 /// - polygons seen along a plane can be exchanged at any distance from each other;
-/// - polygons in exactly one plane can come out of input order where they overlap, if all of the overlap
-///   is within τ of a partition plane that crosses theirs: one of them is then treated as in front of it,
-///   and the other as behind it or on it.
+/// - polygons in exactly one plane can lose their input order where they overlap, if the whole overlap is
+///   within τ of a partition plane that crosses their plane. One polygon is then treated as in front of the
+///   partition plane, and the other as behind it or on it.
 ///
 /// With a tolerance of 0 the order is exactly right.
 ///
 /// # Which tolerance
 ///
-/// The [default](crate::Tolerance::Default) follows the input, so you rarely need to change it:
+/// The [default](crate::Tolerance::Default) depends on the input, so you rarely need to change it:
 ///
-/// | input | default | take instead |
+/// | input | default | when to change it |
 /// |---|---|---|
-/// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin four steps of the largest coordinate, which are more | 0 if layers, however thin, must never be exchanged |
-/// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | 0 if no computation has touched them, as on integers |
-/// | an OBJ file | four units in the last decimal that its coordinates need (zeros at the end aside), at most 10⁻⁵ of the extent, however far it lies from the origin | a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
-/// | a [`Polygon`](crate::Polygon) of your own | that of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
-/// | thin layers in a scene of large extent | | a length below half the distance of the layers |
+/// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin, four steps of the largest coordinate | use 0 if layers, however thin, must never be exchanged |
+/// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | use 0 for coordinates that were not computed, such as integers |
+/// | an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, however far it lies from the origin | use a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
+/// | your own [`Polygon`](crate::Polygon) type | the default of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
+/// | thin layers in a scene of large extent | | use a length below half the distance of the layers |
 ///
-/// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by
-/// rounding are triangulated. Too large: layers that were meant to be apart come in input order.
-/// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more
-/// than the tolerance and those [`flattened`](crate::Preparation::flattened) by it. [`Stats`](crate::Stats)
-/// counts faces made [coplanar](crate::Stats::nearly_coplanar). Both give the largest distance. The extent
-/// is that of *all* corners, so a stray vertex far away makes a relative tolerance larger: remove the
-/// vertex, or give a length.
+/// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by rounding
+/// are triangulated. Too large: layers that were meant to be apart are painted in input order.
+/// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more than
+/// the tolerance and polygons [`flattened`](crate::Preparation::flattened) by it. [`Stats`](crate::Stats)
+/// counts faces made [coplanar](crate::Stats::nearly_coplanar). Both types report the largest distance. The
+/// extent includes *all* corners, so a stray vertex far away makes a relative tolerance larger: remove the
+/// vertex, or set a length.
 ///
 /// # T-junctions
 ///
-/// A plane cuts only the polygons that span it. Where the cut ends on an edge that a *neighbouring* polygon
-/// shares, the neighbour may not be cut, and then has no vertex there. Two fragments of one polygon can
-/// differ in the same way if only one of them is cut further. A rasteriser can miss pixels at such a
-/// T-junction, because the rounded vertex is not exactly on the other's edge. Where both sides have a
-/// vertex, its coordinates are bit for bit equal, unless the tolerance moved a corner of one.
+/// A plane cuts only the polygons that span it. If the cut ends on an edge that a *neighbouring* polygon
+/// shares, the neighbour may not be cut, and then it has no vertex there. Two fragments of one polygon can
+/// differ in this way if only one is cut further. A rasteriser can miss pixels at such a T-junction, because
+/// the rounded vertex is not exactly on the neighbour's edge. If both sides have a vertex, its coordinates
+/// are bit for bit equal, unless the tolerance moved a corner of one side.
 ///
-/// [`welded_mesh`](Self::welded_mesh) has no T-junctions: it inserts the vertex on the other side, so
-/// that a closed body stays closed. Fragments themselves are never changed.
+/// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: it inserts the vertex on the other
+/// side, so a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///
 /// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8 µs per
-/// face with few cuts, and up to 12 µs with many. Without cuts the worst case is n²: each plane separates
-/// only a few polygons from the rest, as in nested shells or the sides of a cone. Polygons that all cross
-/// one another can have n³ / 6 fragments.
+/// face with few cuts, and up to 12 µs with many cuts. Without cuts the worst case is n²: each plane
+/// separates only a few polygons from the others, as in nested shells or the sides of a cone. Polygons that
+/// all cross one another can have n³ / 6 fragments.
 ///
-/// Modelled scenes and scans have 1.0 to 2.3 fragments a face; random triangles that cross each other have
-/// many more (1000 of them about 12 each, and the ratio grows with n).
+/// Modelled scenes and scans have 1.0 to 2.3 fragments per face. Random triangles that cross each other have
+/// many more: about 12 each for 1000 triangles, and the ratio grows with n.
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to 160
-/// bytes a fragment ([`memory_usage`](Self::memory_usage)), and up to 2.7 times that while it is built.
+/// bytes per fragment ([`memory_usage`](Self::memory_usage)); the build takes up to 2.7 times as much memory.
 ///
 /// With the feature `save`, `BspTree::write` and `BspTree::read` store a tree bit for bit; reading takes a
 /// quarter to a half of the build time.
@@ -230,9 +231,9 @@ use crate::faces::Preparation;
 ///
 /// - Not a renderer: it computes an order, and you draw. (The feature `raster` has a painter that checks
 ///   orders.)
-/// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds some,
-///   builds the tree again. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points
-///   in one order with the tree's.
+/// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds polygons,
+///   builds the tree again. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points in
+///   one order with the tree's polygons.
 /// - Not a spatial index: for overlaps, nearest neighbours or only ray casts, use a bounding volume
 ///   hierarchy, which is much faster to build.
 /// - Not for solids: it does no Boolean operations.
@@ -242,7 +243,7 @@ pub struct BspTree {
     pub(crate) preparation: Preparation,
     pub(crate) nodes: Vec<NodeRecord>,
     pub(crate) planes: Planes,
-    /// None in a tree for one view.
+    /// `None` in a tree for one view.
     pub(super) layout: Option<OrderLayout>,
     pub(crate) records: Vec<Record>,
     pub(super) vertices: Vec<StoredVertex>,
@@ -252,9 +253,10 @@ pub struct BspTree {
     pub(super) cuts: usize,
     /// Identifies the tree, so that overlays and meshes of other trees are refused. Clones share it.
     pub(crate) generation: u64,
-    /// Made by the first query that needs them.
+    /// Computed by the first query that needs them.
     pub(super) bounds: OnceLock<Bounds>,
-    /// Edges that keep bodies from being closed, by face and number. Made by the first query that needs them.
+    /// Edges that keep bodies from being closed, by face and number. Computed by the first query that needs
+    /// them.
     pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
@@ -329,21 +331,21 @@ impl BspTree {
         Ok(tree)
     }
 
-    /// The number of fragments.
+    /// Returns the number of fragments.
     pub fn len(&self) -> usize {
         self.records.len()
     }
 
-    /// Whether there are no fragments.
+    /// Returns whether there are no fragments.
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
 
-    /// The number of faces: polygons with area, where a triangulated polygon counts once for each triangle.
-    /// O(1).
+    /// Returns the number of faces: polygons with area, where a triangulated polygon counts once for each
+    /// triangle. O(1).
     ///
-    /// If [`len`](Self::len) is the same number, no face was cut: each is drawn whole, and none crosses
-    /// another by more than the tolerance. (If [`len`](Self::len) is larger, faces need not cross: a
+    /// If [`len`](Self::len) is the same number, no face was cut: each face is drawn whole, and no face
+    /// crosses another by more than the tolerance. (If [`len`](Self::len) is larger, faces need not cross: a
     /// partition plane may have cut them.)
     pub fn face_count(&self) -> usize {
         self.faces.len()
@@ -355,30 +357,31 @@ impl BspTree {
         &self.faces
     }
 
-    /// Whether this is the tree of one cell of a [`Partition`](crate::partition::Partition), not of whole
-    /// polygons.
+    /// Returns whether this is the tree of one cell of a [`Partition`](crate::partition::Partition), not of
+    /// whole polygons.
     pub fn is_of_cell(&self) -> bool {
         self.faces.corners_of_cell() > 0
     }
 
-    /// Counts of the polygons dropped or triangulated before the tree was built.
+    /// Returns counts of the polygons dropped or triangulated before the tree was built.
     pub fn preparation(&self) -> &Preparation {
         &self.preparation
     }
 
-    /// Counts the polygons that have the same corners as an earlier one, rounded to the
-    /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all of them, and the
-    /// last one is painted last, as coplanar polygons come in input order.
+    /// Counts the polygons that have the same corners as an earlier polygon, rounded to the
+    /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all duplicates. Like all
+    /// coplanar polygons they are painted in input order.
     ///
-    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners
-    /// of its faces. So it ignores a corner of a triangulated polygon that no triangle has, such as one on
-    /// a straight side, and in the tree of a cell the corners of triangles outside the cell.
+    /// It takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners
+    /// of its faces. So the comparison ignores a corner of a triangulated polygon that no triangle has, such
+    /// as a corner on a straight side. In the tree of a cell it ignores the corners of triangles outside the
+    /// cell.
     pub fn duplicates(&self) -> usize {
         self.faces.duplicates()
     }
 
-    /// The indices of the polygons that have no fragments: polygons without area, and in the tree of a cell
-    /// polygons outside the cell.
+    /// Returns the indices of the polygons that have no fragments: polygons without area, and in the tree of
+    /// a cell polygons outside the cell.
     pub fn dropped(&self) -> impl Iterator<Item = usize> + Clone {
         self.faces.dropped(self.preparation.polygons)
     }
@@ -413,19 +416,19 @@ pub struct Stats {
     pub depth_mean: f64,
     /// The number of times that the builder cut a piece in two.
     pub splits: usize,
-    /// The size of the tree in bytes, with its boxes once they are made: [`BspTree::memory_usage`].
+    /// The size of the tree in bytes, with its boxes if they have been computed: [`BspTree::memory_usage`].
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Faces that lie on a partition plane only within the tolerance, not exactly. Faces on one plane come
-    /// in input order.
+    /// Faces that lie on a partition plane only within the tolerance, not exactly. Faces on one plane are
+    /// painted in input order.
     pub nearly_coplanar: usize,
-    /// The largest distance of their corners from that plane, a length.
+    /// The largest distance of these faces' corners from their partition plane, a length.
     pub nearly_coplanar_by: f64,
 }
 
 impl BspTree {
-    /// Statistics of the tree. O(fragments).
+    /// Returns statistics of the tree. O(fragments).
     pub fn stats(&self) -> Stats {
         let (mut depth_max, mut depth_sum) = (0, 0);
         let (mut is_near, mut nearly_coplanar_by) = (vec![false; self.faces.len()], 0.0);
@@ -465,7 +468,7 @@ impl BspTree {
         values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
-    /// The size in bytes, heap included. It grows by the boxes when the first query computes them.
+    /// Returns the size in bytes, heap included. It grows by the boxes when the first query computes them.
     pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
             + self.faces.memory_usage()

@@ -1,8 +1,9 @@
-//! Orders without invisible fragments: those outside a region or seen from the wrong side.
+//! Orders without fragments that are outside a region or seen from the wrong side.
 
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use glam::Vec4;
 use smallvec::SmallVec;
 
 use super::bounds::{Arms, BLOCK, Bounds, Flat, HalfSpace};
@@ -11,7 +12,7 @@ use super::order::eye::View;
 use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
-use crate::exact::{Plane, PlaneId};
+use crate::exact::{Faces, Plane, PlaneId};
 use crate::viewpoint::{Facing, Frustum, Viewpoint};
 
 /// The fragments that an order leaves out: [`Order::culled`](crate::Order::culled).
@@ -32,7 +33,7 @@ use crate::viewpoint::{Facing, Frustum, Viewpoint};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Culling {
     pub(crate) frustum: Frustum,
-    /// The side that is drawn; `None` for both.
+    /// The side that is drawn; `None` for both sides.
     pub(crate) facing: Option<Facing>,
 }
 
@@ -40,9 +41,9 @@ impl Culling {
     /// Leaves out nothing.
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
-    /// Leaves out the fragments outside a frustum: those whose boxes
-    /// ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind one of its planes. At most 32 planes are
-    /// used. Testing only boxes is fast; [`BspTree::fragments_in`] is exact.
+    /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
+    /// plane of a frustum. At most 32 planes are used. Testing only boxes is fast; [`BspTree::fragments_in`]
+    /// is exact.
     ///
     /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
     /// than the rounding errors of the test and of an eye in the apex of the frustum.
@@ -51,17 +52,17 @@ impl Culling {
         Self { frustum, ..self }
     }
 
-    /// Leaves out the fragments whose [`facing`](crate::Fragment::facing) is another; [`Facing::Front`] is
-    /// back-face culling. This is exact.
+    /// Leaves out the fragments with another [`facing`](crate::Fragment::facing); [`Facing::Front`] is
+    /// back-face culling. The test is exact.
     #[must_use]
     pub fn with_facing(self, facing: Facing) -> Self {
         Self { facing: Some(facing), ..self }
     }
 }
 
-/// Subtrees of at most this many fragments are ordered as a whole before fragments are left out. Too small:
-/// the walk visits more nodes, each with branches that no processor can predict. Too large: more fragments
-/// are ordered and then discarded. At most a block.
+/// Subtrees of at most this many fragments, at most a block, are ordered as a whole before fragments are left
+/// out. Too small: the walk visits more nodes, each with branches that no processor can predict. Too large:
+/// more fragments are ordered and then discarded.
 const FEW: usize = BLOCK;
 
 /// Fully marked subtrees of at most this many fragments are ordered at once. Too small: the walk visits
@@ -70,10 +71,16 @@ const LONG: usize = 64 * BLOCK;
 
 /// A subtree, or fragments without nodes.
 #[derive(Clone, Debug)]
-struct Listed {
+pub(crate) struct Subtree {
     /// Empty for fragments without nodes.
-    nodes: Range<u32>,
-    fragments: Range<u32>,
+    pub(crate) nodes: Range<u32>,
+    pub(crate) fragments: Range<u32>,
+}
+
+/// A subtree that is still to be written.
+#[derive(Clone, Debug)]
+pub(crate) struct Listed {
+    subtree: Subtree,
     /// Whether its fragments may show either side.
     is_mixed: bool,
 }
@@ -114,11 +121,14 @@ impl<'t> Cull<'t> {
         self.marks.any(&node.fragments()) && seen.is_none_or(|(side, seen)| seen == side)
     }
 
-    /// Whether an overlay's piece is drawn, by its box, and by its plane if it has sides.
-    pub(crate) fn shows_piece(&self, bounds: &Flat, plane: Option<&Plane>) -> bool {
-        let is_drawn =
-            self.side.zip(plane).is_none_or(|(side, plane)| plane.facing(self.view.eye()) == side);
-        is_drawn && !self.planes.iter().any(|plane| plane.is_behind(bounds))
+    /// Whether a box reaches into the frustum.
+    pub(crate) fn shows_box(&self, bounds: &Flat) -> bool {
+        !self.planes.iter().any(|plane| plane.is_behind(bounds))
+    }
+
+    /// Whether a plane shows the drawn side.
+    pub(crate) fn shows_plane(&self, plane: impl FnOnce() -> Plane) -> bool {
+        self.side.is_none_or(|side| plane().facing(self.view.eye()) == side)
     }
 
     /// Whether a fragment is drawn.
@@ -132,64 +142,97 @@ impl<'t> Cull<'t> {
     }
 
     pub(super) fn write(&self, order: &mut Vec<u32>) {
-        let nodes = 0..self.tree.nodes.len() as u32;
-        let fragments = 0..self.tree.len() as u32;
-        let mut pending = vec![Listed { nodes, fragments, is_mixed: self.side.is_some() }];
+        self.write_subtree(self.whole(), &mut vec![], order);
+    }
+
+    /// The numbers of all nodes and all fragments.
+    pub(crate) fn whole(&self) -> Subtree {
+        Subtree { nodes: 0..self.tree.nodes.len() as u32, fragments: 0..self.tree.len() as u32 }
+    }
+
+    /// Appends the drawn fragments of a subtree to an order. `pending` is working space, empty before and
+    /// after.
+    pub(crate) fn write_subtree(
+        &self,
+        subtree: Subtree,
+        pending: &mut Vec<Listed>,
+        order: &mut Vec<u32>,
+    ) {
+        pending.push(Listed { subtree, is_mixed: self.side.is_some() });
         while let Some(part) = pending.pop() {
-            self.descend(part, &mut pending, order);
+            self.descend(part, pending, order);
         }
     }
 
+    /// The two sides of a subtree's first node and the fragments on its plane: front, plane, back.
+    pub(crate) fn divide(&self, subtree: &Subtree) -> [Subtree; 3] {
+        let Subtree { nodes, fragments } = subtree.clone();
+        let record = &self.tree.nodes[nodes.start as usize];
+        let Ranges { own, front, back } = record.ranges(fragments);
+        let middle = nodes.start + 1 + record.front_nodes;
+        let of = |nodes, fragments| Subtree { nodes, fragments };
+        [of(nodes.start + 1..middle, front), of(0..0, own), of(middle..nodes.end, back)]
+    }
+
+    /// Whether the eye is in front of a plane of a tree and an overlay, whose faces are given.
+    pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
+        self.view.is_in_front_of(faces, plane, rounded)
+    }
+
     /// Writes the furthest fragments of a part, and puts the rest on the stack.
-    fn descend(&self, mut part: Listed, pending: &mut Vec<Listed>, order: &mut Vec<u32>) {
-        while self.marks.any(&part.fragments) {
-            if part.nodes.is_empty() {
-                return self.write_run(&part, order);
+    fn descend(&self, part: Listed, pending: &mut Vec<Listed>, order: &mut Vec<u32>) {
+        let Listed { mut subtree, mut is_mixed } = part;
+        while self.marks.any(&subtree.fragments) {
+            let Subtree { nodes, fragments } = &subtree;
+            if nodes.is_empty() {
+                return self.write_run(fragments, is_mixed, order);
             }
-            let len = part.fragments.len();
-            if len <= LONG && !part.is_mixed && self.marks.all(&part.fragments) {
-                return write_from_nodes(self.tree, &self.view, part.nodes, part.fragments, order);
+            let len = fragments.len();
+            if len <= LONG && !is_mixed && self.marks.all(fragments) {
+                return write_from_nodes(
+                    self.tree,
+                    &self.view,
+                    subtree.nodes,
+                    subtree.fragments,
+                    order,
+                );
             }
             if len <= FEW {
-                return self.write_few(part, order);
+                return self.write_few(subtree, is_mixed, order);
             }
-            let node = part.nodes.start as usize;
-            if let Some(side) = self.side.filter(|_| part.is_mixed) {
+            let node = nodes.start as usize;
+            if let Some(side) = self.side.filter(|_| is_mixed) {
                 let seen = self.bounds.seen(node, &self.arms);
                 if seen.is_some_and(|seen| seen != side) {
                     return;
                 }
-                part.is_mixed = seen.is_none();
+                is_mixed = seen.is_none();
             }
-            let record = &self.tree.nodes[node];
-            let Ranges { own, front, back } = record.ranges(part.fragments);
-            let middle = part.nodes.start + 1 + record.front_nodes;
-            let of = |nodes, fragments| Listed { nodes, fragments, is_mixed: part.is_mixed };
-            let front = of(part.nodes.start + 1..middle, front);
-            let back = of(middle..part.nodes.end, back);
+            let [front, own, back] = self.divide(&subtree);
             let is_in_front = self.view.is_in_front(self.tree, node);
             let (far, near) = if is_in_front { (back, front) } else { (front, back) };
             // Back to front: the far side, the fragments on the plane, the near side.
-            for part in [near, of(0..0, own)] {
-                if !part.fragments.is_empty() {
-                    pending.push(part);
+            for subtree in [near, own] {
+                if !subtree.fragments.is_empty() {
+                    pending.push(Listed { subtree, is_mixed });
                 }
             }
-            part = far;
+            subtree = far;
         }
     }
 
     /// Writes the drawn fragments of a small subtree.
-    fn write_few(&self, part: Listed, order: &mut Vec<u32>) {
-        let mut shown = self.marks.of_few(&part.fragments);
-        if part.is_mixed {
-            shown = self.show_side(part.fragments.clone(), shown);
+    fn write_few(&self, subtree: Subtree, is_mixed: bool, order: &mut Vec<u32>) {
+        let Subtree { nodes, fragments } = subtree;
+        let mut shown = self.marks.of_few(&fragments);
+        if is_mixed {
+            shown = self.show_side(fragments.clone(), shown);
         }
         if shown == 0 {
             return;
         }
-        let (first, begin) = (part.fragments.start, order.len());
-        write_from_nodes(self.tree, &self.view, part.nodes, part.fragments, order);
+        let (first, begin) = (fragments.start, order.len());
+        write_from_nodes(self.tree, &self.view, nodes, fragments, order);
         // No branch on the mask.
         let mut end = begin;
         for k in begin..order.len() {
@@ -201,10 +244,10 @@ impl<'t> Cull<'t> {
     }
 
     /// Writes the drawn fragments of a range without nodes.
-    fn write_run(&self, part: &Listed, order: &mut Vec<u32>) {
-        for (first, mut shown) in self.marks.words(&part.fragments) {
-            if part.is_mixed {
-                let end = part.fragments.end.min(first + BLOCK as u32);
+    fn write_run(&self, fragments: &Range<u32>, is_mixed: bool, order: &mut Vec<u32>) {
+        for (first, mut shown) in self.marks.words(fragments) {
+            if is_mixed {
+                let end = fragments.end.min(first + BLOCK as u32);
                 shown = self.show_side(first..end, shown);
             }
             if shown == ALL {
@@ -216,7 +259,7 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Of up to 16 fragments from a given number on, keeps those that have a bit and show the drawn side.
+    /// Keeps the bits of fragments that show the drawn side, of up to 16 fragments from a given number on.
     fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
@@ -247,7 +290,7 @@ const ALL: u32 = (1 << BLOCK) - 1;
 /// A bit for each fragment whose box reaches into a region, for each block with a marked fragment, and for
 /// each block with a marked block, in the layout of [`Bounds`].
 struct Marks {
-    /// For each level, a word for each block, and one more to read past the end.
+    /// For each level, a word for each block, and one more word to read past the end.
     words: Vec<u16>,
     /// The start of each level's words.
     levels: [usize; LEVELS],
@@ -321,8 +364,8 @@ impl Marks {
         }
     }
 
-    /// Whether some of these are marked. For 256 fragments and more it tests blocks, so it may return true
-    /// although none is marked.
+    /// Whether some of these fragments are marked. For 256 fragments and more it tests blocks, so it may
+    /// return true although no fragment is marked.
     #[inline]
     fn any(&self, fragments: &Range<u32>) -> bool {
         if fragments.is_empty() {
@@ -336,7 +379,7 @@ impl Marks {
         self.window(level as usize, first) & ((1 << len) - 1) != 0
     }
 
-    /// Whether all are marked.
+    /// Whether all these fragments are marked.
     fn all(&self, fragments: &Range<u32>) -> bool {
         fragments.clone().step_by(BLOCK).all(|first| {
             let len = (fragments.end - first).min(BLOCK as u32);
@@ -345,13 +388,13 @@ impl Marks {
         })
     }
 
-    /// A bit for each marked one of at most 16 fragments.
+    /// A bit for each marked fragment of at most 16.
     #[inline]
     fn of_few(&self, fragments: &Range<u32>) -> u32 {
         self.window(0, fragments.start) & ((1 << fragments.len()) - 1)
     }
 
-    /// The marked fragments by blocks: the number of the first, and a bit for each.
+    /// The marked fragments by blocks: the number of the first fragment, and a bit for each.
     fn words(&self, fragments: &Range<u32>) -> impl Iterator<Item = (u32, u32)> + use<'_> {
         let Range { start, end } = *fragments;
         let step = BLOCK as u32;

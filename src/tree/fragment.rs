@@ -25,11 +25,11 @@ pub struct Fragment<'t> {
 }
 
 impl BspTree {
-    /// A fragment by its number, below [`len`](Self::len).
+    /// Returns a fragment, given its number, below [`len`](Self::len).
     ///
     /// # Panics
     ///
-    /// If the number is not that of a fragment.
+    /// If no fragment has this number.
     pub fn fragment(&self, index: u32) -> Fragment<'_> {
         let Self { faces, records, vertices, positions, .. } = self;
         Fragment::new(faces, Stored { records, vertices, positions }, index as usize, index)
@@ -37,7 +37,7 @@ impl BspTree {
 }
 
 impl<'t> Fragment<'t> {
-    /// The fragment of a record, by the number that it has in orders.
+    /// The fragment of a record, given its number in orders.
     pub(crate) fn new(faces: &'t Faces, stored: Stored<'t>, record: usize, index: u32) -> Self {
         let Stored { records, vertices, positions } = stored;
         let next = records.get(record + 1);
@@ -48,17 +48,17 @@ impl<'t> Fragment<'t> {
         Self { faces, index, face, stored: &vertices[range], positions }
     }
 
-    /// The stored vertices; none for a whole face.
+    /// The stored vertices; empty for a whole face.
     pub(super) fn stored(&self) -> &'t [StoredVertex] {
         self.stored
     }
 
-    /// The fragment's number in the tree, as in [`back_to_front_into`](BspTree::back_to_front_into).
+    /// Returns the fragment's number in the tree, as in [`back_to_front_into`](BspTree::back_to_front_into).
     pub fn index(&self) -> u32 {
         self.index
     }
 
-    /// The index in the input of the polygon of which this is a piece.
+    /// Returns the index, in input order, of the polygon that this is a piece of.
     pub fn polygon(&self) -> usize {
         self.faces.polygon(self.face)
     }
@@ -69,51 +69,51 @@ impl<'t> Fragment<'t> {
         self.face
     }
 
-    /// The unit normal of the plane, which points to the front, where vertices run counter-clockwise. It is
-    /// bit for bit the same for all fragments of a polygon, or of a triangle if the polygon was
-    /// triangulated.
+    /// Returns the unit normal of the plane. It points to the front, the side from which vertices run
+    /// counter-clockwise. It is bit for bit the same for all fragments of a polygon, or of a triangle if the
+    /// polygon was triangulated.
     ///
-    /// The normal of the exact plane, each coordinate rounded a few times, to within 2⁻⁵⁰, however thin the
-    /// polygon. [`grid_points`](Self::grid_points) returns the plane exactly.
+    /// Each coordinate is within 2⁻⁵⁰ of the exact plane's normal, however thin the polygon.
+    /// [`grid_points`](Self::grid_points) returns the plane exactly.
     pub fn normal(&self) -> DVec3 {
         unit_normal(self.faces, PlaneId::face(self.face))
     }
 
-    /// The distance of the plane from the origin along the normal, in the polygons' unit. The plane holds
-    /// the points p with `normal().dot(p) == offset()`; its front is the side where the left side is
-    /// larger.
+    /// Returns the distance of the plane from the origin along the normal, in the polygons' unit. The plane
+    /// contains the points p with `normal().dot(p) == offset()`. Its front contains the points with
+    /// `normal().dot(p) > offset()`.
     ///
-    /// Rounded, to within 2⁻⁴⁸ of the largest coordinate of the polygon; infinite if it is too large for
-    /// `f64`.
+    /// The distance is rounded to within 2⁻⁴⁸ of the largest coordinate of the polygon, and infinite if it is
+    /// too large for `f64`.
     pub fn offset(&self) -> f64 {
         offset(self.faces, PlaneId::face(self.face))
     }
 
-    /// The exact plane of the polygon, or of one of its triangles if it was triangulated: three points of
-    /// the tree's [grid](BspTree::grid), counter-clockwise seen from the front.
+    /// Returns the exact plane of the polygon, or of one of its triangles if it was triangulated: three
+    /// points of the tree's [grid](BspTree::grid), counter-clockwise seen from the front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
     }
 
-    /// Whether it was never cut: it is a whole polygon, or a whole triangle of a triangulated polygon.
+    /// Returns whether the fragment was never cut: whether it is a whole polygon, or a whole triangle of a
+    /// triangulated polygon.
     pub fn is_whole(&self) -> bool {
         self.stored.is_empty()
     }
 
-    /// The number of vertices, three or more.
+    /// Returns the number of vertices, three or more.
     pub fn vertex_count(&self) -> usize {
         if self.is_whole() { self.faces.corners(self.face).len() } else { self.stored.len() }
     }
 
-    /// The vertices in the polygon's own orientation: counter-clockwise seen from its front.
+    /// Returns the vertices in the polygon's own orientation: counter-clockwise seen from its front.
     ///
-    /// The polygon's corners are as given, except that they are rounded to the grid, and moved onto the
-    /// polygon's plane if they were off it by less than the tolerance. Other vertices are rounded: each
-    /// coordinate is within 2⁻⁵¹ of the scene's extent plus one step of `f64` of its exact value. Pieces of
-    /// one polygon that share a vertex have the same bits for it. Where three cuts meet in a point of the
-    /// polygon, its bits may differ by one rounding between pieces.
+    /// The polygon's corners are rounded to the grid, and moved onto the polygon's plane if they were off it
+    /// by less than the tolerance. Other vertices are rounded: the error of each coordinate is at most 2⁻⁵¹
+    /// of the scene's extent plus one step of `f64`. Pieces of one polygon that share a vertex have the same
+    /// bits for it, except that they may differ by one rounding where three cuts meet in a point.
     ///
-    /// Each reading computes the vertices made by cuts from their exact definition, in about 0.1 µs each.
+    /// Each call computes the vertices made by cuts from their exact definition, in about 0.1 µs per vertex.
     /// Trees of a [`FrameBuilder`](crate::FrameBuilder) store them instead.
     pub fn vertices(
         &self,
@@ -138,11 +138,12 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// For each edge, from a vertex to the next, the polygon's edge that it lies on; `None` if a cut or
-    /// triangulation made it.
+    /// Returns, for each edge from a vertex to the next, the polygon's edge that it lies on; `None` if a cut
+    /// or triangulation made it.
     ///
-    /// An edge of the polygon has the number of the corner at which it begins. Of repeated corners this is
-    /// the last; of collinear edges that triangulation joined, the first.
+    /// An edge of the polygon has the number of the corner at which it begins. If that corner is repeated, it
+    /// is the last of the equal corners. If triangulation joined collinear edges, it is the number of the
+    /// first edge.
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
@@ -172,12 +173,12 @@ impl<'t> Fragment<'t> {
             .map(move |i| stored.get(i).map_or(VertexId::corner(i as u32), StoredVertex::vertex_id))
     }
 
-    /// For each vertex, weights over the polygon's corners: pairs of a corner's number and its
+    /// Returns, for each vertex, weights over the polygon's corners: pairs of a corner's number and its
     /// weight. The weights of a vertex sum to 1, up to rounding.
     ///
-    /// A corner has one pair, a vertex on an edge of the polygon (or of one of its triangles) two, an
-    /// interior vertex three. To interpolate an attribute of the corners, such as a texture coordinate, sum
-    /// weight · attribute.
+    /// A corner has one pair, a vertex on an edge of the polygon (or of one of its triangles) has two pairs,
+    /// and an interior vertex three. To interpolate an attribute of the corners, such as a texture
+    /// coordinate, sum weight · attribute.
     pub fn weights(
         &self,
     ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
@@ -190,12 +191,12 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// The side of the fragment that a viewpoint sees: its front, from which its vertices run
+    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices run
     /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view runs
     /// along it.
     ///
-    /// Exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so all fragments of a face have
-    /// the same result. The triangles of a non-planar polygon are faces with separate planes. O(1).
+    /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so it is the same for
+    /// all fragments of a face. The triangles of a non-planar polygon are faces with separate planes. O(1).
     ///
     /// To leave out fragments seen from behind, such as the walls between the eye and the inside of a room:
     ///
@@ -229,7 +230,7 @@ impl fmt::Debug for Fragment<'_> {
 }
 
 impl BspTree {
-    /// All fragments, in the order of their numbers.
+    /// Returns all fragments, in the order of their numbers.
     pub fn fragments(
         &self,
     ) -> impl DoubleEndedIterator<Item = Fragment<'_>>
@@ -245,8 +246,8 @@ impl BspTree {
 /// its terms.
 ///
 /// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its two
-/// products; the rounded eye minus a corner by 2u of both (a direction is exact); the products and sums add
-/// 3u. Too small: wrong signs pass. Too large: more faces are decided by integers.
+/// products. The rounded eye minus a corner is off by 2u of both terms (a direction is exact). The products
+/// and sums add 3u. Too small: wrong signs pass. Too large: more faces are decided by integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The side of a face that an eye sees: by floats where the bound allows, otherwise exactly.
@@ -270,11 +271,11 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
 /// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This is exact,
-/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size, where
-/// `base` has no room for all digits.
+/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: there
+/// `base` cannot store all digits.
 ///
 /// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions: the
-/// point x is in front of the plane through p, q and r where the determinant of q − p, r − p and x − p is
+/// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
 /// positive.
 ///
 /// ```
@@ -298,7 +299,7 @@ pub struct Grid {
 }
 
 impl BspTree {
-    /// The grid that corners are rounded to.
+    /// Returns the grid that corners are rounded to.
     pub fn grid(&self) -> Grid {
         let lattice = self.faces.lattice();
         Grid { base: lattice.to_world([0.0; 3]), exponent: -lattice.exponent() }
@@ -338,14 +339,14 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 
 /// All fragments of a tree as arrays of numbers: [`BspTree::arrays`] and [`BspTree::arrays_f32`].
 ///
-/// Fragments have the same numbers as in the tree's orders. The vertices of fragment `i`, and the edges
-/// from each vertex to the next, are at `offsets[i]..offsets[i + 1]`. The weights of vertex `v` are at
-/// `weight_offsets[v]..weight_offsets[v + 1]`. The values are those that [`Fragment`] returns.
+/// Fragments have the same numbers as in the tree's orders. The vertices of fragment `i`, and the edges from
+/// each vertex to the next, are at `offsets[i]..offsets[i + 1]`. The weights of vertex `v` are at
+/// `weight_offsets[v]..weight_offsets[v + 1]`. All values are the same as [`Fragment`] returns.
 ///
-/// Both lists of offsets have the form of sparse matrices by rows (CSR). The weights are such a matrix,
-/// which maps attributes of corners to attributes of vertices. It has a row for each vertex. Its columns
-/// are the corners of all polygons, one polygon after the other, if you add to each of `weight_corners` the
-/// number of corners of all polygons before:
+/// Both lists of offsets have the form of compressed sparse rows (CSR). The weights are a sparse matrix that
+/// maps attributes of corners to attributes of vertices. It has a row for each vertex, and a column for each
+/// corner of all polygons. The column is the number in `weight_corners` plus the number of corners of all
+/// earlier polygons:
 ///
 /// ```
 /// use binspace::BspTree;
@@ -379,7 +380,7 @@ pub struct FragmentArrays<T> {
     /// For each fragment, the number of its first vertex; at the end, the number of all vertices. (n + 1
     /// numbers for n fragments.)
     pub offsets: Vec<u32>,
-    /// For each fragment, the index of its polygon in the input.
+    /// For each fragment, the index of its polygon in input order.
     pub polygons: Vec<u32>,
     /// For each vertex, the edge of the polygon that contains the edge from this vertex to the next, by the
     /// number of the corner where it begins; −1 if a cut or triangulation made it.
@@ -393,11 +394,11 @@ pub struct FragmentArrays<T> {
 }
 
 impl BspTree {
-    /// All fragments as arrays, in the order of their numbers.
+    /// Returns all fragments as arrays, in the order of their numbers.
     ///
-    /// O(n) time and space for n vertices: per vertex 24 bytes for the position, 8 for the edge and the
-    /// offset, and 12 for each of one to three weights; per fragment 8 bytes. Vertices made by cuts are
-    /// computed from their exact definition.
+    /// Takes O(n) time and space for n vertices. A vertex takes 24 bytes for the position, 8 for the edge and
+    /// the offset, and 12 for each of one to three weights. A fragment takes 8 bytes. Vertices made by cuts
+    /// are computed from their exact definition.
     ///
     /// # Errors
     ///
@@ -406,8 +407,8 @@ impl BspTree {
         FragmentArrays::of(self, |number| number)
     }
 
-    /// Like [`arrays`](Self::arrays), but rounds each position and weight once more, to `f32`. A coordinate
-    /// beyond the range of `f32` is infinite.
+    /// Returns the [`arrays`](Self::arrays) with each position and weight rounded once more, to `f32`. A
+    /// coordinate beyond the range of `f32` is infinite.
     ///
     /// # Errors
     ///
@@ -437,7 +438,7 @@ impl<T> FragmentArrays<T> {
             arrays.vertices.extend(vertices);
             arrays.offsets.push(end(arrays.vertices.len())?);
             arrays.polygons.push(fragment.polygon() as u32);
-            // A polygon has at most 2²² corners.
+            // A polygon has at most 2²² corners, so a number fits.
             arrays.edges.extend(fragment.edges().map(|edge| edge.map_or(-1, |edge| edge as i32)));
             for weights in fragment.weights() {
                 arrays.weight_corners.extend(weights.iter().map(|&(corner, _)| corner));

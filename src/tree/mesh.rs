@@ -19,8 +19,8 @@ pub use triangles::Triangles;
 
 /// The fragments of a tree as vertices and triangles, for a renderer's buffers.
 ///
-/// A mesh is separate from the tree and made on demand ([`BspTree::mesh`], [`BspTree::welded_mesh`]).
-/// Upload the vertices once; every frame, write the indices in the order of the viewpoint
+/// A mesh is separate from the tree: [`BspTree::mesh`] or [`BspTree::welded_mesh`] makes it. Upload the
+/// vertices once; every frame, write the indices in the order of the viewpoint
 /// ([`Triangles::write_back_to_front`]).
 ///
 /// ```
@@ -52,24 +52,24 @@ pub use triangles::Triangles;
 ///
 /// # Points and vertices
 ///
-/// A *point* is a place where fragments meet. Two fragments share a point by its definition, not because
-/// rounded coordinates are equal: the same given corner, the same plane that cuts the same edge, or the
-/// same planes that cut the same polygon. Whether several planes cut an edge in one point is decided
+/// A *point* is a place where fragments meet. Two fragments share a point because its definition is the same,
+/// not because rounded coordinates are equal. The definition is a given corner, an edge and a plane that cuts
+/// it, or a polygon and planes that cut it. Whether several planes cut an edge in one point is decided
 /// exactly.
 ///
-/// A *vertex* is a point as a corner of one polygon's fragments. It has weights over the polygon's corners,
-/// to interpolate attributes. So polygons share points, and fragments of one polygon share vertices.
+/// A *vertex* is a point as a corner of one polygon's fragments. Its weights over the polygon's corners
+/// interpolate attributes. So polygons share points, and fragments of one polygon share vertices.
 ///
 /// # Welded
 ///
-/// A cut that ends on an edge makes a vertex there in the polygon that is cut, but not in its neighbour: a
-/// T-junction, where a renderer may miss pixels. A welded mesh has that vertex in the neighbour too, and
-/// likewise between the fragments of one polygon. Then a closed body stays closed: if every edge of its
-/// polygons is run through once in each direction, so is every edge of its triangles, from point to point.
+/// A cut that ends on an edge makes a vertex there in the polygon that is cut, but not in its neighbour. This
+/// is a T-junction, where a renderer may miss pixels. A welded mesh has that vertex in the neighbour too, and
+/// likewise between the fragments of one polygon. Then a closed body stays closed: if its polygons traverse
+/// every edge once in each direction, so do its triangles, from point to point.
 ///
-/// Edges that lie on one line as given are welded, also where a corner of one is inside the other. Two
-/// cases are not welded: a corner inside a polygon, and polygons that cross each other, because they have
-/// no common edge.
+/// Edges that are collinear as given are welded, also where a corner of one edge is inside the other edge.
+/// Two cases are not welded, because there is no common edge: a corner inside a polygon, and polygons that
+/// cross each other.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     parts: Assembled,
@@ -80,11 +80,11 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeshVertex<'m> {
-    /// The number of its point, shared by all polygons that meet there.
+    /// The number of the vertex's point, which all polygons that meet there share.
     pub point: u32,
-    /// The point's position.
+    /// The position of that point.
     pub position: DVec3,
-    /// The index, in the input, of its polygon.
+    /// The index of the vertex's polygon, in input order.
     pub polygon: usize,
     /// Weights over the polygon's corners: up to three pairs of a corner's number and its weight.
     /// They sum to 1, up to rounding.
@@ -99,8 +99,8 @@ impl MeshVertex<'_> {
 }
 
 impl BspTree {
-    /// The fragments as vertices and triangles. Each fragment has exactly the vertices that it has in the
-    /// tree, so there are T-junctions; see [`Mesh`].
+    /// Returns the fragments as vertices and triangles. Each fragment has exactly its vertices in the tree,
+    /// so the mesh has T-junctions; see [`Mesh`].
     ///
     /// O(n log n) for n vertices of fragments.
     ///
@@ -111,11 +111,11 @@ impl BspTree {
         Mesh::new(self.mesh_source(), false)
     }
 
-    /// Like [`mesh`](Self::mesh), without T-junctions: a vertex inside an edge that polygons share, or
-    /// inside a cut between fragments, is a vertex of all of them.
+    /// Returns a [`mesh`](Self::mesh) without T-junctions: a vertex inside an edge that polygons share, or
+    /// inside a cut between fragments, is a vertex of all these polygons or fragments.
     ///
-    /// O(n log n) for n vertices, the inserted ones included. (If n polygons share one edge and each is cut
-    /// at other places, n² vertices are inserted.)
+    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge and each is
+    /// cut at other places, n² vertices are inserted.)
     ///
     /// # Errors
     ///
@@ -139,21 +139,21 @@ impl Mesh {
         Ok(Self { parts, triangles })
     }
 
-    /// The number of vertices.
+    /// Returns the number of vertices.
     pub fn len(&self) -> usize {
         self.parts.vertices.len()
     }
 
-    /// Whether there are no vertices.
+    /// Returns whether there are no vertices.
     pub fn is_empty(&self) -> bool {
         self.parts.vertices.is_empty()
     }
 
-    /// A vertex by its number, below [`len`](Self::len).
+    /// Returns a vertex, given its number, below [`len`](Self::len).
     ///
     /// # Panics
     ///
-    /// If the number is not that of a vertex.
+    /// If no vertex has this number.
     pub fn vertex(&self, vertex: u32) -> MeshVertex<'_> {
         let vertex = vertex as usize;
         let record = self.parts.vertices[vertex];
@@ -166,7 +166,7 @@ impl Mesh {
         }
     }
 
-    /// All vertices, in the order of their numbers; the vertices of one polygon are consecutive.
+    /// Returns all vertices, in the order of their numbers; the vertices of one polygon are consecutive.
     pub fn vertices(&self) -> impl DoubleEndedIterator<Item = MeshVertex<'_>> + ExactSizeIterator {
         (0..self.len() as u32).map(|vertex| self.vertex(vertex))
     }
@@ -174,19 +174,19 @@ impl Mesh {
     /// The position of each point.
     ///
     /// Corners are at their given positions, rounded to the grid, even if the tolerance moved them in the
-    /// tree. Other points are rounded; each coordinate is within 2⁻⁵¹ of the scene's extent, plus one step
-    /// of `f64`, of its exact value.
+    /// tree. Other points are rounded: the error of each coordinate is at most 2⁻⁵¹ of the scene's extent
+    /// plus one step of `f64`.
     pub fn positions(&self) -> &[DVec3] {
         &self.parts.positions
     }
 
-    /// The triangles of all fragments, with the orientation of their polygons.
+    /// Returns the triangles of all fragments, with the orientation of their polygons.
     pub fn triangles(&self) -> &Triangles {
         &self.triangles
     }
 
-    /// The triangles of some polygons, given by their indices in the input, such as those drawn in one
-    /// pass. The fragments of other polygons have no triangles.
+    /// Returns the triangles of some polygons, chosen by their indices in input order, such as the polygons
+    /// drawn in one pass. The fragments of other polygons have no triangles.
     ///
     /// # Errors
     ///
@@ -197,7 +197,7 @@ impl Mesh {
             .of_fragments(|indices| indices.first().is_some_and(|&first| keep(polygon(first))))
     }
 
-    /// The resident size in bytes.
+    /// Returns the resident size in bytes.
     pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.parts.positions)
             + size_of_val(&*self.parts.vertices)
@@ -266,7 +266,7 @@ struct Assembler<'s, 't> {
     survey: &'s Survey<'t>,
     points: &'s Points,
     made: Assembled,
-    /// The number of each node's point, if the node names it and it has one.
+    /// The number of each node's point, if the node names the point and the point has a number.
     numbers: Vec<u32>,
     /// The vertices of the current polygon.
     known: HashMap<Key, u32>,
@@ -300,7 +300,7 @@ impl<'s, 't> Assembler<'s, 't> {
         let places = &points.ends[range];
         let mut before = last_carrier(edges, places);
         for ((edge, &[from, to]), line) in edges.iter().zip(places).zip(lines) {
-            // Two edges on one line: the polygon's outline runs straight on here.
+            // Two collinear edges: the polygon's outline is straight here.
             let straight = before == Some(edge.carrier);
             if from == to {
                 continue;
@@ -359,7 +359,7 @@ impl<'s, 't> Assembler<'s, 't> {
         })
     }
 
-    /// The number of a vertex, which is added if the polygon has no equal one.
+    /// The number of a vertex, which is added if the polygon has no equal vertex.
     fn vertex(
         &mut self,
         node: Node,
@@ -402,15 +402,14 @@ impl<'s, 't> Assembler<'s, 't> {
     }
 }
 
-/// The line of a fragment's last edge, given the places of each edge's ends. Edges without length are
-/// ignored.
+/// The line of a fragment's last edge, given the ends of each edge. Edges without length are ignored.
 fn last_carrier(edges: &[FragmentEdge], places: &[[u32; 2]]) -> Option<u32> {
     let long = edges.iter().zip(places).rev().find(|(_, [from, to])| from != to);
     long.map(|(edge, _)| edge.carrier)
 }
 
-/// The position of a vertex that is not a corner, in lattice units. A vertex on an edge as given is placed
-/// on that edge, so that all faces at the edge agree.
+/// The position of a vertex that is not a corner, in lattice units. A vertex on a given edge is placed on
+/// that edge, so that all faces at the edge agree.
 fn place_of_cut(survey: &Survey<'_>, face: u32, vertex_id: VertexId) -> [f64; 3] {
     let faces = survey.faces;
     match vertex_id.kind() {
@@ -460,8 +459,8 @@ mod assemble_tests {
         let survey = Survey::new(tree.mesh_source()).unwrap();
         let points = Points::new(&survey).unwrap();
         let mut assembler = Assembler::new(&survey, &points).unwrap();
-        // The largest capacity for the square's vertices, for those of the first wall after it, and for the
-        // rest.
+        // The largest capacity for the square's vertices, for the vertices of the first wall after it, and
+        // for all later vertices.
         let mut most = [0; 3];
         for at in 0..survey.fragments.len() {
             assembler.outline(at, true).unwrap();

@@ -17,12 +17,12 @@ use crate::viewpoint::{Facing, Viewpoint};
 
 /// A node of a tree: a partition plane, the fragments on it, and its two sides.
 ///
-/// [`BspTree::root`] and [`children`](Self::front) return nodes one by one, and [`BspTree::nodes`] all of
-/// them. [`Order::walk`](crate::Order::walk) visits nodes in the order of a viewpoint. A node is as cheap
-/// to copy as a reference.
+/// [`BspTree::root`] and [`front`](Self::front) return single nodes, and [`BspTree::nodes`] all nodes.
+/// [`Order::walk`](crate::Order::walk) visits nodes in the order of a viewpoint. A node is as cheap to copy
+/// as a reference.
 ///
-/// The plane holds the points p with `normal().dot(p) == offset()`; its front is the side where the left
-/// side is larger. Both numbers are rounded. Decisions use the exact plane, see
+/// The plane contains the points p with `normal().dot(p) == offset()`, and its front the points with
+/// `normal().dot(p) > offset()`. Normal and offset are rounded. Decisions use the exact plane, see
 /// [`grid_points`](Self::grid_points).
 ///
 /// The fragments of a subtree have consecutive numbers, so the fragments on a node's plane and on each of
@@ -42,40 +42,40 @@ pub struct Node<'t> {
 pub enum Child<'t> {
     /// Another node.
     Node(Node<'t>),
-    /// The numbers of the fragments of a leaf: one, or none.
+    /// The number of the leaf's fragment; an empty range for a leaf without a fragment.
     Leaf(Range<u32>),
 }
 
 impl<'t> Node<'t> {
-    /// The node's number, depth first: a node, its front subtree, its back subtree. The root is 0.
+    /// Returns the node's number, depth first: a node, its front subtree, its back subtree. The root is 0.
     pub fn index(&self) -> usize {
         self.index as usize
     }
 
-    /// The number of nodes on the path from the root to this one, both included.
+    /// Returns the number of nodes on the path from the root to this node, both included.
     pub fn depth(&self) -> usize {
         self.depth as usize
     }
 
-    /// The unit normal, which points to the front.
+    /// Returns the unit normal, which points to the front.
     pub fn normal(&self) -> DVec3 {
         fragment::unit_normal(&self.tree.faces, self.plane())
     }
 
-    /// The distance of the plane from the origin along the normal, in the polygons' unit. Infinite
-    /// if it is too large for `f64`.
+    /// Returns the distance of the plane from the origin along the normal, in the polygons' unit. It is
+    /// infinite if it is too large for `f64`.
     pub fn offset(&self) -> f64 {
         fragment::offset(&self.tree.faces, self.plane())
     }
 
-    /// The exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise seen from
-    /// its front.
+    /// Returns the exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise
+    /// seen from its front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         fragment::plane_points(&self.tree.faces, self.plane())
     }
 
-    /// The index in the input of the polygon whose plane this is. If that polygon was triangulated, the
-    /// plane of one of its triangles.
+    /// Returns the index, in input order, of the polygon whose plane this is. If that polygon was
+    /// triangulated, this is the plane of one of its triangles.
     ///
     /// `None` for a free plane, which is perpendicular to an axis. Its `normal` and `offset` are exact,
     /// except that corners are rounded once to the grid.
@@ -92,29 +92,29 @@ impl<'t> Node<'t> {
         self.tree.nodes[self.index()].plane
     }
 
-    /// The side of the plane that a viewpoint sees, exactly. Orders begin with the other side, or with
-    /// either side of a plane seen edge-on.
+    /// Returns the side of the plane that a viewpoint sees, exactly. Orders begin with the other side, or
+    /// with either side of a plane seen edge-on.
     pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
         self.tree.faces.plane(self.plane()).facing(&eye).into()
     }
 
-    /// The numbers of the fragments on the plane, and on both sides down to the leaves.
+    /// Returns the numbers of the fragments on the plane, and on both sides down to the leaves.
     pub fn fragments(&self) -> Range<u32> {
         self.first..self.end
     }
 
-    /// The numbers of the fragments on the plane, in input order.
+    /// Returns the numbers of the fragments on the plane, in input order.
     pub fn on(&self) -> Range<u32> {
         self.ranges().own
     }
 
-    /// The numbers of all fragments in front, down to the leaves.
+    /// Returns the numbers of all fragments in front, down to the leaves.
     pub fn in_front(&self) -> Range<u32> {
         self.ranges().front
     }
 
-    /// The numbers of all fragments behind, down to the leaves.
+    /// Returns the numbers of all fragments behind, down to the leaves.
     pub fn behind(&self) -> Range<u32> {
         self.ranges().back
     }
@@ -228,8 +228,8 @@ impl ExactSizeIterator for Nodes<'_> {}
 impl FusedIterator for Nodes<'_> {}
 
 impl BspTree {
-    /// The node at the top, which contains all fragments. `None` in a tree without nodes: one without
-    /// fragments, or with a single fragment that no plane bounds.
+    /// Returns the root node, whose subtree contains all fragments. `None` in a tree without nodes: a tree
+    /// without fragments, or with a single fragment that no plane bounds.
     pub fn root(&self) -> Option<Node<'_>> {
         let end = self.records.len() as u32;
         (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })
@@ -240,8 +240,8 @@ impl BspTree {
         self.root().map_or(Child::Leaf(0..self.records.len() as u32), Child::Node)
     }
 
-    /// All nodes, depth first, front subtrees before back subtrees: to draw, measure or check a tree.
-    /// O(nodes) for all of them.
+    /// Returns all nodes, depth first, front subtrees before back subtrees: to draw, measure or check a tree.
+    /// O(nodes) for the whole iteration.
     pub fn nodes(
         &self,
     ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone + fmt::Debug
@@ -311,8 +311,8 @@ impl NodeRecord {
     }
 }
 
-/// The fragments of a subtree by the side of its root's plane: on it, and all in front and behind, down to
-/// the leaves.
+/// The fragments of a subtree by their side of the root's plane: on it, in front and behind, down to the
+/// leaves.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranges {
     pub(crate) own: Range<u32>,
@@ -372,7 +372,7 @@ pub(crate) fn finish(
 #[derive(Clone, Debug)]
 pub(super) struct Visit {
     pub(super) node: usize,
-    /// The number of nodes on the path to it, itself included.
+    /// The number of nodes on the path to this node, itself included.
     pub(super) depth: usize,
     /// The fragments on its plane.
     pub(super) own: Range<u32>,
@@ -447,7 +447,7 @@ impl Walk {
             if subtree.is_root_alone {
                 return Some(visit);
             }
-            // The root comes before everything below it, so from this end it comes last.
+            // The root is stored before all nodes below it, so from this end it is visited last.
             let below = below(tree, &subtree, &visit);
             subtree.is_root_alone = true;
             self.subtrees.push_back(subtree);
@@ -483,18 +483,19 @@ fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2
 }
 
 impl BspTree {
-    /// The partition plane that separates two fragments, or that both lie on. `None` if both are in one
-    /// leaf, or if both are the same fragment in a leaf. O(depth).
+    /// Returns the partition plane that separates two fragments, or that both fragments lie on. `None` if
+    /// both are in one leaf, also if they are the same fragment. O(depth).
     ///
     /// # Panics
     ///
-    /// If a number is not that of a fragment.
+    /// If a number belongs to no fragment.
     #[doc(hidden)]
     pub fn plane_between(&self, a: u32, b: u32) -> Option<PlaneId> {
         self.parting(a, b).map(|(plane, _)| plane)
     }
 
-    /// The same plane, with the side of each of the two: `Greater` is the front, `Equal` the plane itself.
+    /// The plane of [`plane_between`](Self::plane_between), and the side of each fragment: `Greater` is the
+    /// front, `Equal` the plane itself.
     pub(crate) fn parting(&self, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
         let high = a.max(b);
         assert!((high as usize) < self.records.len(), "no fragment {high}");
@@ -529,8 +530,8 @@ mod between_tests {
     /// For a pair of fragments: the plane between them, and the side of each.
     type Entry = Option<(PlaneId, [Ordering; 2])>;
 
-    /// The plane between any two fragments by the ranges of all nodes, in a table. A pair that is not on
-    /// one side of a plane is separated there, and nowhere else.
+    /// The plane between any two fragments by the ranges of all nodes, in a table. A pair that is not on one
+    /// side of a plane is separated by this plane, and by no other.
     fn table(tree: &BspTree) -> Vec<Vec<Entry>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
@@ -555,7 +556,7 @@ mod between_tests {
         table
     }
 
-    /// Random triangles, some on planes of others, some twice.
+    /// Random triangles, some on planes of others, some repeated.
     fn soup(seed: u64) -> Vec<[glam::DVec3; 3]> {
         let mut random = SplitMix64::new(seed);
         let mut triangles: Vec<[glam::DVec3; 3]> = Vec::new();
@@ -564,7 +565,7 @@ mod between_tests {
             let of_before = triangles.get((random.next() % (k + 1)) as usize).copied();
             triangles.push(match (of_before, random.next() % 4) {
                 (Some(other), 0) => other,
-                // In the same plane, if that is perpendicular to z.
+                // In the same plane as others, if that plane is perpendicular to z.
                 (_, 1) => triangle.map(|p| p.with_z((4.0 * triangle[0].z).round() / 4.0)),
                 _ => triangle,
             });

@@ -24,12 +24,13 @@ pub(crate) enum RawChild {
     Node,
 }
 
-/// A stored fragment. Its vertices end where those of the next fragment begin; a whole face has none.
+/// A stored fragment. Its vertices end where the next fragment's vertices begin; a whole face has no stored
+/// vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Record {
-    /// The face of which it is a piece.
+    /// The face that the fragment is a piece of.
     pub(crate) face: u32,
-    /// The index of its first vertex.
+    /// The index of the fragment's first vertex.
     pub(crate) vertices: u32,
 }
 
@@ -42,7 +43,7 @@ pub(crate) struct Stored<'t> {
     pub(crate) positions: &'t [[f64; 3]],
 }
 
-/// Nodes and fragments, both depth first and the front before the back. The fragments of a node come in
+/// Nodes and fragments, both depth first and the front before the back. The fragments of a node are stored in
 /// this order: on its plane, in a front leaf, in a back leaf, in the nodes below.
 #[derive(Debug, Default)]
 pub(crate) struct Parts {

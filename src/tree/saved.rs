@@ -28,8 +28,8 @@ const OF_CELL: u32 = 2;
 const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
-    /// Writes the tree, so that [`read`](Self::read) returns the same: the same fragments with the same
-    /// numbers, bits and orders. Also for trees of a [`FrameBuilder`](crate::FrameBuilder).
+    /// Writes the tree. [`read`](Self::read) returns an equal tree: the fragments, their numbers and bits,
+    /// and the orders are the same. This includes trees of a [`FrameBuilder`](crate::FrameBuilder).
     ///
     /// Takes O(n) time, and O(depth) memory plus 64 kB. `output` need not be a `BufWriter`.
     ///
@@ -57,22 +57,22 @@ impl BspTree {
     /// | grid | the exponent e of 2 as `i32`, the origin o and the far coordinates f as three `f64` each: a point x is the grid's point (x − f) · 2ᵉ − o |
     /// | tolerance | `f64`, in steps of the grid |
     /// | faces | a list: polygon, number of corners, frame, as `u32`. The frame is the numbers of the second (bits 15 to 29) and third corner (0 to 14) of the triangle that spans the plane, and the axis along which corners were moved (30 and 31; 3 for none) |
-    /// | corners | of the cell, if it is the tree of one: the lower and the upper; then of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, the lower ones negative |
-    /// | numbered faces | a list: faces, as `u32`, whose corners are not the first of their polygon |
-    /// | corner numbers | of these: `u32` each, bit 31 set if the edge to the next is not an edge of the polygon |
+    /// | corners | for the tree of a cell, the lower and the upper corner of the cell; then the corners of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, lower sides at −(2⁵¹ + 2⁴⁴) |
+    /// | numbered faces | a list: the faces, as `u32`, whose corners are not the first corners of their polygon |
+    /// | corner numbers | the corners of these faces: `u32` each, bit 31 set if the edge to the next corner is not an edge of the polygon |
     /// | moved corners | a list: the corner as `u32`, and its given position, three `i64` |
-    /// | preparation | a list of the dropped polygons as `u32`; the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the lengths of the last two as `f64` |
-    /// | nodes | a list, depth first: the plane, and 16 · the fragments on it + 4 · the front + the back, where 0 is empty, 1 a fragment and 2 a node; `u32` each |
+    /// | preparation | a list of the dropped polygons as `u32`; the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the largest distances of flattened and bent polygons as `f64` |
+    /// | nodes | a list, depth first: the plane, and 16 · the number of fragments on it + 4 · the front + the back, where 0 is empty, 1 a fragment and 2 a node; `u32` each |
     /// | fragments | a list: the face of each, as `u32` |
     /// | end | the CRC-32 of all bytes before, as of gzip and PNG, `u32` |
     ///
-    /// A plane is 1 in bits 28 to 30 for the plane of a face, or 2, 3, 4 for one perpendicular to x, y,
-    /// z through a corner, and the number of the face or corner in the bits below. Vertices are not
-    /// stored: reading splits the faces by the planes again.
+    /// Bits 28 to 30 of a plane are 1 for the plane of a face, or 2, 3, 4 for a plane perpendicular to x, y,
+    /// z through a corner. The lower bits are the number of the face or corner. Vertices are not stored:
+    /// reading splits the faces by the planes again.
     ///
     /// # Errors
     ///
-    /// Those of the writer. The bytes written until then are not a valid file.
+    /// The errors of the writer. The bytes written before an error are not a valid file.
     pub fn write(&self, output: impl Write) -> io::Result<()> {
         let mut file = Writer::new(output, KIND)?;
         let of_cell = if self.faces.corners_of_cell() > 0 { OF_CELL } else { 0 };
@@ -93,26 +93,26 @@ impl BspTree {
     /// Reads a tree that [`write`](Self::write) has written. Reads only the tree's bytes, so other data may
     /// follow.
     ///
-    /// Splits the faces by the stored planes again. That takes O(n · mean depth) time, like building, but
-    /// no plane has to be chosen: a quarter to a half of the build time, and nine tenths if choosing takes
-    /// no time and most faces are split, as with [`Heuristic::First`](crate::Heuristic::First). A
-    /// `BufReader` makes it no faster.
+    /// Reading splits the faces by the stored planes again. That takes O(n · mean depth) time, like building,
+    /// but no plane has to be chosen. So reading takes a quarter to a half of the build time. It takes nine
+    /// tenths if choosing takes no time and most faces are split, as with
+    /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` makes it no faster.
     ///
     /// # Untrusted files
     ///
-    /// The file may contain anything. If `read` returns a tree, it has convex, planar faces within the
-    /// grid: each fragment lies on its side of every plane above it, and the fragments of a face cover it
-    /// once. No method panics, and none takes more time or memory than documented. The file may choose the
-    /// faces and the planes, so a forged tree may be deep and its polygons may be in many pieces, but never
-    /// more than the file lists. Memory grows with the bytes read, so a false length cannot reserve more
-    /// than a small multiple of the file. Corner numbers ([`weights`](crate::Fragment::weights),
-    /// [`edges`](crate::Fragment::edges)) may be larger than any that your polygons have.
+    /// The file may contain anything. If `read` returns a tree, it has convex, planar faces within the grid:
+    /// each fragment lies on its side of every plane above it, and the fragments of a face cover it once. No
+    /// method panics or takes more time or memory than documented. The file may choose the faces and the
+    /// planes, so a forged tree may be deep and its polygons may be in many pieces, but never in more pieces
+    /// than the file lists. Memory grows with the bytes read, so a false length cannot reserve more than a
+    /// small multiple of the file's size. Corner numbers ([`weights`](crate::Fragment::weights),
+    /// [`edges`](crate::Fragment::edges)) may be larger than the numbers of your polygons' corners.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read; if they are not a tree, have another version, are truncated or damaged,
-    /// or contain a tree that the library could not have built; or if memory runs out. The message says
-    /// which.
+    /// If the data cannot be read; if they are not a tree, have another version, are truncated or damaged, or
+    /// contain a tree that the library could not have built; or if memory runs out. The message says which of
+    /// these.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
@@ -121,11 +121,12 @@ impl BspTree {
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
         let listed = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
         file.finish()?;
-        // The checksum has shown that nothing is damaged: later faults were written as such.
+        // The checksum has shown that nothing is damaged: the writer is to blame for later faults.
         if flags > FOR_ONE_VIEW + OF_CELL {
             return Err(damaged("flags", "are unknown"));
         }
-        // Faces and nodes are independent. Of two faults, the same is found first on any number of threads.
+        // Faces and nodes are independent. Of two faults, the same fault is reported on any number of
+        // threads.
         let for_one_view = flags & FOR_ONE_VIEW > 0;
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
@@ -202,7 +203,8 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
     RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
 }
 
-/// The nodes of a tree, if they are one tree of `fragments` fragments, and each plane separates something.
+/// Reads the nodes of a tree; an error unless they form one tree of `fragments` fragments, in which each
+/// plane separates something.
 fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,
@@ -223,14 +225,14 @@ fn read_nodes(
         if own == 0 && count(RawChild::Leaf(0)) > 0 {
             return Err(fault("has a plane that separates no fragments"));
         }
-        // Its own place is subtracted first: a node without a parent must not count as its own child.
+        // The node's own place is subtracted first: a node without a parent must not count as its own child.
         let others = to_come.checked_sub(1).ok_or_else(|| fault("has no parent"))?;
         to_come = others + count(RawChild::Node);
         let here = own as usize + count(RawChild::Leaf(1));
-        left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than there are"))?;
+        left = left.checked_sub(here).ok_or_else(|| fault("has more fragments than the tree"))?;
     }
     if to_come > 0 || left > 0 {
-        return Err(damaged("nodes", "are not those of its fragments"));
+        return Err(damaged("nodes", "do not match its fragments"));
     }
     let (mut sizes, mut nodes) = (Vec::new(), Vec::new());
     make_room(bits.len(), &mut sizes, &mut nodes).map_err(|_| Error::out_of_memory())?;
@@ -238,7 +240,7 @@ fn read_nodes(
     Ok(nodes)
 }
 
-/// The report on the polygons, except for their number, and the dropped polygons.
+/// Reads the report on the polygons, without their number, and the dropped polygons.
 fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), Error> {
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_NAMES, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
@@ -268,7 +270,7 @@ fn check_preparation(found: &mut Preparation, dropped: &[u32], faces: &Faces) ->
         } else if of_face.is_none() && dropped.peek().is_none() {
             break;
         } else {
-            return Err(invalid("polygon", polygons, "has neither faces nor been dropped"));
+            return Err(invalid("polygon", polygons, "has no faces, but is not listed as dropped"));
         }
     }
     found.polygons = polygons;

@@ -27,19 +27,19 @@ impl BspTree {
     ///   fragments, and planes and vertices refer to existing geometry;
     /// - each fragment lies on its side of every plane above it, up to the tolerance, which is a length;
     ///   and fragments on a plane are in input order;
-    /// - the fragments of each face cover it exactly once: glued back together along the cuts, from
-    ///   the leaves up, they give the face with all of its corners, and the number of cuts is
+    /// - the fragments of each face cover it exactly once: glued together along the cuts, from the leaves up,
+    ///   they form the face with all its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);
     /// - the data from which orders are written matches the nodes, and stored positions match the vertices.
     ///
-    /// All checks are exact. A tree that the library built or read is always valid; this is for tests and
-    /// fuzzers.
+    /// All checks are exact. A tree that the library built or read is always valid; this method is for tests
+    /// and fuzzers.
     ///
-    /// Takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
+    /// It takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
     ///
     /// # Errors
     ///
-    /// The first fault found. The invariants are checked in the order above.
+    /// The first fault found. The invariants are checked in the order of the list.
     #[doc(hidden)]
     pub fn validate(&self) -> Result<(), String> {
         let visits = self.check_sizes()?;
@@ -49,8 +49,8 @@ impl BspTree {
         self.check_layout()
     }
 
-    /// The nodes in memory order, if every node and every fragment is visited exactly once and every
-    /// node separates something.
+    /// Returns the nodes in memory order; an error unless every node and every fragment is visited exactly
+    /// once and every node separates something.
     ///
     /// The other checks rely on this: they use every number of a visit as an index.
     fn check_sizes(&self) -> Result<Vec<Visit>, String> {
@@ -62,8 +62,8 @@ impl BspTree {
             if visit.front.len().max(visit.back.len()) > 1 {
                 return Err(fault(visit.node, "a leaf has more than one fragment"));
             }
-            // This makes the walk end for any sizes, because each node takes fragments or divides them. It
-            // also bounds the number of nodes, for which order buffers have room.
+            // With this check the walk ends for any sizes, because each node has fragments on its plane or
+            // divides them. The check also bounds the number of nodes, for which order buffers have room.
             let has_empty_side = visit.in_front.is_empty() || visit.behind.is_empty();
             if visit.own.is_empty() && has_empty_side {
                 return Err(fault(visit.node, "its plane separates no fragments"));
@@ -80,7 +80,7 @@ impl BspTree {
     /// Checks the number of nodes of each subtree, from the last to the first. If all agree, the walk has
     /// visited the nodes in memory order.
     fn check_node_counts(&self, visits: &[Visit]) -> Result<(), String> {
-        // The subtrees whose parent is still to come, the front's above the back's.
+        // The subtrees whose parents have not been visited yet, the front's above the back's.
         let mut sizes: Vec<u32> = Vec::new();
         for visit in visits.iter().rev() {
             let node = &self.nodes[visit.node];
@@ -152,8 +152,7 @@ impl BspTree {
         stored.iter().all(knows) && (stored.is_empty() || stored.len() >= 3)
     }
 
-    /// Tests each fragment against every plane above it, and those on a plane against the order of the
-    /// input.
+    /// Tests each fragment against every plane above it, and the fragments on a plane for input order.
     fn check_sides(&self, visits: &[Visit]) -> Result<(), String> {
         let mut path: Vec<(PreparedPlane, Side)> = Vec::new();
         // The fragments in front of each node of the path.
@@ -169,7 +168,7 @@ impl BspTree {
             }
             in_front.push(&visit.in_front);
             let prepared = PreparedPlane::new(&self.faces, plane);
-            // Otherwise the classification below, which is the builder's, proves nothing.
+            // Otherwise the classification below, which uses the builder's code, proves nothing.
             if !prepared.has_length_of(&self.faces) {
                 let what = "at its plane the tolerance is not the length that it should be";
                 return Err(fault(what.to_owned()));
@@ -204,14 +203,14 @@ impl BspTree {
             let found = prepared.classify(&self.faces, face, cut);
             if found != expected {
                 return Err(format!(
-                    "fragment {id} is {found:?}, not {expected:?} as its place says"
+                    "fragment {id} is {found:?}, but its place requires {expected:?}"
                 ));
             }
         }
         Ok(())
     }
 
-    /// The vertices of a fragment as the builder had them; none for a whole face.
+    /// The vertices of a fragment as the builder had them; empty for a whole face.
     fn restored(&self, id: u32) -> Vec<Vertex> {
         let fragment = self.fragment(id);
         let stored = fragment.stored().iter();
@@ -223,7 +222,7 @@ impl BspTree {
         let out_of_memory = |error| fault(0, error);
         planes.fill(&self.faces, &self.nodes).map_err(out_of_memory)?;
         if self.planes != planes {
-            return Err(fault(0, "the rounded planes are not those of the nodes"));
+            return Err(fault(0, "the rounded planes do not match the nodes"));
         }
         if let Some(layout) = &self.layout {
             let expected = OrderLayout::new(&self.nodes, self.records.len() as u32);
@@ -234,9 +233,9 @@ impl BspTree {
         self.check_positions()
     }
 
-    /// Checks that stored positions equal those computed for the vertices.
+    /// Checks that stored positions equal the positions computed for the vertices.
     fn check_positions(&self) -> Result<(), String> {
-        let fault = Err(fault(0, "the positions are not those of the vertices"));
+        let fault = Err(fault(0, "the positions do not match the vertices"));
         if !self.positions.is_empty() && self.positions.len() != self.vertices.len() {
             return fault;
         }

@@ -1,4 +1,4 @@
-//! Cameras that show a whole scene, and views around and inside of one.
+//! Cameras that show a whole scene, and views from around and inside a scene.
 
 use crate::Error;
 use glam::DVec3;
@@ -14,7 +14,7 @@ const BORDER: f64 = 0.05;
 const INSIDE: f64 = 1.4;
 
 impl Camera {
-    /// A perspective camera that shows all of a bounding box, from the front, the right and above.
+    /// Creates a perspective camera that shows a whole bounding box, from the front, the right and above.
     ///
     /// # Errors
     ///
@@ -26,7 +26,8 @@ impl Camera {
     }
 }
 
-/// `count` cameras, alternately around a bounding box and inside it; the same for the same seed.
+/// Creates `count` cameras, alternately around a bounding box and inside it. The same seed creates the same
+/// cameras.
 ///
 /// # Errors
 ///
@@ -53,7 +54,8 @@ pub fn views(
                     let share = random.point(0.1, 0.9);
                     bounds[0] * (1.0 - share) + bounds[1] * share
                 });
-                // In a box without extent the two points coincide, or one is straight above the other.
+                // In a box without extent the two points coincide, or one point is vertically above the
+                // other.
                 Camera::perspective(eye, target, up, INSIDE, size)
                     .or_else(|_| around(bounds, up, ahead + side, 0.1, size))
             }
@@ -61,8 +63,8 @@ pub fn views(
         .collect()
 }
 
-/// A camera that looks at the middle of a box from the direction `from`. At distance 1 the box just
-/// fits the picture.
+/// A camera that looks at the middle of a box from the direction `from`. At distance 1 the box exactly fits
+/// the picture.
 fn around(
     [min, max]: [DVec3; 2],
     up: DVec3,
@@ -92,8 +94,8 @@ fn around(
     Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
 }
 
-/// The unit vector along `up`, and two perpendicular to it and to each other: for up = z, x and −y; for
-/// up = y, x and z. The last is the front, and the second to its right.
+/// The unit vector along `up`, and two unit vectors perpendicular to it and to each other: for up = z, x and
+/// −y; for up = y, x and z. The last points to the front, and the second to the right of it.
 fn axes(up: DVec3) -> [DVec3; 3] {
     let up = unit(up).unwrap_or(DVec3::ZERO);
     let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };

@@ -5,42 +5,43 @@ use glam::{DMat4, DVec3, DVec4};
 
 use super::{Camera, NON_FINITE, Projection, checked, refused, unit};
 
-/// A field of view with a smaller tangent counts as that of a parallel camera. Too small: a parallel matrix
-/// whose last row was rounded has an eye, very far away. Too large: eyes of narrow views are lost.
-/// ([`Rays`](crate::raster::Rays) refuse views as narrow as this.)
+/// A field of view with a smaller tangent counts as parallel. Too small: a parallel matrix whose last row was
+/// rounded has an eye, very far away. Too large: eyes of narrow views are lost.
+/// ([`Rays`](crate::raster::Rays) reject views as narrow as this.)
 const PARALLEL: f64 = 1.0 / (1u64 << 45) as f64;
-/// Rows of a matrix, each as a unit vector, that span less than this volume count as dependent. Too small: rounding
-/// decides where the eye is. Too large: skewed pictures are refused as singular.
+/// Rows of a matrix, each as a unit vector, that span less than this volume count as dependent. Too small:
+/// rounding decides where the eye is. Too large: skewed pictures are rejected as singular.
 const SINGULAR: f64 = 1e-10;
-/// The sine of the least angle between the sides of a pixel, and between the picture and the line of sight to its
-/// middle. Too small: rounding decides where points appear. Too large: steep off-axis views are refused.
+/// The sine of the least angle between the sides of a pixel, and between the picture and the line of sight to
+/// its middle. Too small: rounding decides where points appear. Too large: steep off-axis views are rejected.
 const LEAST_ANGLE: f64 = 1e-3;
 /// Depths that change less than this along the rays of a parallel matrix, as a share of their change
-/// elsewhere, do not determine its direction. Too small: rounding decides. Too large: mirrored pictures are
-/// shown from behind.
+/// elsewhere, do not determine the matrix's direction. Too small: rounding decides. Too large: mirrored
+/// pictures are shown from behind.
 const FLAT: f64 = 1e-9;
 
 impl Camera {
-    /// Makes the camera of a view-projection matrix, from the world to clip coordinates with x to the right and y upwards.
-    /// A point with the clip coordinates (x, y, z, w) appears at ((½ + ½ x/w) · width, (½ − ½ y/w) · height).
+    /// Creates the camera of a view-projection matrix, from the world to clip coordinates with x to the right
+    /// and y upwards. A point with the clip coordinates (x, y, z, w) appears at ((½ + ½ x/w) · width, (½ − ½
+    /// y/w) · height).
     ///
-    /// Every matrix of a perspective or parallel projection has a camera: off-axis frusta, pixels that are not square,
-    /// axes of different scales, sheared axes. The rows of x, y and w decide all of it:
+    /// Every matrix of a perspective or parallel projection has a camera: off-axis frusta, pixels that are
+    /// not square, axes of different scales, sheared axes. The rows of x, y and w determine the camera:
     ///
     /// | w | the camera |
     /// |---|---|
-    /// | changes from point to point | perspective: its eye is where x, y and w are 0; w is positive ahead of it |
+    /// | changes from point to point | perspective: at its eye, x, y and w are 0; w is positive ahead of it |
     /// | is one positive number | parallel: it looks along the direction in which x and y do not change |
     ///
-    /// The row of z, the depth, may have any finite numbers, and may depend on the others. There is no near
-    /// and no far plane. The depth is only used with a parallel matrix. There it must increase away from
-    /// the viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If
-    /// depths are reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0,
-    /// -1.0)) * matrix`.
+    /// The row of z, the depth, may have any finite numbers, and may depend on the other rows. There is no
+    /// near and no far plane. Only a parallel matrix needs the depth. There it must increase away from the
+    /// viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If depths are
+    /// reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
-    /// Mirrored pictures are refused: in them right, up and towards the viewer form a left-handed frame, as
-    /// in plots with one inverted axis. Negate the first row, and mirror the drawing: x becomes width − x.
-    /// If y points down, as in Vulkan, negate the second row instead, and mirror nothing.
+    /// Mirrored pictures are rejected: in these, the directions right, up and towards the viewer form a
+    /// left-handed frame, as in plots with one inverted axis. Negate the first row, and mirror the drawing: x
+    /// becomes width − x. If y points down, as in Vulkan, negate the second row instead, and do not mirror
+    /// the drawing.
     ///
     /// ```
     /// use binspace::glam::{DVec3, dcamera::rh};
@@ -64,10 +65,10 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite; if the rows determine neither an eye nor a direction; if w is not
-    /// positive anywhere, so that nothing is ahead; if the picture is mirrored; if the sides of a pixel, or
-    /// the picture and the line of sight to its middle, form an angle of less than 0.001 radians; or if the
-    /// size is zero or beyond the limits.
+    /// If a number is not finite; if the rows determine neither an eye nor a direction; if w is positive
+    /// nowhere, so that nothing is ahead; if the picture is mirrored; if the sides of a pixel, or the picture
+    /// and the line of sight to its middle, form an angle of less than 0.001 radians; or if the size is zero
+    /// or beyond the limits.
     pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, Error> {
         let size = checked(size)?;
         if !matrix.is_finite() {
@@ -87,7 +88,7 @@ impl Camera {
                 return refused(NOTHING_AHEAD);
             }
             let Some(direction) = unit(rise.cross(across)) else { return refused(DEPENDENT) };
-            // The other direction would be that of the mirror image.
+            // The other direction would look at the mirror image.
             let away = direction.dot(unit(matrix.row(2).truncate()).unwrap_or(DVec3::ZERO));
             if away < -FLAT {
                 return refused(MIRRORED_OR_REVERSED);
@@ -103,7 +104,7 @@ impl Camera {
         if volume < 0.0 {
             return refused(MIRRORED);
         }
-        // The dual basis: each is perpendicular to two of the rows.
+        // The dual basis: each vector is perpendicular to two of the rows.
         let [side, height, middle] =
             [forward.cross(rise), across.cross(forward), rise.cross(across)].map(|v| v / volume);
         let middle = if is_parallel { forward } else { middle };
@@ -129,10 +130,11 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle, aspect, size })
     }
 
-    /// The view-projection matrix: from the world to clip coordinates, with x to the right, y upwards, and
-    /// depths from 0 at the distance `near` to 1 at `far`, as WebGPU, Vulkan (y aside), Metal and Direct3D
-    /// have them. Distances are along [`forward`](Self::forward), from the eye, or from the centre of a
-    /// parallel camera, where they may be negative. They must be finite and different.
+    /// Returns the view-projection matrix: from the world to clip coordinates, with x to the right, y
+    /// upwards, and depths from 0 at the distance `near` to 1 at `far`, as in WebGPU, Vulkan (except for y),
+    /// Metal and Direct3D. Distances are measured along [`forward`](Self::forward) from the eye; for a
+    /// parallel camera from its centre, and then they may be negative. The two distances must be finite and
+    /// different.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -183,8 +185,8 @@ const SKEWED: &str = "the sides of a pixel, or the picture and the line of sight
 const TOO_FAR: &str =
     "the eye, the middle or the size of the matrix's picture is beyond the range of f64";
 
-/// Rows times a power of two that makes their largest number about 1. Clip coordinates mean the same at any
-/// scale.
+/// Rows times a power of two that makes their largest number about 1. The scale of clip coordinates does not
+/// matter.
 fn scaled(rows: [DVec4; 3]) -> [DVec4; 3] {
     let [x, y, w] = rows.map(|row| row.abs().max_element());
     let exponent = x.max(y).max(w).log2().floor().clamp(-1000.0, 1000.0);
@@ -231,8 +233,8 @@ mod tests {
         )
     }
 
-    /// The matrix puts points where the camera does, and depths between those of the two planes. Its camera
-    /// is the same.
+    /// The matrix puts points where the camera does, and depths between the two planes. The camera of the
+    /// matrix is the same.
     #[test]
     fn the_matrix_of_a_camera_has_that_camera() {
         let mut random = SplitMix64::new(5);
@@ -284,7 +286,7 @@ mod tests {
                     let most = 1e-11 * (640.0 + at[0].abs() + at[1].abs());
                     assert!(is_near(skewed.project(point).unwrap(), at, most), "{skewed:?}");
                     assert!(is_near(again.project(point).unwrap(), at, most), "{skewed:?}");
-                    // Visible points are in the frustum, and the other way round.
+                    // Visible points are in the frustum, and vice versa.
                     let outside = clip.x.abs().max(clip.y.abs()) / clip.w;
                     if (outside - 1.0).abs() > 1e-6 {
                         assert_eq!(frustum.meets([point; 2]), outside < 1.0, "{skewed:?}");
@@ -296,7 +298,7 @@ mod tests {
         assert!(accepted.iter().all(|&count| count > 3000), "{accepted:?}");
     }
 
-    /// An oblique (cabinet) projection as drawn by hand: depths run up to the right at half their length.
+    /// An oblique (cabinet) projection as drawn by hand: depths lead up to the right at half their length.
     #[test]
     fn a_cabinet_projection_looks_along_the_direction_in_which_points_coincide() {
         let mut matrix = DMat4::IDENTITY;
@@ -312,7 +314,7 @@ mod tests {
         assert!(is_near(at(0.0, 0.0, -2.0), [480.0, 90.0], 1e-9));
     }
 
-    /// Of the depth, only the direction in which it increases counts, and only for a parallel camera.
+    /// Only the direction in which the depth increases matters, and only for a parallel camera.
     #[test]
     fn depths_of_any_convention_will_do() {
         let row = |matrix: &mut DMat4, row: DVec4| {
@@ -386,7 +388,7 @@ mod tests {
             assert!(size.unwrap_err().to_string().contains("0x5"));
             let w = |factor: f64| DMat4::from_diagonal(DVec4::new(1.0, 1.0, 1.0, factor));
             match camera.eye() {
-                // The other half space is ahead then, and its picture mirrored.
+                // Then the other half-space is ahead, and its picture is mirrored.
                 Some(_) => assert!(message(w(-1.0) * matrix).contains("mirror")),
                 None => {
                     assert!(message(w(-1.0) * matrix).contains("zero or negative"));

@@ -1,7 +1,7 @@
 //! Cameras: the viewpoint of a picture, and the place of world points in it.
 //!
-//! A picture is `width` × `height` pixels; x runs right, y runs down, pixel (0, 0) is the top left
-//! one and covers the square from (0, 0) to (1, 1), so that its centre is at (0.5, 0.5).
+//! A picture is `width` × `height` pixels; x points right, and y points down. Pixel (0, 0) is at the top
+//! left. It covers the square from (0, 0) to (1, 1), so its centre is at (0.5, 0.5).
 
 mod around;
 mod matrix;
@@ -24,8 +24,8 @@ const FIELD_OF_VIEW: &str = "the field of view must be more than 0 and less than
 /// A camera: a viewpoint, an orientation, and a picture's size in pixels.
 ///
 /// [`perspective`](Self::perspective) and [`parallel`](Self::parallel) make cameras with square pixels that
-/// look at the middle of the picture. [`from_matrix`](Self::from_matrix) also makes off-axis cameras, which
-/// look past the middle, and cameras whose pixels are oblong or skewed.
+/// look at the middle of the picture. [`from_matrix`](Self::from_matrix) also makes off-axis cameras, whose
+/// direction is not towards the middle, and cameras whose pixels are oblong or skewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     projection: Projection,
@@ -49,8 +49,8 @@ pub enum Projection {
     Perspective {
         /// The eye.
         eye: DVec3,
-        /// Half of the picture's height at distance 1 from the eye: the tangent of half the vertical field of view,
-        /// unless the camera is off-axis.
+        /// Half the picture's height at distance 1 from the eye: the tangent of half the vertical field of
+        /// view, unless the camera is off-axis.
         half_height: f64,
     },
     /// Along a direction, from infinitely far away.
@@ -70,7 +70,7 @@ impl Camera {
     /// The largest number of pixels of a picture.
     pub const MAX_PIXELS: u64 = 1 << 26;
 
-    /// A perspective camera at `eye` that looks at `target`, with a vertical field of view in
+    /// Creates a perspective camera at `eye` that looks at `target`, with a vertical field of view in
     /// radians, for a picture of `[width, height]` pixels. Pixels are square.
     ///
     /// # Errors
@@ -94,8 +94,8 @@ impl Camera {
         Self::perspective_by_slope(eye, target, up, half_height, size)
     }
 
-    /// A perspective camera with a given tangent of half the vertical field of view. Unlike an
-    /// angle, which must be converted, it gives the same bits on every machine.
+    /// Creates a perspective camera, given the tangent of half the vertical field of view. An angle would
+    /// have to be converted; a tangent makes the same bits on every machine.
     ///
     /// # Errors
     ///
@@ -112,8 +112,8 @@ impl Camera {
         Self::oriented(Projection::Perspective { eye, half_height }, view, up, size)
     }
 
-    /// A parallel camera that looks along `direction`, with `centre` in the middle of a picture
-    /// that is `height` world units high and `[width, height]` pixels large. Pixels are square.
+    /// Creates a parallel camera that looks along `direction`, with `centre` in the middle of a picture that
+    /// is `height` world units high and `[width, height]` pixels large. Pixels are square.
     ///
     /// # Errors
     ///
@@ -163,12 +163,12 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle: forward, aspect: 1.0, size })
     }
 
-    /// The camera's projection.
+    /// Returns the camera's projection.
     pub fn projection(&self) -> &Projection {
         &self.projection
     }
 
-    /// The viewpoint for ordering fragments.
+    /// Returns the viewpoint for ordering fragments.
     pub fn viewpoint(&self) -> Viewpoint {
         match self.projection {
             Projection::Perspective { eye, .. } => Viewpoint::Eye(eye),
@@ -176,7 +176,7 @@ impl Camera {
         }
     }
 
-    /// The eye; `None` for a parallel camera.
+    /// Returns the eye; `None` for a parallel camera.
     pub fn eye(&self) -> Option<DVec3> {
         match self.projection {
             Projection::Perspective { eye, .. } => Some(eye),
@@ -184,30 +184,30 @@ impl Camera {
         }
     }
 
-    /// The picture's width and height in pixels.
+    /// Returns the picture's width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The unit vector to the right: from a pixel to the next one of its row.
+    /// Returns the unit vector to the right: from a pixel to the next pixel of its row.
     pub fn right(&self) -> DVec3 {
         self.right
     }
 
-    /// The unit vector upwards in the picture: from a pixel to the one above it. It is perpendicular to
-    /// [`right`](Self::right) unless the camera is made from a matrix that skews.
+    /// Returns the unit vector upwards in the picture: from a pixel to the pixel above it. It is
+    /// perpendicular to [`right`](Self::right) unless the camera is made from a matrix that skews.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// The unit vector in the direction in which the camera looks: the normal of the picture's plane. For a
-    /// perspective camera it points at the middle of the picture, unless the camera is off-axis.
+    /// Returns the unit vector in the direction in which the camera looks: the normal of the picture's plane.
+    /// For a perspective camera it points at the middle of the picture, unless the camera is off-axis.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
-    /// The width and the height of a pixel: at distance 1 from the eye, or, for a parallel camera, at any distance.
-    /// They are equal unless the camera is made from a matrix.
+    /// Returns the width and the height of a pixel: at distance 1 from the eye, or, for a parallel camera, at
+    /// any distance. They are equal unless the camera is made from a matrix.
     pub fn pixel_size(&self) -> [f64; 2] {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
@@ -229,8 +229,8 @@ impl Camera {
         self.middle
     }
 
-    /// The same view with a picture of another size. The visible height, the middle and the shape of pixels
-    /// do not change.
+    /// Returns the same view with a picture of another size. The visible height, the middle and the shape of
+    /// pixels do not change.
     ///
     /// # Errors
     ///
@@ -257,8 +257,8 @@ impl Camera {
         duals.map(|dual| dual - forward * dual.dot(middle))
     }
 
-    /// A point in homogeneous picture coordinates: (x·w, y·w, w) for the pixel position (x, y),
-    /// with w the distance in front of the eye's plane, or 1 for a parallel camera.
+    /// Returns the homogeneous picture coordinates of a point: (x·w, y·w, w) for the pixel position (x, y),
+    /// where w is the distance in front of the eye's plane, or 1 for a parallel camera.
     pub fn homogeneous(&self, point: DVec3) -> DVec3 {
         let arm = point - self.origin();
         let w = if self.eye().is_some() { arm.dot(self.forward) } else { 1.0 };
@@ -271,8 +271,8 @@ impl Camera {
         )
     }
 
-    /// The position of a point in the picture, in pixels; it may be outside the picture. `None` for a point
-    /// that is not in front of the eye.
+    /// Returns the position of a point in the picture, in pixels; it may be outside the picture. `None` for a
+    /// point that is not in front of the eye.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
         let [x, y, w] = self.homogeneous(point).to_array();
         let position = [x / w, y / w];
@@ -280,9 +280,9 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// The region that the picture shows, up to its borders: half a pixel more on each side than the rays
-    /// through the centres of its pixels. That is more than the rounding of the camera, unless a pixel is
-    /// finer than 2⁻³⁰ of its distance, or of a parallel camera's scene.
+    /// Returns the region that the picture shows, up to its borders: half a pixel more on each side than the
+    /// rays through the centres of its pixels. That is more than the rounding of the camera, unless a pixel
+    /// is finer than 2⁻³⁰ of its distance, or of a parallel camera's scene.
     ///
     /// There is no near and no far plane; a perspective camera sees everything ahead of its eye.
     pub fn frustum(&self) -> Frustum {
@@ -305,7 +305,8 @@ impl Camera {
         }
     }
 
-    /// The part of a convex polygon that the picture shows, in pixels; empty if it shows none.
+    /// Returns the part of a convex polygon that the picture shows, in pixels; empty if no part is in the
+    /// picture.
     ///
     /// Polygons that share an edge also share the ends of the clipped edge, up to rounding.
     pub fn clip(&self, polygon: &[DVec3]) -> Vec<[f64; 2]> {
@@ -357,7 +358,7 @@ fn keep_inside(polygon: &[DVec3], plane: &dyn Fn(DVec3) -> f64) -> Vec<DVec3> {
             kept.push(here);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            // Always from the inner end, so that both polygons at the edge get the same point.
+            // Always from the inner end, so that both polygons at the edge have the same point.
             let (inner, outer, a, b) =
                 if a >= 0.0 { (here, next, a, b) } else { (next, here, b, a) };
             kept.push(inner + (outer - inner) * (a / (a - b)));
@@ -415,7 +416,7 @@ mod tests {
     }
 
     fn camera() -> Camera {
-        // A right angle high: at distance 1 the picture shows y from −1 to 1.
+        // The field of view is a right angle: at distance 1 the picture shows y from −1 to 1.
         let fov = std::f64::consts::FRAC_PI_2;
         Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, fov, [40, 20]).unwrap()
     }

@@ -41,7 +41,7 @@ fn every_hard_polygon_is_in_all_cells_together_once() {
 /// Polygons in the plane between two cells, or within the tolerance of it, belong to the cell on the side
 /// of larger coordinates.
 #[test]
-fn what_lies_in_a_plane_between_is_in_the_cell_in_front() {
+fn polygons_in_a_plane_between_cells_are_in_the_front_cell() {
     let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
     let xs = [0.0, 2.0 - 1e-7, 2.0, 2.0 + 1e-7, 2.0 - 1e-5, 4.0];
     let polygons: Vec<Corners> = xs.map(square).into();

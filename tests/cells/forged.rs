@@ -52,7 +52,7 @@ fn planes_are_within_the_grid() {
 }
 
 #[test]
-fn planes_are_within_what_they_divide() {
+fn planes_are_within_the_sets_that_they_divide() {
     for axis in 0..3 {
         let at = |behind: i64, ahead: i64| with_planes([(axis, 10), (axis, behind), (axis, ahead)]);
         assert!(at(10, 10).is_ok() && at(-LIMIT, LIMIT).is_ok());

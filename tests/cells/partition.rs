@@ -158,7 +158,7 @@ fn preparations_count_each_polygon_once() {
     }
 }
 
-/// Extents of shares merge to that of the whole, in any order.
+/// Extents of shares merge to the extent of the whole, in any order.
 #[test]
 fn extents_of_shares_are_that_of_the_whole() {
     let polygons = triangles(&mut Dice(31), 30, 9);
@@ -179,7 +179,7 @@ fn extents_of_shares_are_that_of_the_whole() {
 }
 
 #[test]
-fn what_cannot_be_divided_is_an_error() {
+fn an_extent_that_cannot_be_divided_is_an_error() {
     let options = BuildOptions::DEFAULT;
     let polygon = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let mut all = Extent::default();
@@ -210,7 +210,7 @@ fn what_cannot_be_divided_is_an_error() {
 
 /// A tree of a cell remains one when polygons are added.
 #[test]
-fn what_is_added_is_cut_to_the_cell() {
+fn added_polygons_are_cut_to_the_cell() {
     let options = BuildOptions::DEFAULT;
     let polygons = triangles(&mut Dice(12), 60, 30);
     let scene = Divided::new(polygons.clone(), options.clone(), 5).unwrap();
@@ -234,7 +234,7 @@ fn what_is_added_is_cut_to_the_cell() {
 /// Corners that were moved onto their plane keep their given positions, also if faces before them went to
 /// other cells.
 #[test]
-fn what_is_added_again_is_known_by_its_corners_as_given() {
+fn duplicates_in_an_extension_are_found_by_their_given_corners() {
     let bent = |x: u32| -> Corners {
         let x = f64::from(x);
         vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 1e-7], [x, 1.0, 0.0]]

@@ -33,7 +33,7 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
 
 /// A wall goes through an L along an edge that its triangulation made.
 #[test]
-fn what_goes_along_an_inner_edge_is_visible_or_hidden_once() {
+fn a_line_along_an_inner_edge_is_visible_or_hidden_once() {
     let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     let l = l.map(|[x, y]| [x, y, 0.0]).to_vec();
     let wall = vec![[-1.0, -1.0, -1.0], [3.0, 3.0, -1.0], [3.0, 3.0, 1.0], [-1.0, -1.0, 1.0]];
@@ -93,7 +93,7 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
             1 => vec![at(0.25) + c - d, at(0.75) + c - d, at(0.5) - c + d],
             // As far as the line.
             2 => vec![at(0.0), at(0.75), c],
-            // Bent along it, too.
+            // Also bent along it.
             _ => vec![at(0.125), c, at(1.0), d],
         };
         polygons.push(other);
@@ -101,8 +101,8 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     polygons
 }
 
-/// The directions in which a polygon goes away from a line at a point of it: two, or fewer if it ends there or is not
-/// there at all.
+/// The directions in which a polygon leaves a line at a point of it: two, or fewer if the polygon ends there
+/// or does not contain the point.
 pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
     let mut sides = vec![];
     for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {
@@ -276,7 +276,7 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
 
 /// The tolerance leaves the ends of polygons and their bends open.
 #[test]
-fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
+fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     let (mut dice, mut compared) = (Dice(15), 0);
     for tolerance in [0.0, 0.01, 0.05, 0.2] {
         for _ in 0..12 {
@@ -301,7 +301,7 @@ fn what_shows_of_crossings_is_the_same_with_those_that_are_hidden() {
 /// Neighbours have their common edges in the picture at the given corners, so nothing is visible between
 /// them, although the tree moved corners onto the planes of their quads.
 #[test]
-fn through_a_closed_globe_of_bent_quads_nothing_shows() {
+fn a_closed_globe_of_bent_quads_has_no_gaps() {
     let scene = Builtin::Sphere.build(Some(2_000), 1);
     let tree = BspTree::build(scene.polygons()).unwrap();
     assert!(tree.preparation().flattened > 500, "{:?}", tree.preparation());
@@ -316,7 +316,7 @@ fn through_a_closed_globe_of_bent_quads_nothing_shows() {
             let corners = &polygons[shown.polygon];
             let [a, b, c] = [corners.points()[0], corners.points()[1], corners.points()[2]];
             let outwards = (c - a).cross(*corners.points().last().unwrap() - b).normalize();
-            // Of quads seen edge-on, rounding tells whether they show.
+            // The visibility of quads seen edge-on depends on rounding.
             assert!(outwards.dot((eye - a).normalize()) > -1e-9, "{eye}: {shown:?}");
         }
     }

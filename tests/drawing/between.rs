@@ -81,7 +81,7 @@ fn check(
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];
         for (number, path) in paths.iter().enumerate() {
-            // Those of bent polygons may be behind a line with one face and in front with another.
+            // Bent polygons may be behind a line with one face and in front of it with another.
             if covers(path, at, through) != Some(true)
                 || sightlines.faces_of(path.polygon()).len() > 1
             {
@@ -119,7 +119,7 @@ fn check(
                 runs.push(run);
             }
             DisplayItem::Marker(marker) => {
-                let judged = judge(&snap(points[marker.point]), marker.at, below)?;
+                let judged = judge(&snap(points[marker.point]), marker.position, below)?;
                 score.marker_below += judged[0];
                 score.marker_above += judged[1];
                 markers += 1;

@@ -56,7 +56,7 @@ fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), b
 }
 
 #[test]
-fn edges_over_a_grid_are_hidden_only_by_what_lies_over_them() {
+fn edges_over_a_grid_are_hidden_only_by_polygons_over_them() {
     let mut dice = Dice(11);
     let (mut visible, mut hidden) = (0, 0);
     for round in 0..2000 {
@@ -66,7 +66,8 @@ fn edges_over_a_grid_are_hidden_only_by_what_lies_over_them() {
             sheets.iter_mut().for_each(|sheet| sheet.high = sheet.low.map(|c| c + 1));
         }
         let tree = tree_of(&sheets.iter().map(Sheet::corners).collect::<Vec<_>>());
-        // Pictures of all of the grid and of the middle of it; only those end on it whose rays are not rounded.
+        // Pictures of the whole grid and of its middle. Only polygons whose rays are not rounded end on the
+        // border.
         let (height, side) = [(8, 64), (4, 64), (4, 1), (8, 1), (12, 37), (2, 4)][round % 6];
         let camera = from_above(f64::from(height), [side; 2]);
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };

@@ -19,7 +19,7 @@ fn hard_scenes_are_drawn_as_rays_meet_them() {
 }
 
 #[test]
-fn layers_of_hard_scenes_are_those_of_the_tree() {
+fn layers_of_hard_scenes_agree_with_the_tree() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
         for_each_view(&scene, heuristic, seed, |tree, camera| check_layers(tree, camera, score))
@@ -33,7 +33,7 @@ fn layers_of_hard_scenes_are_those_of_the_tree() {
 }
 
 #[test]
-fn layers_of_hard_scenes_end_at_what_is_opaque() {
+fn layers_of_hard_scenes_end_at_opaque_polygons() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 256, cases, |score: &mut Layers, (scene, heuristic, seed)| {
         let opacity = |polygon: usize| [1.0, 0.5, 0.25, 1.0, 0.0][polygon * 7 % 11 % 5];

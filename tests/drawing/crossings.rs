@@ -101,7 +101,8 @@ fn planes_through_one_line_cross_in_it() {
         let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
         for (by, tree) in trees(&cards) {
             let runs = crossings(&tree, &camera);
-            // Two of the cards show at the line, one on each side: of all of it that is in the picture.
+            // Two of the cards are visible at the line, one on each side, along its whole part in the
+            // picture.
             let pairs: Vec<_> = runs.iter().map(|run| (run.polygon, run.kind)).collect();
             assert_eq!(pairs.len(), 1, "{turn}, {by}: {runs:?}");
             seen += 1;
@@ -160,7 +161,7 @@ fn a_wall_crosses_every_tile_of_a_floor() {
 
 /// A wall that stands on a floor touches it, and two walls meet at a corner: nothing crosses.
 #[test]
-fn what_only_touches_does_not_cross() {
+fn touching_polygons_do_not_cross() {
     let floor = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
     let wall = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.0], [-1.0, 2.0, 0.0]];
     let other = [[1.0, 0.0, 0.0], [1.0, 0.0, 2.0], [1.0, 2.0, 2.0], [1.0, 2.0, 0.0]];

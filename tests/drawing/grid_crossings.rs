@@ -119,7 +119,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
 }
 
 #[test]
-fn crossings_of_polygons_on_a_grid_are_those_of_rationals() {
+fn crossings_of_polygons_on_a_grid_agree_with_rationals() {
     let (mut dice, mut score) = (Dice(23), Score::default());
     for round in 0..times(100) {
         let polygons = polygons(&mut dice, 2 + round % 5);

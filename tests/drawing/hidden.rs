@@ -17,7 +17,7 @@ fn sized([x, y]: [f64; 2], [w, h]: [f64; 2], z: f64) -> Vec<DVec3> {
 /// A checkerboard, its other squares further back and larger so that they fill the gaps exactly as
 /// seen from the eye: they share only corners and edges in the picture.
 #[test]
-fn what_a_checkerboard_hides_is_hidden_until_a_square_is_missing() {
+fn polygons_behind_a_checkerboard_are_hidden_until_a_square_is_missing() {
     let eye = DVec3::new(0.0, 0.0, 16.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [97, 61]).unwrap();
     let mut squares = Vec::new();
@@ -46,7 +46,7 @@ fn what_a_checkerboard_hides_is_hidden_until_a_square_is_missing() {
 
 /// The background is visible through a gap far narrower than a pixel.
 #[test]
-fn the_narrowest_gap_shows_what_is_behind() {
+fn the_narrowest_gap_shows_polygons_behind() {
     let eye = DVec3::new(0.0, 0.0, 5.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [64, 64]).unwrap();
     for (gap, expected) in [(0.0, vec![0, 1]), (2f64.powi(-40), vec![0, 1, 2])] {

@@ -36,7 +36,7 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
         cards.iter().map(|card| card.map(DVec3::from).to_vec()).collect();
     polygons.push(rectangle([-3.0, -1.5], [3.0, 1.0], 3.0));
     polygons.push(rectangle([-3.0, -0.5], [3.0, 0.5], 4.0));
-    // Behind all, and one of the cards goes through nothing of it.
+    // It is behind all cards, and one of them goes through no part of it.
     polygons.push(rectangle([-3.0, -3.0], [3.0, 3.0], -3.0));
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let tree = BspTree::build(&polygons).unwrap();

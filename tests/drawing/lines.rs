@@ -27,7 +27,7 @@ fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
         let silhouette: Vec<_> =
             visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
         assert_eq!(silhouette.len(), 6);
-        // It is closed: each end is that of two.
+        // It is closed: each end belongs to two runs.
         for end in silhouette.iter().flat_map(|run| run.ends) {
             let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);
             let ends = silhouette.iter().flat_map(|run| run.ends);
@@ -50,7 +50,7 @@ fn a_bar_hides_the_middle_of_an_edge() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let runs = edges(&tree, &camera);
     assert!(runs.iter().all(|run| run.kind == EdgeKind::Border));
-    // Of the lower and of the upper edge: ten pixels a unit.
+    // The lower and the upper edge, ten pixels per unit.
     for edge in [0, 2] {
         let mut parts: Vec<(bool, f64)> = runs
             .iter()
@@ -104,7 +104,7 @@ fn edges_on_one_line_have_runs_of_their_own() {
     }
 }
 
-/// Edges that leave the picture, or run behind the eye, are there as far as they are in the picture.
+/// Edges that leave the picture, or run behind the eye, are drawn up to the boundary of the picture.
 #[test]
 fn edges_end_with_the_picture() {
     let floor =

@@ -10,7 +10,7 @@ use testkit::scenes::triangles;
 
 const SIZE: [u32; 2] = [90, 60];
 
-/// Pixels where a triangle's edge or another depth is as near as this, as a share, are not compared.
+/// Pixels are not compared if a triangle's edge or another depth is nearer than this share.
 const NEAR: f64 = 1e-6;
 
 /// A triangle as a matrix shows it. The vector (x, y, 1) to a place of the picture, in homogeneous coordinates, is a sum

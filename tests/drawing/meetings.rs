@@ -18,7 +18,7 @@ fn square_shows(wall: &[Vec<DVec3>]) -> bool {
     let polygons: Vec<Vec<DVec3>> = wall.iter().cloned().chain([square.to_vec()]).collect();
     let tree = BspTree::build(&polygons).unwrap();
     check(&tree, &camera(), &mut Score::default()).unwrap();
-    // The same behind a pane before all.
+    // The same scene behind a pane.
     let pane = [[-90.0, -90.0], [90.0, -90.0], [0.0, 90.0]].map(|[x, y]| DVec3::new(x, y, 300.0));
     let panes: Vec<Vec<DVec3>> = polygons.iter().cloned().chain([pane.to_vec()]).collect();
     let behind_glass = BspTree::build(&panes).unwrap();
@@ -44,7 +44,7 @@ fn check_parts(wall: &[Vec<DVec3>], missing: impl Iterator<Item = usize>) {
 
 /// A cone of triangles, whose apex is nearest to the eye, and one whose apex is furthest.
 #[test]
-fn fans_of_hundreds_of_triangles_hide_what_is_behind() {
+fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
     const COUNT: usize = 300;
     for depth in [200.0, -200.0, 0.0] {
         let apex = DVec3::new(7.0, -3.0, depth);
@@ -61,8 +61,8 @@ fn fans_of_hundreds_of_triangles_hide_what_is_behind() {
 
 /// Bricks in a tilted plane, each row shifted against the next: corners end in the middle of edges.
 #[test]
-fn walls_with_t_junctions_hide_what_is_behind() {
-    // Of width 30 and height 20, in a plane of whole numbers.
+fn walls_with_t_junctions_hide_polygons_behind() {
+    // A rectangle of width 30 and height 20, in a plane with whole numbers.
     let corner = |x: i32, y: i32| {
         let [x, y] = [f64::from(x), f64::from(y)];
         DVec3::new(x, y, 0.0) + DVec3::new(0.0, 0.0, 2.0 * x - y)

@@ -76,7 +76,7 @@ fn check(
     }
     score.runs += runs.len();
     check_tiling(&runs)?;
-    for MarkerView { point, at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
+    for MarkerView { point, position: at, is_visible, .. } in map.markers(&overlay).map_err(text)? {
         let exact = snap(points[point]);
         let projected = sightlines.project(&exact).expect("ahead of the eye");
         if (0..2).any(|i| (projected[i] - at[i]).abs() > 1.1e-3) {
@@ -157,7 +157,7 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     assert_eq!(one(&[[-2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, -1.0]]), behind);
     assert_eq!(one(&[[0.0, 2.0, -1.0], [2.0, 0.0, -1.0]]), [(2.0, true)]);
-    // Through its edge: a point of it.
+    // The line goes through the edge, in one point.
     assert_eq!(
         one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, 1.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]
@@ -175,7 +175,7 @@ fn lines_in_cracks_and_corners() {
         [rectangle([-1.0, -1.0], [1.0, 0.0], 0.0), rectangle([-1.0, 0.0], [1.0, 1.0], 0.0)];
     let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
     assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
-    // A valley, all of it further back than its rims, in every order of its sides and a wall through it.
+    // A valley, all of it further back than its upper edges, in every order of its sides and a wall through it.
     let [left, right] = [-1.0, 1.0].map(|y| {
         let side = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, y, 1.0], [-1.0, y, 1.0]];
         side.map(DVec3::from).to_vec()
@@ -232,7 +232,7 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
     assert_eq!(map.lines(&overlay, Hidden::Keep), Ok(vec![]));
     assert_eq!(map.markers(&overlay), Ok(vec![]));
     let line = [DVec3::ZERO, DVec3::X];
-    // One without area is none.
+    // A polygon without area does not count.
     let polygons = [[DVec3::ZERO; 3], [DVec3::ZERO, DVec3::X * 0.5, DVec3::Y * 0.5]];
     let shapes = Shapes::NONE.with_lines([line]);
     overlay.replace_with(&tree, shapes.with_polygons(&polygons[..1])).unwrap();
@@ -339,9 +339,9 @@ fn lines_and_points_among_triangles_are_hidden_as_rays_are() {
     enough!(score.visible > 2000, score.hidden > 1000, score.deeper > 300; "{score:?}");
 }
 
-/// Half-transparent polygons hide neither points nor lines; those of opacity 0 have no edges.
+/// Half-transparent polygons hide neither points nor lines. Polygons of opacity 0 have no edges.
 #[test]
-fn what_is_behind_glass_is_visible() {
+fn lines_and_points_behind_glass_are_visible() {
     let polygons =
         [rectangle([-1.0, -1.0], [1.0, 1.0], 0.0), rectangle([-1.0, -1.0], [1.0, 1.0], 2.0)];
     let tree = BspTree::build(&polygons).unwrap();

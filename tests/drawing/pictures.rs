@@ -27,7 +27,7 @@ fn crisp(picture: &VectorPicture) -> Vec<[u8; 3]> {
     pixels(picture, ShapeRendering::CrispEdges)
 }
 
-/// Rows of quads, triangles and darts, with corners of one row between those of the next.
+/// Rows of quads, triangles and darts, where the corners of one row lie between the corners of the next.
 fn wall() -> Vec<Corners> {
     let mut faces = Vec::new();
     for row in 0..8 {

@@ -147,7 +147,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
 
 /// A map keeps its callback; after it was cancelled, it still answers.
 #[test]
-fn what_is_asked_of_a_map_tells_how_far_it_is_and_can_be_cancelled() {
+fn queries_of_a_map_report_progress_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
     let View { tree, camera, overlay } = &view;
     listener.cancel_at(usize::MAX);
@@ -210,7 +210,7 @@ fn discs(corners: u32) -> View {
 /// A cell that a face of many corners cuts is work for each corner that it has so far: this work is
 /// reported and can be cancelled.
 #[test]
-fn what_is_done_at_many_corners_is_heard() {
+fn work_at_many_corners_polls_for_cancellation() {
     let calls = [512, 1024].map(|corners| {
         let (View { tree, camera, overlay }, listener) = (discs(corners), Listener::default());
         listener.cancel_at(usize::MAX);

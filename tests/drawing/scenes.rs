@@ -31,7 +31,7 @@ fn check_scene(scene: &Scene, score: &mut Score) {
 }
 
 #[test]
-fn drawings_of_whole_scenes_are_what_rays_meet() {
+fn drawings_of_whole_scenes_agree_with_rays() {
     let mut score = Score::default();
     for builtin in Builtin::ALL {
         let size = builtin.default_size().map(|size| size.min(400));
@@ -54,7 +54,7 @@ fn many_small_triangles() {
     enough!(score.pixels > 1_000_000, score.clipped > 500; "{score:?}");
 }
 
-/// Of a height field and of a convex body, no polygon is in a cycle.
+/// In height fields and convex bodies, no polygon is in a cycle.
 #[test]
 fn nothing_is_clipped_of_scans() {
     for builtin in [Builtin::Terrain, Builtin::Sphere] {

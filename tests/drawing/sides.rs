@@ -21,7 +21,7 @@ struct Score {
 fn check(path: Path<'_>, corners: &[DVec3], camera: &Camera, score: &mut Score) {
     let projected: Option<Vec<DVec2>> =
         corners.iter().map(|&corner| camera.project(corner).map(DVec2::from)).collect();
-    // Of polygons that reach behind the eye.
+    // Polygons that reach behind the eye.
     let Some(projected) = projected else { return };
     let edge = |k: usize| [projected[k], projected[(k + 1) % projected.len()]];
     for (outline, edges) in path.outlines().zip(path.edges()) {

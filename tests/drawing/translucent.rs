@@ -32,9 +32,9 @@ fn check_scene(scene: &Scene, Scores { all, mixed }: &mut Scores) {
     }
 }
 
-/// Those of the tree; where some are opaque, they end there.
+/// The layers of the tree. If some polygons are opaque, layers end there.
 #[test]
-fn layers_of_whole_scenes_are_those_of_the_tree() {
+fn layers_of_whole_scenes_agree_with_the_tree() {
     let mut scores = Scores::default();
     for builtin in Builtin::ALL {
         let size = builtin.default_size().map(|size| size.min(300));
@@ -57,7 +57,7 @@ fn layers_of_whole_scenes_are_those_of_the_tree() {
 /// Polygons that cross, small ones, large ones, and few that are larger still: opaque ones are clipped,
 /// translucent ones in parts.
 #[test]
-fn layers_of_crossing_triangles_are_those_of_the_tree() {
+fn layers_of_crossing_triangles_agree_with_the_tree() {
     let (mut dice, mut scores) = (Dice(1), Scores::default());
     for (count, edge) in [(300, 0.1), (150, 0.5), (50, 1.0)] {
         let triangles = triangles(&mut dice, count, [0.0, 1.0], edge);
@@ -91,7 +91,7 @@ fn panes_cross_in_one_line() {
         assert_eq!((runs[0].polygon, runs[0].kind), (0, EdgeKind::Crossing(1)));
         assert!(length(&runs[0]) <= length(&glass[0]) + 1e-9);
     }
-    // All of it shows through glass.
+    // Everything is visible through glass.
     assert!((length(&glass[0]) - length(&thick[0])).abs() < 1e-9, "{glass:?} {thick:?}");
     assert!(runs([0.0, 0.5]).is_empty());
 }

@@ -173,7 +173,7 @@ impl Divided<'_> {
         found
     }
 
-    /// Whether the plane is that of a piece that crosses all pieces that it cuts.
+    /// Whether the plane belongs to a piece that crosses all pieces that it cuts.
     pub(super) fn cuts_what_crosses(&self) -> bool {
         let PlaneKind::Face(face) = self.plane.kind() else { return false };
         let plane = model::plane(self.faces, self.plane);
@@ -199,7 +199,7 @@ impl Divided<'_> {
     pub(super) fn scores(&self, score: impl Fn(&Counts, bool) -> f64) -> [f64; 2] {
         let PlaneKind::Face(face) = self.plane.kind() else { panic!("{:?} is free", self.plane) };
         let chosen = self.set.iter().zip(self.own_planes()).filter(|(piece, _)| piece.face == face);
-        // Of several pieces of a face, one may be perpendicular to an axis only as all are.
+        // If one of several pieces of a face is perpendicular to an axis, all of them are.
         let of_chosen = chosen.map(|(_, (counts, is_axial))| score(&counts, is_axial));
         let least = self.own_planes().map(|(counts, is_axial)| score(&counts, is_axial));
         [of_chosen.fold(f64::INFINITY, f64::min), least.fold(f64::INFINITY, f64::min)]

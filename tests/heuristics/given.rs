@@ -18,7 +18,7 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
 
-/// The plane of the piece of least score; of equals, that of the first.
+/// The plane of the piece with the lowest score; of equal scores, the first.
 fn least(
     set: &PieceSet<'_>,
     candidates: usize,
@@ -61,7 +61,7 @@ fn written_anew(by: Heuristic, set: &PieceSet<'_>) -> Option<SplitPlane> {
         Heuristic::Balanced => least(set, 96, |_, [cut, uneven]| [uneven, cut]),
         Heuristic::Weighted { splits, balance, axial } => weighted(96, [splits, balance, axial]),
         Heuristic::Sampled { candidates } => weighted(candidates as usize, [8.0, 1.0, 0.0]),
-        _ => panic!("{by} is not written anew"),
+        _ => panic!("{by} has no copy here"),
     }
 }
 
@@ -166,7 +166,7 @@ fn an_adversary_gets_the_same_tree_on_any_number_of_threads() {
 
 /// In general position, so that no plane has all pieces on one side except those beyond all corners.
 #[test]
-fn an_answer_that_is_no_plane_or_divides_nothing_is_one_of_none() {
+fn an_invalid_or_useless_plane_counts_as_none() {
     let scene = scene::random_triangles(150, 3);
     for by in [Heuristic::Auto, Heuristic::First] {
         let options = BuildOptions::DEFAULT.with_heuristic(by);

@@ -109,12 +109,12 @@ fn random_takes_a_polygon_s_plane_that_only_the_seed_decides() {
 }
 
 #[test]
-fn fewest_splits_takes_a_plane_than_which_none_cuts_fewer() {
+fn fewest_splits_takes_a_plane_with_the_fewest_cuts() {
     assert_least(Heuristic::FewestSplits, |c, _| c.splits as f64 * 1e3 + c.imbalance());
 }
 
 #[test]
-fn balanced_takes_a_plane_than_which_none_divides_more_evenly() {
+fn balanced_takes_a_most_evenly_dividing_plane() {
     assert_least(Heuristic::Balanced, |c, _| c.imbalance() * 1e3 + c.splits as f64);
 }
 
@@ -148,7 +148,7 @@ fn sampled_from_all_planes_takes_one_of_least_weighted_sum() {
 
 /// With one candidate there is no choice; with more, some choice is better.
 #[test]
-fn sampled_looks_at_more_planes_the_more_it_is_told_to() {
+fn sampled_tries_as_many_planes_as_its_parameter() {
     let sum = |candidates: u32| {
         let mut sum = 0.0;
         each(Heuristic::Sampled { candidates }, 16, 14, |node| {
@@ -238,9 +238,9 @@ fn auto_cuts_nothing_wherever_a_free_plane_cuts_nothing() {
     enough!(clean_of_frames > 2000, needed > 10; "{clean_of_frames} {needed}");
 }
 
-/// Where every plane cuts, `auto` uses the own plane of least work less the reward for its size; in a frame
-/// also one that cuts one or two pieces that cross the piece it is of. Sets of at most 16 pieces are
-/// compared with every plane.
+/// If every plane cuts, `auto` uses the own plane with the least work less the reward for its size. In a
+/// frame it may also use a plane that cuts one or two pieces which cross its own piece. Sets of at most 16
+/// pieces are compared with every plane.
 #[test]
 fn auto_takes_the_own_plane_of_least_cost_where_every_plane_cuts() {
     let (mut cut, mut rewarded, mut crossings) = ([0; 2], 0, 0);

@@ -43,7 +43,7 @@ fn large_scenes_of_every_kind_are_in_order() {
 }
 
 #[test]
-fn noisy_scenes_are_in_order_but_for_the_tolerance() {
+fn noisy_scenes_are_in_order_up_to_the_tolerance() {
     let trial = Trial { heuristics: Heuristic::ALL, views: times(5), rays: 20, most: 30 };
     let scores = trial.hold_all(6, 3, |kind, dice| all_scenes::noisy(kind, dice, 600));
     let all = Score::total(&scores);

@@ -170,7 +170,7 @@ fn a_turned_square_in_a_window_is_an_octagon() {
     assert_eq!(edges, (0..8).map(Some).collect::<Vec<_>>());
 }
 
-/// With one matrix, corners are those of the ancestor, bit for bit.
+/// With one matrix, corners equal the corners of the ancestor, bit for bit.
 #[test]
 fn in_a_window_of_the_same_matrix_a_layer_ends_exactly_at_its_sides() {
     let mut dice = Dice(73);

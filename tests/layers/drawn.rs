@@ -72,7 +72,7 @@ fn a_card_turned_about_y_shows_its_left_half() {
 /// CSS: a page of 1920 by 1080 with `perspective: 1200px`, and in it a box of 200 by 120 at (300, 100), which
 /// `rotateX(90deg)` lays down about its upper edge.
 #[test]
-fn matrices_are_those_of_css() {
+fn matrices_agree_with_css() {
     let page = perspective(1200.0, [960.0, 540.0]);
     let from_the_middle = page * DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
     assert!(from_the_middle.abs_diff_eq(camera(), 1e-9));

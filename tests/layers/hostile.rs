@@ -17,13 +17,13 @@ fn pieces(layer: Layer) -> usize {
     let front = Layer::new(CARD, camera() * DMat4::from_translation(dvec3(0.0, 0.0, 50.0)));
     page.update(&[flat(), layer, front]).unwrap();
     let found: Vec<usize> = page.back_to_front().map(|piece| piece.layer()).collect();
-    // Numbers are those of the list even if the layer vanished.
+    // Numbers refer to the list, even if a layer has no piece.
     assert!(found.contains(&0) && found.contains(&2), "{found:?}");
     found.len() - 2
 }
 
 #[test]
-fn numbers_that_are_none_are_an_error_that_names_the_layer() {
+fn nan_is_an_error_that_names_the_layer() {
     let mut bad = Vec::new();
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for k in 0..4 {
@@ -60,7 +60,7 @@ fn numbers_that_are_none_are_an_error_that_names_the_layer() {
 }
 
 #[test]
-fn a_viewport_that_is_none_is_an_error_and_one_without_area_shows_nothing() {
+fn an_invalid_viewport_is_an_error_and_an_empty_one_shows_nothing() {
     for bad in [f64::NAN, f64::INFINITY, 1e305] {
         let mut page = Layers::new([[0.0, 0.0], [bad, 100.0]]);
         let error = page.update(&[flat()]).unwrap_err();
@@ -75,7 +75,7 @@ fn a_viewport_that_is_none_is_an_error_and_one_without_area_shows_nothing() {
 }
 
 #[test]
-fn what_has_no_area_on_the_screen_has_no_pieces() {
+fn layers_without_area_on_the_screen_have_no_pieces() {
     let at = |x: f64, y: f64, z: f64| camera() * DMat4::from_translation(dvec3(x, y, z));
     let quarter = std::f64::consts::FRAC_PI_2;
     let mut vanished = vec![
@@ -122,7 +122,7 @@ fn what_has_no_area_on_the_screen_has_no_pieces() {
 
 /// Numbers that are far too large or too small, and beside each the same number just within the limit.
 #[test]
-fn what_is_too_far_or_too_small_has_no_piece_and_what_is_a_little_less_so_has() {
+fn layers_too_far_or_too_small_have_no_piece_and_slightly_nearer_or_larger_ones_have() {
     let at = |x: f64, y: f64, z: f64| DMat4::from_translation(dvec3(x, y, z));
     let middle = at(960.0, 540.0, 0.0);
     // A rotated card of this size, with its low corner at (low, low) but shown in the middle.

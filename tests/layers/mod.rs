@@ -58,7 +58,7 @@ fn outlines(page: &Layers) -> Vec<(usize, Vec<DVec2>)> {
     page.back_to_front().map(|piece| (piece.layer(), outline(piece))).collect()
 }
 
-/// The layers of a page as it is given.
+/// The layers of a page, in their given order.
 fn layers_of(page: Page, count: usize, seed: u64) -> Vec<Given> {
     page.layers(count, seed).into_iter().map(Given::from).collect()
 }

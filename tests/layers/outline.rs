@@ -24,7 +24,7 @@ fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
 }
 
 #[test]
-fn what_is_seen_is_what_the_exact_clip_leaves() {
+fn visible_parts_agree_with_the_exact_clip() {
     let mut dice = Dice(11);
     let (mut seen, mut unseen, mut clipped) = (0, 0, 0);
     for _ in 0..times(600) {

@@ -7,7 +7,7 @@ use testkit::shapes::rectangle;
 
 const NAN: DVec3 = DVec3::NAN;
 
-/// A square, and a tree of it alone.
+/// A square, and a tree that contains only the square.
 fn square() -> (Corners, BspTree) {
     let square = rectangle([0.0, 0.0], [1.0, 1.0], 0.0);
     let tree = BspTree::build([&square]).expect("within budget");
@@ -15,7 +15,7 @@ fn square() -> (Corners, BspTree) {
 }
 
 #[test]
-fn errors_are_of_the_kind_that_says_what_to_do() {
+fn each_error_has_its_kind() {
     let (square, tree) = square();
     let build = |options: BuildOptions, polygon: &[DVec3]| options.build([polygon]).map(drop);
     let view = |opacities: Vec<f64>| {

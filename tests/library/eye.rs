@@ -89,7 +89,7 @@ proptest! {
             let looking = DVec3::from_array(direction) * -scale;
             let found = side(&faces, plane, Viewpoint::direction(looking));
             prop_assert!(certain.is_none_or(|side| side == found));
-            // Where the largest component is a power of two, the direction is not rounded at all.
+            // If the largest component is a power of two, the direction is not rounded.
             let largest = small.iter().map(|c| c.unsigned_abs()).max().expect("three");
             if largest.is_power_of_two() {
                 let towards = small.map(f64::from);

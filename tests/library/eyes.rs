@@ -49,7 +49,7 @@ fn eyes_on_the_grid_are_not_moved() {
         let corners = triangle.map(|corner| lattice.to_world(corner));
         let frame = [low, high, DVec3::new(low.x, high.y, low.z)];
         let (faces, _) = Faces::new([frame, corners], Some(0.0)).expect("finite");
-        assert_eq!(faces.corners(1), triangle, "the lattice is that of the box");
+        assert_eq!(faces.corners(1), triangle, "the box defines the lattice");
         let expected = rational::sign(&exact);
         let tree = BuildOptions::DEFAULT.with_tolerance(0.0).build([frame, corners]).expect("fits");
         for fragment in tree.fragments().filter(|fragment| fragment.polygon() == 1) {

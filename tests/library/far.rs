@@ -63,7 +63,7 @@ fn tolerance_limit() -> f64 {
 }
 
 #[test]
-fn what_is_claimed_counts_up_to_a_share_of_the_extent_wherever_it_lies() {
+fn claimed_precision_counts_up_to_a_share_of_the_extent_at_any_place() {
     for at in [0.0, 1e4, 5.4e6] {
         let sides = cube(DVec3::new(at, 0.0, 3.0));
         for (claimed, expected) in [(0.0, 1e-9), (1e-7, 1e-7), (0.04, 1e-5), (1e9, 1e-5)] {

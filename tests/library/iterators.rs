@@ -119,7 +119,7 @@ fn fragments_and_nodes_are_read_from_both_ends() {
 /// Two squares, lines that are dropped, and an arrow of two triangles, all above each other; then a
 /// square through the first two.
 #[test]
-fn as_many_fragments_as_faces_say_that_nothing_was_cut() {
+fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     let square = |z: f64| sheet(2, z, 4.0).to_vec();
     let line = vec![[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]];
     let arrow = vec![[0.0, 0.0, 2.0], [2.0, 1.0, 2.0], [4.0, 0.0, 2.0], [2.0, 4.0, 2.0]];

@@ -1,4 +1,4 @@
-//! Rays of narrow views are at the camera's positions, or there are none.
+//! Rays of narrow views are at the camera's positions, or do not exist.
 
 use binspace::view::Projection;
 use dashu_int::IBig;

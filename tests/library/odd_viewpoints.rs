@@ -51,7 +51,7 @@ fn a_direction_of_no_length_is_downwards() {
     for odd in [DVec3::ZERO, -DVec3::ZERO, DVec3::NAN, dvec3(f64::NAN, 0.0, 0.0)] {
         assert_eq!(polygons(&tree, Viewpoint::Direction(odd)), down);
     }
-    // Of any length but zero.
+    // Directions of any length except zero.
     for length in [5e-324, 1e-300, 1.0, f64::MAX] {
         let up = Viewpoint::Direction(DVec3::Z * length);
         assert_eq!(polygons(&tree, up), polygons(&tree, Viewpoint::Direction(DVec3::Z)));

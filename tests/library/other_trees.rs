@@ -76,7 +76,7 @@ fn an_overlay_of_another_frame_is_refused() {
 
 /// Boxes belong to a tree and follow it: through copies, extensions and frames.
 #[test]
-fn boxes_are_those_of_the_polygons_that_the_tree_has_now() {
+fn boxes_belong_to_the_current_polygons_of_the_tree() {
     let mut tree = BspTree::build([square(0.0)]).expect("within budget");
     let [_, high] = tree.bounds().expect("a polygon");
     let copy = tree.clone();
@@ -99,7 +99,7 @@ fn boxes_are_those_of_the_polygons_that_the_tree_has_now() {
 
 /// Each frame tests again whether bodies are closed.
 #[test]
-fn open_edges_are_those_of_the_polygons_that_the_frame_has_now() {
+fn open_edges_belong_to_the_current_polygons_of_the_frame() {
     let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let body = [[a, c, b], [a, b, d], [a, d, c], [b, c, d]];
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
@@ -204,7 +204,7 @@ fn rays_of_another_grid_are_refused() {
 /// A fragment of another frame, or a piece of an overlay, covers the pixels of its own picture, not those
 /// of a face of the mask's tree with the same number.
 #[test]
-fn a_mask_covers_what_a_fragment_of_another_frame_covers() {
+fn a_mask_covers_the_pixels_of_a_fragment_of_another_frame() {
     let build = |sizes: [f64; 2]| {
         let lower = |(size, z): (f64, f64)| square(z).map(|[x, y, z]| [x * size, y * size, z]);
         let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::splat(4.0));

@@ -78,7 +78,7 @@ fn facts(faces: &Faces, face: u32) -> FaceFacts {
 }
 
 #[test]
-fn every_polygon_becomes_what_it_becomes_beside_the_ground_alone() {
+fn every_polygon_is_prepared_as_beside_the_ground_alone() {
     let polygons = scene(COUNT);
     let (faces, report) = prepare(&polygons);
     let mut expected = Preparation::default();

@@ -58,7 +58,7 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
-/// The plane of a small card has a far larger rounding error than that of the page on which it lies.
+/// The plane of a small card has a far larger rounding error than the plane of the page on which it lies.
 /// Wherever the card lies, and whichever comes first, the page's plane shows that they are coplanar.
 #[test]
 fn a_page_and_a_small_card_keep_their_order() {
@@ -163,7 +163,7 @@ fn layers_some_steps_of_f32_apart_keep_their_order() {
 }
 
 #[test]
-fn a_polygon_says_its_precision() {
+fn a_polygon_reports_its_precision() {
     let single = [[0.5_f32, -3.0, 0.25], [1.0; 3], [0.0; 3]];
     let expected = 4.0 * f64::from(f32::EPSILON) * 3.0;
     assert_eq!(single.precision(), expected);
@@ -173,7 +173,7 @@ fn a_polygon_says_its_precision() {
     assert_eq!(double[..].precision(), double.precision());
 }
 
-/// Of two squares of side 1, one a little above the other.
+/// Two squares of side 1, one a little above the other.
 fn tolerance_of(precision: f64, options: BuildOptions) -> f64 {
     let square = |z: f64| Claim { corners: rectangle([0.0; 2], [1.0; 2], z), precision };
     let squares = [0.0, 1e-3].map(square);
@@ -181,7 +181,7 @@ fn tolerance_of(precision: f64, options: BuildOptions) -> f64 {
 }
 
 #[test]
-fn the_tolerance_is_the_precision_within_bounds_or_what_is_asked() {
+fn the_tolerance_follows_the_precision_within_bounds_or_the_option() {
     let near = |found: f64, expected: f64| {
         assert!((found - expected).abs() <= 1e-12 * expected, "{found}, not {expected}");
     };
@@ -214,7 +214,7 @@ fn the_tolerance_is_the_precision_within_bounds_or_what_is_asked() {
 }
 
 #[test]
-fn what_is_bent_flattened_or_nearly_coplanar_is_counted_and_measured() {
+fn bent_flattened_and_nearly_coplanar_polygons_are_counted_and_measured() {
     // The plane of three of its corners is level; the fourth is off by `off`.
     let quad = |off: f64| {
         [[0.0, 0.0, 0.0], [4.0, 0.0, off], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]].map(DVec3::from)
@@ -223,7 +223,7 @@ fn what_is_bent_flattened_or_nearly_coplanar_is_counted_and_measured() {
         assert!((found - expected).abs() <= 1e-3 * expected, "{found}, not {expected}");
     };
     let build = |tolerance, polygons: &[[DVec3; 4]]| {
-        // The first of all that are left is the next plane.
+        // The first remaining polygon gives the next plane.
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
         options.with_tolerance(tolerance).build(polygons).unwrap()
     };

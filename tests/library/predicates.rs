@@ -39,7 +39,7 @@ fn follow(scene: &HardScene, plan: &Plan, tally: &mut Tally) -> Verdict {
 
 /// The counts guard the generators: scenes that floats alone could decide would prove nothing.
 #[test]
-fn pieces_of_hard_scenes_are_those_of_exact_rationals() {
+fn pieces_of_hard_scenes_agree_with_rationals() {
     let cases = (hard::scene(), plan());
     let tally = tally(file!(), 2500, cases, |tally: &mut Tally, (scene, plan)| {
         follow(&scene, &plan, tally).map_err(fail)

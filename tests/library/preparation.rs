@@ -278,7 +278,7 @@ proptest! {
     #![proptest_config(cases(256, file!()))]
 
     #[test]
-    fn triangles_cover_shapes_anywhere_but_for_rounding(
+    fn triangles_cover_shapes_anywhere_up_to_rounding(
         shape in prop::sample::select(vec![l_shape(), star(), spiral()]),
         turn in hard::turn(),
         offset in prop::array::uniform3(-1e6..1e6f64),

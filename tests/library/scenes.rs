@@ -411,7 +411,7 @@ fn bad_specs_say_what_would_do() {
 }
 
 #[test]
-fn a_scene_keeps_what_it_is_given() {
+fn a_scene_stores_its_input_unchanged() {
     let mut scene = Scene::new("odd", DVec3::Z);
     assert!(scene.is_empty());
     assert_eq!(scene.bounds(), None);

@@ -102,7 +102,7 @@ fn iterators_that_are_wrong_about_their_size_are_read_all_the_same() {
 }
 
 #[test]
-fn so_are_those_of_planes_and_of_scenes() {
+fn wrong_size_hints_do_not_change_frusta_and_scenes() {
     let planes = [(DVec3::X, 1.0), (DVec3::Y, 2.0), (DVec3::Z, 3.0)];
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
     for hint in HINTS {

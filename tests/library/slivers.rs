@@ -150,8 +150,8 @@ fn doubles(polygons: &[Vec<Point>]) -> Vec<Vec<[f64; 3]>> {
     polygons.iter().map(|polygon| polygon.iter().map(|p| p.map(|c| c as f64)).collect()).collect()
 }
 
-/// The same in `f32`, where products of integers would be exact: the sliver has a corner next to the middle
-/// of its long side, with far smaller numbers.
+/// The same in `f32`, where products of integers are exact. The sliver has a corner next to the middle of its
+/// long side, with far smaller numbers.
 fn singles(dice: &mut Dice) -> Vec<[Vec3; 3]> {
     const SIZE: f64 = (1 << 22) as f64;
     let mut point = |size: f64| dice.point(-1.0, 1.0) * size;

@@ -39,7 +39,7 @@ fn built(polygons: &[[DVec3; 4]], tolerance: Option<f64>) -> BspTree {
 
 /// One layer above the plane of a third polygon and one below it, by less than the tolerance each.
 #[test]
-fn layers_up_to_twice_the_tolerance_apart_may_be_exchanged_and_none_further_apart() {
+fn only_layers_up_to_twice_the_tolerance_apart_may_be_exchanged() {
     let tolerance = 1e-3;
     let wide = [DVec2::splat(-1.0), DVec2::splat(1.0)];
     let aside = layer(DVec2::splat(5.0), DVec2::splat(6.0), 0.0);

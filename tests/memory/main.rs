@@ -1,5 +1,5 @@
 //! The number and size of allocations of the whole process: a separate program, because its allocator
-//! counts those of all threads.
+//! counts the allocations of all threads.
 
 mod input_limits;
 mod layers;

@@ -175,7 +175,7 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
     let mut on_edges: HashMap<u32, usize> = HashMap::new();
     for fragment in tree.fragments() {
         by_face.entry(fragment.face()).or_default().push(fragment.index());
-        // Those that are shorter than corners were moved may have no length as given.
+        // Edges shorter than the distance by which corners were moved may have no length in the input.
         let vertices: Vec<DVec3> = fragment.vertices().collect();
         let outer = |(k, line): &(usize, EdgeLine)| {
             let next = vertices[(k + 1) % vertices.len()];

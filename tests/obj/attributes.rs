@@ -4,7 +4,7 @@ use super::{read, with_corners};
 use testkit::prelude::*;
 
 #[test]
-fn corners_keep_what_the_file_gives_them() {
+fn corners_keep_the_values_of_the_file() {
     let text = with_corners(
         "vt 0.25 0.5\nvt 1 0 0\nvt 0.125\nvn 0 0 2\nvn 1 0 0 # to the right\n\
          f 1/1/1 2/2/2 3/3/-1 4\nf 1//1 2//2 3/-3 4/-1/1",
@@ -37,7 +37,7 @@ fn vertices_with_colours_are_told_from_those_with_weights() {
 }
 
 #[test]
-fn what_is_malformed_or_not_there_is_left_out_and_counted() {
+fn malformed_and_missing_parts_are_left_out_and_counted() {
     let (scene, report) =
         read(with_corners("vt x 1\nvn 0 1\nvt 1 1\nf 1/1/1 2/2/7 3/0 4/-5\nf 1/x 2/9 3//y"))
             .unwrap();

@@ -1,4 +1,4 @@
-//! Faces that name vertices far beyond those of the file: an error, before any memory is allocated.
+//! Faces that name vertices far beyond the number in the file: an error, before any memory is allocated.
 
 use std::fs;
 use testkit::prelude::*;

@@ -51,7 +51,7 @@ fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
         ("sub/../../a.mtl", vec![]),
         ("/etc/passwd", vec![]),
         ("..", vec![]),
-        // Where a backslash is not a separator, a name may contain it.
+        // On systems where a backslash is not a separator, a name may contain it.
         ("..\\a.mtl", if cfg!(windows) { vec![] } else { vec!["..\\a.mtl"] }),
         ("a.mtl ../b.mtl", vec!["a.mtl ../b.mtl", "a.mtl"]),
     ] {
@@ -70,6 +70,16 @@ fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
 }
 
 /// `tobj` panics on a `Kd` of one number and drops the library for any bad line.
+#[test]
+fn textures_are_counted() {
+    let library =
+        "map_Kd none.png\nnewmtl a\nKd 1 0 0\nmap_Kd a.png\nmap_d -s 2 2 2 b.png\nmap_Bump c.png\n";
+    let (_, report) =
+        read_with(&with_corners("mtllib m.mtl\nusemtl a\nf 1 2 3"), &[("m.mtl", library)]);
+    assert_eq!(report.skipped_textures, 2);
+    assert_eq!(report.to_string(), "textures skipped: 2");
+}
+
 #[test]
 fn bad_lines_in_a_library_spoil_nothing_else() {
     let library = "Kd 1 1 1\nnewmtl\nKd 0 0 0\nnewmtl red\nKd 1 x\nKd 1 2\nKd nan 0 0\nKd\nd\nNs\n\

@@ -5,7 +5,7 @@ use binspace::overlay::{Overlay, Shapes};
 use testkit::prelude::*;
 
 #[test]
-fn nothing_of_what_was_prepared_is_left_in_a_cleared_overlay() {
+fn a_cleared_overlay_keeps_no_preparation() {
     let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
     let square = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
     let arrow = [[0.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 2.0, 1.0], [1.0, 1.0, 1.0]];

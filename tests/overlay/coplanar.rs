@@ -10,7 +10,7 @@ fn square(x: f64, z: f64) -> Vec<DVec3> {
 
 /// A decal lies over coplanar polygons, from both sides, in leaves and on planes of nodes.
 #[test]
-fn decals_come_after_what_they_lie_on() {
+fn decals_come_after_the_polygon_below() {
     let still: Vec<_> = (0..40).map(|k| square(f64::from(k), f64::from(k % 3))).collect();
     let bounds = [DVec3::splat(-1.0), DVec3::splat(50.0)];
     let options = BuildOptions::DEFAULT.with_bounds(bounds[0], bounds[1]);

@@ -30,10 +30,10 @@ fn sides(tree: &BspTree, polygons: &[[DVec3; 3]], lines: &[[DVec3; 2]]) -> Vec<[
     sides
 }
 
-/// The lowest reaches a plane, or not, or through it, by any length: the crowd is cut as each of it is
-/// alone.
+/// The lowest polygon reaches a plane, misses it, or goes through it, by any length. Polygons of the crowd
+/// are cut as if each were alone.
 #[test]
-fn a_crowd_is_cut_as_each_of_it_is_alone() {
+fn polygons_of_a_crowd_are_cut_as_if_each_were_alone() {
     let turns = [DMat3::IDENTITY, DMat3::from_rotation_y(1.0), DMat3::from_rotation_x(2.3)];
     let (mut compared, mut cut) = (0, 0);
     for (turn, tolerance) in turns.into_iter().flat_map(|turn| [0.0, 1e-3].map(|t| (turn, t))) {

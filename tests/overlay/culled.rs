@@ -15,7 +15,7 @@ fn looked_at(shape: Shape<'_>, viewpoint: Viewpoint) -> (Vec<DVec3>, Option<Faci
 }
 
 #[test]
-fn a_culled_order_is_the_whole_order_without_what_is_outside_or_turned_away() {
+fn a_culled_order_is_the_whole_order_without_outside_and_back_facing_fragments() {
     let mut dice = Dice(17);
     let [mut kept, mut outside, mut turned, mut lines] = [0; 4];
     for scene in [scene::city(300, 1), scene::random_triangles(60, 2), scene::cornell_box()] {

@@ -129,7 +129,7 @@ fn lines_and_points_to_blame_are_named() {
 }
 
 #[test]
-fn a_replacement_says_how_far_it_is_and_can_be_cancelled() {
+fn a_replacement_reports_progress_and_can_be_cancelled() {
     let scene = scene::random_triangles(400, 1);
     let tree = BspTree::build(scene.polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);

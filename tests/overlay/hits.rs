@@ -1,4 +1,4 @@
-//! What rays hit of a tree and an overlay, against integers: every ray against every polygon.
+//! Hits of rays on a tree and an overlay, against integers: every ray against every polygon.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{ErrorKind, Ray};
@@ -11,8 +11,8 @@ use testkit::shots::Shots;
 
 use super::{Divided, divide};
 
-/// What was compared, how many hits were of the overlay's polygons, and how many of these came between two of
-/// the tree's.
+/// The score, the number of hits of the overlay's polygons, and the number of these between two hits of the
+/// tree's polygons.
 #[derive(Debug, Default)]
 struct Counts {
     score: Score,
@@ -21,17 +21,18 @@ struct Counts {
 }
 
 #[test]
-fn rays_hit_what_integers_say() {
+fn rays_agree_with_integers() {
     let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
     let counts = tally(file!(), 256, cases, |counts: &mut Counts, (scene, bits, by, seed)| {
         let Divided { tree, moving, all } = divide(&scene, bits, by)?;
-        // Where rays are aimed at, and what the judge knows: polygons alone.
+        // Rays are aimed at polygons, and the judge has only polygons.
         let mut polygons = Overlay::new(&tree);
         polygons.replace(&tree, &moving).map_err(fail)?;
         if polygons.faces().is_empty() {
             return Ok(());
         }
-        // Something else before, so that remains of it would be hit; and lines and points, which are never hit.
+        // Other contents first, so that a remainder of them would be hit; and lines and points, which are
+        // never hit.
         let mut overlay = Overlay::new(&tree);
         overlay.replace(&tree, &all).map_err(fail)?;
         let _ = overlay.is_occluded(&tree, Ray::between(DVec3::ZERO, DVec3::ONE));
@@ -61,7 +62,7 @@ fn rays_hit_what_integers_say() {
 
 /// Thousands of pieces, whose boxes are summed up in boxes several times.
 #[test]
-fn rays_hit_what_integers_say_of_large_overlays() {
+fn rays_at_large_overlays_agree_with_integers() {
     let body = polygons(&scene::sphere(3000));
     let still = polygons(&scene::random_triangles(300, 8));
     let all: Vec<_> = still.iter().chain(&body).cloned().collect();
@@ -110,7 +111,7 @@ fn cleared_overlays_empty_trees_and_other_trees() {
     assert_eq!(count(&overlay, &tree), 3);
     assert!(overlay.is_occluded(&tree, near).unwrap());
     overlay.replace(&tree, [square(0.25)]).unwrap();
-    assert!(!overlay.is_occluded(&tree, near).unwrap(), "the boxes are of what is there now");
+    assert!(!overlay.is_occluded(&tree, near).unwrap(), "the boxes belong to the current pieces");
     overlay.clear();
     assert_eq!(count(&overlay, &tree), 2);
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::ZERO, DVec3::splat(4.0));

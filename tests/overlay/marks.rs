@@ -100,17 +100,17 @@ fn check(is_closed: bool, most: usize) {
 }
 
 #[test]
-fn a_point_at_a_corner_of_a_line_comes_after_what_meets_there() {
+fn a_point_at_a_corner_of_a_line_comes_after_the_segments_there() {
     check(false, 1);
 }
 
 #[test]
-fn a_point_at_a_corner_that_is_repeated_comes_after_what_meets_there() {
+fn a_point_at_a_repeated_corner_comes_after_the_segments_there() {
     check(false, 3);
 }
 
 #[test]
-fn a_point_where_a_line_is_closed_comes_after_what_meets_there() {
+fn a_point_where_a_line_closes_comes_after_the_segments_there() {
     check(true, 1);
     check(true, 3);
 }

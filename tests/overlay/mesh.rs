@@ -84,7 +84,7 @@ fn one_list_of_indices_draws_the_order_of_both() {
     assert!(counts[0] > 300 && counts[1] > 500 && counts[2] > 100, "{counts:?}");
 }
 
-/// How many edges of the triangles, from point to point, do not run once in each direction.
+/// The number of edges of the triangles, from point to point, that do not run once in each direction.
 fn open(mesh: &Mesh) -> usize {
     let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
     for triangle in mesh.triangles().indices().chunks(3) {
@@ -151,7 +151,7 @@ fn empty_overlays_and_other_trees() {
     assert_eq!(error.unwrap_err().kind(), ErrorKind::OtherTree);
 }
 
-/// Meshes are told apart even if they have as many fragments; some of the triangles keep the pieces' numbers.
+/// Meshes are distinguished even if they have equally many fragments; some of the triangles keep the pieces' numbers.
 #[test]
 fn a_mesh_of_pieces_is_neither_a_trees_nor_loses_its_numbers() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];

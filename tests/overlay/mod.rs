@@ -13,6 +13,7 @@ mod lines;
 mod marks;
 mod mesh;
 mod oracle;
+mod same;
 mod sight;
 mod slivers;
 mod tiling;
@@ -51,7 +52,7 @@ fn divide(scene: &HardScene, bits: u64, by: Heuristic) -> Result<Divided, TestCa
 }
 
 #[test]
-fn the_painter_shows_what_the_depth_buffer_sees() {
+fn the_painter_agrees_with_the_depth_buffer() {
     let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
     let judged: Judged = tally(file!(), 256, cases, |judged: &mut Judged, case| {
         let (scene, bits, by, seed) = case;

@@ -32,7 +32,7 @@ pub(crate) struct Counts {
     pub(crate) point_on_polygon: usize,
     pub(crate) point_line: usize,
     pub(crate) points: usize,
-    /// Pairs that lie in one plane with the eye, where the order is that of the input.
+    /// Pairs that lie in one plane with the eye, where the input order decides.
     pub(crate) edge_on: usize,
     pub(crate) pieces: usize,
     pub(crate) segments: usize,

@@ -24,8 +24,8 @@ pub(crate) fn ratio(eye: &Point, a: &Point, b: &Point) -> Rational {
     (&b[axis] - &eye[axis]) / &arm[axis]
 }
 
-/// Where the ray from the eye meets both of two segments, as shares of these, and how much further the
-/// second is; `None` if there is no such ray through the inside of both.
+/// The points where a ray from the eye meets two segments, as shares of the segments, and the distance
+/// between them; `None` if no ray meets the inside of both.
 pub(crate) fn crossing(
     eye: &Point,
     a: &[Point; 2],
@@ -51,7 +51,7 @@ pub(crate) fn may_cross(eye: DVec3, of: [DVec3; 2], by: [DVec3; 2]) -> bool {
     (from < 1e-6 || to < 1e-6) && (from > -1e-6 || to > -1e-6)
 }
 
-/// The same of the ray from an eye through a point, and the inside of a face.
+/// The same for the ray from an eye through a point, and the inside of a face.
 pub(crate) fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
     let ray = (through - eye).normalize_or_zero();
     let n = corners.len();

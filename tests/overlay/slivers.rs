@@ -1,5 +1,5 @@
-//! Lines that are all but straight: the plane through two segments is that of a sliver, and its tolerance is
-//! a length too.
+//! Almost straight lines: the plane through two segments is the plane of a sliver, and its tolerance is a
+//! length too.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;

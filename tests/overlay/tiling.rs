@@ -16,7 +16,7 @@ pub(crate) struct Given {
     pub(crate) faces: Vec<Face>,
     /// The ends of the segments, rounded.
     pub(crate) rounded: Vec<[DVec3; 2]>,
-    /// Of the faces, rounded.
+    /// The positions of the faces, rounded.
     pub(crate) corners: Vec<Vec<DVec3>>,
 }
 

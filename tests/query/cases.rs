@@ -106,15 +106,15 @@ fn a_polygon_that_is_not_convex_is_hit_wherever_it_is_entered() {
     let tree = BspTree::build([comb, bent]).unwrap();
     let parameters = |ray: Ray| hits(&tree, ray).iter().map(|hit| hit.1).collect::<Vec<_>>();
     assert_eq!(parameters(Ray::new([-1.0, 1.5, 0.0], [1.0, 0.0, 0.0])), [1.0, 3.0, 5.0]);
-    // Where the teeth begin it runs along edges, and never leaves.
+    // The ray runs along edges from the beginning of the teeth, and never leaves.
     assert_eq!(parameters(Ray::new([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0])), [1.0]);
     assert_eq!(parameters(Ray::new([2.5, 1.5, 1.0], [0.0, 0.0, -1.0])), [1.0]);
-    // Whichever diagonal divides it, through both triangles.
+    // The ray goes through both triangles, for either diagonal.
     assert_eq!(hits(&tree, Ray::new([11.0, 6.0, 9.0], [0.0, 0.0, -1.0])).len(), 1);
 }
 
 #[test]
-fn rays_that_are_none_hit_nothing() {
+fn invalid_rays_hit_nothing() {
     let tree = BspTree::build([square(0.0)]).unwrap();
     let good = DVec3::new(1.0, 1.0, 1.0);
     assert_eq!(tree.hits(Ray::new(good, DVec3::NEG_Z)).count(), 1);
@@ -195,9 +195,9 @@ fn scenes_of_every_size_are_hit() {
     }
 }
 
-/// Its two ends are numbers, the way from one to the other is none.
+/// Its two ends are finite, but the vector from one to the other is not.
 #[test]
-fn a_segment_longer_than_any_number_hits_what_it_meets() {
+fn a_segment_longer_than_any_number_hits_the_polygons_on_it() {
     let most = 1.5 * 2.0_f64.powi(1023);
     let square = |z: f64| {
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [most * x, most * y, z])

@@ -6,7 +6,7 @@ use testkit::prelude::*;
 use testkit::shots::Shots;
 
 #[test]
-fn rays_hit_what_integers_say() {
+fn rays_agree_with_integers() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>(), any::<bool>());
     let score = tally(file!(), 256, cases, |score: &mut Score, (scene, by, seed, of_frame)| {
         let mut builder = FrameBuilder::new(scene.options(by));

@@ -74,7 +74,7 @@ fn scenes() -> Vec<(&'static str, Polygons, usize)> {
 }
 
 #[test]
-fn rays_through_large_scenes_hit_what_integers_say() {
+fn rays_through_large_scenes_agree_with_integers() {
     let shoot = |(name, polygons, rays): &(&'static str, Polygons, usize)| {
         let mut score = Score::default();
         for (tolerance, heuristic, rays) in [

@@ -84,7 +84,7 @@ fn hits_can_be_computed_again_from_points_of_the_grid() {
 }
 
 #[test]
-fn planes_of_nodes_and_fragments_are_those_of_their_corners() {
+fn planes_of_nodes_and_fragments_agree_with_their_corners() {
     let (mut checked, mut axes) = (0, 0);
     for (scene, far) in [
         (scene::random_triangles(80, 2), DVec3::ZERO),

@@ -28,7 +28,7 @@ const PARTS: usize = 64;
 
 #[test]
 #[ignore = "needs the real scenes: BINSPACE_SCENES"]
-fn rays_at_real_scenes_hit_what_integers_say() {
+fn rays_at_real_scenes_agree_with_integers() {
     let folder = real_scenes::folder();
     let rays = 7_000 * effort();
     let mut all = Score::default();

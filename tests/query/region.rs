@@ -125,7 +125,7 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
             let (normal, [a, b]) = (normal(dice), [shots.corner(dice), shots.corner(dice)]);
             Frustum::new([through(normal, a), through(-normal, b)])
         }
-        // The planes of polygons, as they are rounded.
+        // The rounded planes of polygons.
         _ => {
             let planes = (0..1 + dice.below(3)).map(|_| {
                 let fragment = tree.fragment(dice.below(tree.len()) as u32);
@@ -174,7 +174,7 @@ fn check(oracle: &Oracle<'_>, region: &Frustum, score: &mut Score) -> Result<(),
 }
 
 #[test]
-fn fragments_in_regions_are_those_of_rationals() {
+fn fragments_in_regions_agree_with_rationals() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>());
     let score = tally(file!(), 96, cases, |score: &mut Score, (scene, by, seed)| {
         let tree = scene.build(by).map_err(fail)?;

@@ -31,7 +31,7 @@ fn found(tree: &BspTree, (normal, offset): (DVec3, f64)) -> [Vec<usize>; 2] {
 }
 
 #[test]
-fn planes_of_subnormal_numbers_keep_what_is_inside() {
+fn planes_of_subnormal_numbers_keep_the_inside() {
     let tree = squares();
     let least = f64::from_bits(1);
     // x ≤ 3.

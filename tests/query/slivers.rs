@@ -30,7 +30,7 @@ fn scene(dice: &mut Dice) -> Vec<Vec<[f64; 3]>> {
 }
 
 #[test]
-fn rays_among_slivers_hit_what_integers_say() {
+fn rays_among_slivers_agree_with_integers() {
     let mut score = Score::default();
     for seed in 0..40 {
         let mut dice = Dice(seed);

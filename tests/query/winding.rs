@@ -209,7 +209,7 @@ fn open_edges_are_named() {
     assert_eq!(tree.winding_number([6.0, 7.0, 8.0]), Ok(Some(1)));
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
-    // The same once more: each of its edges is open twice.
+    // The same faces a second time: each edge is open twice.
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 6);
 }

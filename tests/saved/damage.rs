@@ -48,7 +48,7 @@ fn a_checksum_shows_every_changed_byte() {
                 let message = message(&damaged);
                 let is_told = match at {
                     0..8 => message.contains("not a binspace file"),
-                    8..12 => message.contains("where a \"tree\" is expected"),
+                    8..12 => message.contains("but a \"tree\" is expected"),
                     12..16 => message.contains("version"),
                     _ => message.contains("damaged"),
                 };
@@ -114,6 +114,6 @@ fn another_version_is_named() {
 fn other_files_are_told() {
     assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("not a binspace file"));
     assert!(message(b"binspacescene").contains("truncated"));
-    assert!(message(b"binspacescen\x01\0\0\0").contains("it holds a \"scen\""));
+    assert!(message(b"binspacescen\x01\0\0\0").contains("it contains a \"scen\""));
     assert!(message(b"").contains("truncated"));
 }

@@ -42,7 +42,7 @@ fn every_node_but_the_first_has_a_parent() {
     file.put(shape, 1 << 4 | 1 << 2);
     file.refused("node 1 has no parent");
     file.put(shape, 1 << 4 | 2 << 2 | 2);
-    file.refused("are not those of its fragments");
+    file.refused("do not match its fragments");
 }
 
 /// The numbers of a node's fragments follow from those on its plane: no other is read.
@@ -75,7 +75,7 @@ fn a_leaf_has_no_more_than_one_piece() {
     let fragments = fragments - NODE;
     file.0.drain(fragments + 2 * FRAGMENT..fragments + 3 * FRAGMENT);
     file.put(fragments - 8, 2);
-    file.refused("node 0 has other fragments than its plane makes");
+    file.refused("node 0 does not have the fragments that its plane makes");
 }
 
 /// A list of nodes of one plane, which separates something once.
@@ -87,13 +87,13 @@ fn a_plane_that_is_used_again_is_refused() {
     for again in 1..399 {
         let mut file = file.clone();
         file.put(nodes + NODE * again, file.get(nodes + NODE * (again - 1)));
-        file.refused(&format!("node {again} has other fragments than its plane makes"));
+        file.refused(&format!("node {again} does not have the fragments that its plane makes"));
     }
 }
 
 /// With nodes that each cut everything, a small file would have more pieces than memory holds.
 #[test]
-fn there_are_no_more_pieces_than_fragments_in_the_file() {
+fn pieces_do_not_exceed_the_fragments_of_the_file() {
     // Long strips side by side, and walls across all of them.
     const STRIPS: usize = 2000;
     let strip = |k: usize| {
@@ -114,7 +114,7 @@ fn there_are_no_more_pieces_than_fragments_in_the_file() {
         forged.put(nodes + NODE * node, 1 << 28 | (STRIPS + node % 900) as u32);
     }
     let begin = Instant::now();
-    forged.refused("has other fragments than its plane makes");
+    forged.refused("does not have the fragments that its plane makes");
     assert!(begin.elapsed().as_secs() < 10, "it is cut all the same");
 }
 

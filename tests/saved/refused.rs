@@ -39,7 +39,7 @@ fn put_far(file: &mut File, at: usize, sign: i64) {
 type Damage = fn(&mut File);
 
 #[test]
-fn what_is_wrong_in_one_thing_is_refused_for_that() {
+fn each_fault_is_refused_with_its_own_message() {
     let faults: [(&str, Damage); 21] = [
         ("its tolerance is negative", |file| {
             file.put_bytes(TOLERANCE, &(-1f64).to_le_bytes());
@@ -79,11 +79,13 @@ fn what_is_wrong_in_one_thing_is_refused_for_that() {
         ("are impossible", |file| file.put(COUNTS, 3)),
         ("has a plane that separates no fragments", |file| file.put(NODES + 4, 1)),
         ("has a side of an unknown kind", |file| file.0[NODES + 4] |= 3),
-        ("has more fragments than there are", |file| file.put(NODES + 4, 9 << 4)),
-        ("are not those of its fragments", |file| file.put(NODES + 4, 2 << 4)),
+        ("has more fragments than the tree", |file| file.put(NODES + 4, 9 << 4)),
+        ("do not match its fragments", |file| file.put(NODES + 4, 2 << 4)),
         ("names a face or corner that does not exist", |file| file.put(NODES, 1 << 28 | 2)),
         // The plane of the other square, which contains no part of this one.
-        ("node 0 has other fragments than its plane makes", |file| file.put(NODES, 2 << 28)),
+        ("node 0 does not have the fragments that its plane makes", |file| {
+            file.put(NODES, 2 << 28)
+        }),
         ("fragment 2 is of another face than its plane's", |file| file.put(FRAGMENTS + 8, 0)),
     ];
     assert!(BspTree::read(&file().0[..]).is_ok());
@@ -102,7 +104,9 @@ fn triangles_are_checked() {
     let damage: [(&str, Damage); 4] = [
         ("corner 2 is outside the grid", |file| put_far(file, FACES + 12 + 48, -1)),
         ("face 0 has no area", |file| file.0.copy_within(FACES + 12..FACES + 36, FACES + 36)),
-        ("face 0 is moved, but a triangle", |file| file.put(FACES + 8, frame(2, 1, 2))),
+        ("face 0 is a triangle, but is stored as moved", |file| {
+            file.put(FACES + 8, frame(2, 1, 2))
+        }),
         ("names corners that it does not have", |file| file.put(FACES + 8, frame(3, 1, 3))),
     ];
     assert_eq!(file.get(corners + 72), 0, "no numbered faces");

@@ -85,7 +85,7 @@ fn trees_of_large_scenes_come_back() {
 }
 
 #[test]
-fn trees_of_nothing_come_back() {
+fn empty_trees_are_read_again() {
     for polygons in [vec![], vec![[[0.0; 3]; 3]; 4]] {
         let tree = BspTree::build(&polygons).unwrap();
         assert_same(&tree, &EYES);
@@ -96,7 +96,7 @@ fn trees_of_nothing_come_back() {
 
 /// A file may hold a tree and other data.
 #[test]
-fn no_more_is_read_than_was_written() {
+fn a_reader_stops_at_the_end_of_the_tree() {
     let trees = [scene::crossing(3), scene::chain(7)]
         .map(|scene| BspTree::build(scene.polygons()).unwrap());
     let mut file: Vec<u8> = trees.iter().flat_map(bytes).collect();

@@ -82,5 +82,5 @@ fn a_tree_is_no_scene() {
     let mut file = Vec::new();
     BspTree::build(scene::chain(3).polygons()).unwrap().write(&mut file).unwrap();
     let error = Scene::read(&file[..]).unwrap_err();
-    assert!(error.to_string().contains("holds a \"tree\" where a \"scen\""), "{error}");
+    assert!(error.to_string().contains("contains a \"tree\", but a \"scen\""), "{error}");
 }

@@ -60,11 +60,11 @@ fn a_fragment_without_a_node_is_refused() {
     assert_eq!((file.len(nodes), file.message()), (1, String::new()));
     file.put_bytes(nodes, &0_u64.to_le_bytes());
     file.0.drain(nodes + 8..nodes + 16);
-    file.refused("its nodes are not those of its fragments");
+    file.refused("its nodes do not match its fragments");
     // Neither: then the face has no fragment.
     file.put_bytes(nodes + 8, &0_u64.to_le_bytes());
     file.0.drain(nodes + 16..nodes + 20);
-    file.refused("its nodes are not those of its fragments");
+    file.refused("its nodes do not match its fragments");
     // Nothing at all has neither.
     let empty = BspTree::build::<[[f64; 3]; 3]>([]).expect("a tree");
     assert_eq!(File::of(&empty).message(), "");

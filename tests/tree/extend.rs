@@ -28,7 +28,7 @@ fn an_extended_tree_is_that_of_all_polygons() {
 }
 
 #[test]
-fn dropped_triangulated_and_moved_polygons_stay_what_they_were() {
+fn an_extension_keeps_dropped_triangulated_and_moved_polygons() {
     let flat = |points: &[[f64; 3]]| points.iter().map(|&p| DVec3::from(p)).collect::<Corners>();
     let line = flat(&[[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]);
     let arrow = flat(&[[0.0, 0.0, 0.5], [4.0, 1.0, 0.5], [0.0, 2.0, 0.5], [1.0, 1.0, 0.5]]);
@@ -50,7 +50,7 @@ fn dropped_triangulated_and_moved_polygons_stay_what_they_were() {
 }
 
 #[test]
-fn what_cannot_be_added_leaves_the_tree_as_it_was() {
+fn a_failed_extension_does_not_change_the_tree() {
     let scene = scene::city(100, 1);
     let mut tree = BspTree::build(scene.polygons()).expect("within budget");
     let before = Snapshot::of(&tree);
@@ -83,7 +83,7 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
         for _ in 0..30 {
             let count = 3 + dice.below(4);
             all.push(match dice.below(4) {
-                // Bent ones.
+                // Bent polygons.
                 0 => {
                     let around = [[3, 0], [2, 2], [0, 3], [-2, 2], [-3, 0], [0, -3]];
                     let lift = |[x, y]: [i32; 2]| {

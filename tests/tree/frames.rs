@@ -91,7 +91,7 @@ fn options_count_from_the_next_frame_on() {
 
 /// The precision of a frame's numbers applies to that frame alone.
 #[test]
-fn the_default_tolerance_of_a_frame_is_that_of_its_own_polygons() {
+fn the_default_tolerance_of_a_frame_follows_its_own_polygons() {
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let single = square.map(|corner| corner.map(|c| c as f32));
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);

@@ -86,7 +86,7 @@ fn polygons_without_area_are_dropped_and_counted() {
     let tree = BspTree::build(&degenerate).unwrap();
     assert_eq!((tree.len(), tree.preparation().dropped), (0, degenerate.len()));
     check_orders(&degenerate);
-    // Those with area keep their numbers.
+    // Polygons with area keep their numbers.
     let mut some = degenerate.to_vec();
     some.insert(3, square);
     let tree = BspTree::build(&some).unwrap();

@@ -74,7 +74,7 @@ impl Compared {
 }
 
 #[test]
-fn the_painter_shows_what_the_depth_buffer_sees() {
+fn the_painter_agrees_with_the_depth_buffer() {
     let cases = (hard::scene(), hard::heuristic(), any::<u64>(), any::<bool>());
     let compared: Compared = tally(file!(), 96, cases, |compared: &mut Compared, case| {
         let (scene, by, seed, exactly) = case;

@@ -78,7 +78,7 @@ fn a_build_is_cancelled_from_the_first_call_before_it_reads_its_polygons() {
 }
 
 #[test]
-fn a_build_is_cancelled_anywhere_and_says_no_more() {
+fn a_cancelled_build_makes_no_more_reports() {
     let scene = scene::city(8000, 3);
     for heuristic in BY {
         let (_, all) = build(&scene, heuristic, usize::MAX);

@@ -123,7 +123,7 @@ fn a_box_has_room_for_the_rounding_of_a_cut() {
     assert!(root.bounds()[1].x > 0.5 && tree.bounds().unwrap()[1].x > 0.5);
 }
 
-/// The box of a tree is that of its polygons, at any place in their bounds, and for any number of them.
+/// The box of a tree is the box of its polygons, at any place in their bounds, and for any number of them.
 #[test]
 fn polygons_in_a_corner_of_their_room_have_a_small_box() {
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-100.0), DVec3::splat(100.0));

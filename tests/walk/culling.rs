@@ -121,7 +121,7 @@ fn frusta(tree: &BspTree, dice: &mut Dice) -> Vec<Frustum> {
 }
 
 #[test]
-fn what_is_left_is_what_a_look_at_every_box_leaves() {
+fn culling_agrees_with_a_test_of_every_box() {
     let mut dice = Dice(21);
     let [mut kept, mut left_out, mut doubtful] = [0; 3];
     for tree in trees() {
@@ -247,7 +247,7 @@ proptest! {
 /// Every pixel of the picture is that of the whole order; also with an eye on a corner, and wide
 /// and narrow views.
 #[test]
-fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
+fn no_polygon_that_owns_a_pixel_is_outside_a_cameras_frustum() {
     let [mut left_out, mut all, mut pictures] = [0; 3];
     for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
         let [low, high] = tree.bounds().unwrap();
@@ -282,7 +282,7 @@ fn nothing_that_owns_a_pixel_is_outside_of_a_cameras_frustum() {
 /// Within walls, few invisible fragments are visited; and floors, which lie in one plane with many others,
 /// are left out too.
 #[test]
-fn indices_of_what_is_in_view_are_those_of_the_list() {
+fn indices_of_a_culled_order_follow_the_list() {
     let tree = BspTree::build(cells(12, &mut Dice(12))).unwrap();
     let mesh = tree.mesh().unwrap();
     let eye = DVec3::new(2.5, 2.5, 0.4);
@@ -374,8 +374,8 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
     assert!(kept > 3000 && left_out > 3000 && doubtful < 600, "{kept} {left_out} {doubtful}");
 }
 
-/// Planes that go through a corner of a far-off box exactly, or as near behind it as an offset can be:
-/// their products are a million times their sum, and rounded by more than a step of the grid.
+/// Planes through a corner of a far-off box, exactly or up to the step of an offset. Their products are a
+/// million times their sum, and their rounding exceeds a step of the grid.
 #[test]
 fn a_box_is_kept_however_the_test_is_rounded() {
     let mut dice = Dice(31);

@@ -55,7 +55,7 @@ fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
 
 /// Planes compared with the polygons as given, in rationals: no lattice, no library.
 #[test]
-fn planes_are_those_of_the_polygons_that_they_name() {
+fn planes_belong_to_the_polygons_that_they_name() {
     let [mut named, mut free] = [0; 2];
     for scene in scenes() {
         for heuristic in [Heuristic::default(), Heuristic::FreePlanes] {
@@ -175,7 +175,7 @@ fn nodes_of_two_trees_are_never_equal() {
 }
 
 #[test]
-fn a_node_tells_on_which_side_of_it_a_viewpoint_is() {
+fn a_node_returns_the_side_of_a_viewpoint() {
     use binspace::Viewpoint;
     let tree = BspTree::build([[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]]).unwrap();
     let root = tree.root().unwrap();

@@ -27,7 +27,7 @@ fn unhidden(tree: &BspTree, camera: &Camera, rays: &Rays, cell: u32) -> (Vec<u32
 }
 
 #[test]
-fn nothing_that_owns_a_pixel_is_hidden() {
+fn no_polygon_that_owns_a_pixel_is_hidden() {
     let [mut skipped, mut all, mut hidden] = [0; 3];
     for tree in trees().into_iter().filter(|tree| tree.len() > 1) {
         let bounds = tree.bounds().unwrap();

@@ -1,70 +1,126 @@
 //! The common arguments of several commands.
 
 use std::ffi::OsString;
+use std::num::NonZeroUsize;
 
 use binspace::glam::DVec3;
 use binspace::{BuildOptions, Heuristic};
-use clap::Args;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
 
-use crate::values;
+use crate::failure::Failure;
+use crate::terminal::{Notes, set_notes};
+use crate::values::{self, Up};
 
 #[derive(Args, Debug)]
 pub(crate) struct SceneArgs {
-    /// A file (OBJ, STL, PLY, OFF, glTF or of `binspace build`), - for one on standard input, or a built-in
-    /// scene such as sphere:100000; for render, order and stats also a folder of `binspace build --cells`
-    ///
-    /// A name that ends as such files do (.obj, .stl, .bsp …) or contains a path separator is a file. Any
-    /// other is a built-in scene, with an optional size after a colon, or, if there is none of that name,
-    /// a file. A file's kind is detected from its content.
-    /// `binspace scenes` lists the built-in scenes.
+    /// File (OBJ, STL, PLY, OFF, glTF, .bsp), - for standard input, or a built-in scene
     #[arg(value_name = "SCENE")]
     pub(crate) name: OsString,
-    /// Seed of built-in scenes that are random, and of random views
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    /// Seed of random built-in scenes and of random views
+    #[arg(long, value_name = "S", default_value_t = 1, hide_short_help = true)]
     pub(crate) seed: u64,
 }
 
 #[derive(Args, Debug)]
 pub(crate) struct UpArgs {
-    /// Direction that points up: x, y, z, or X,Y,Z [default: the scene's up; of files y, but z for
-    /// STL, PLY and OFF]
+    /// Direction that points up: auto, x, y, z, -x or X,Y,Z
     #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
-    pub(crate) up: Option<DVec3>,
+    #[arg(default_value = "auto")]
+    up: Up,
+}
+
+impl UpArgs {
+    /// The direction that the user has given.
+    pub(crate) fn given(&self) -> Option<DVec3> {
+        self.up.0
+    }
 }
 
 #[derive(Args, Debug)]
+#[command(next_help_heading = "Tree")]
 pub(crate) struct BuildArgs {
-    /// How to choose splitters: first, random(SEED), fewest-splits, balanced,
-    /// weighted(SPLITS,BALANCE,AXIAL), sampled(K), free-planes or auto [default: auto]
-    #[arg(long, value_name = "H")]
-    pub(crate) heuristic: Option<Heuristic>,
+    #[command(flatten)]
+    pub(crate) is_given: IsGiven,
+    /// How to choose the planes; `binspace stats -h` lists the ways
+    #[arg(long, value_name = "H", default_value_t)]
+    pub(crate) heuristic: Heuristic,
     #[command(flatten)]
     pub(crate) limits: LimitArgs,
 }
 
 #[derive(Args, Clone, Copy, Debug)]
+#[command(next_help_heading = "Tree")]
 pub(crate) struct LimitArgs {
-    /// Coplanar tolerance, a length: points this near to a plane count as on it, and layers up to
-    /// twice as far apart may be exchanged [default: four units in the last decimal that a file's
-    /// coordinates need, or four steps of binary ones, but between 1e-9 and 1e-5 of the extent, the longest side of the scene's
-    /// bounding box; at most 1/256 of the extent is used]
+    /// Distance within which points lie on a plane [default: by the input's digits]
     #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
-    /// Give up if there are more fragments than this [default: 33554432]
-    #[arg(long, value_name = "N")]
-    pub(crate) max_fragments: Option<usize>,
+    /// Largest number of fragments
+    #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]
+    #[arg(hide_short_help = true)]
+    pub(crate) max_fragments: usize,
 }
 
 impl LimitArgs {
     /// The options to build with.
     pub(crate) fn options(self, heuristic: Heuristic) -> BuildOptions {
-        let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
-        if let Some(most) = self.max_fragments {
-            options = options.with_max_fragments(most);
-        }
-        match self.tolerance {
-            Some(length) => options.with_tolerance(length),
-            None => options,
-        }
+        let options =
+            BuildOptions::DEFAULT.with_heuristic(heuristic).with_max_fragments(self.max_fragments);
+        self.tolerance.map_or(options.clone(), |length| options.with_tolerance(length))
+    }
+}
+
+/// Whether the user has given an option of how to build a tree, if only its default.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IsGiven(pub(crate) bool);
+
+impl FromArgMatches for IsGiven {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let is_given = |name| matches.value_source(name) == Some(ValueSource::CommandLine);
+        Ok(Self(["heuristic", "tolerance", "max_fragments"].into_iter().any(is_given)))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for IsGiven {
+    fn augment_args(command: Command) -> Command {
+        command
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        command
+    }
+}
+
+/// The options of all commands.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "General")]
+pub(crate) struct GeneralArgs {
+    /// Number of threads [default: one for each processor]
+    #[arg(long, value_name = "N", global = true, hide_short_help = true)]
+    threads: Option<NonZeroUsize>,
+    /// Print only errors: neither notes nor progress
+    #[arg(long, global = true, conflicts_with = "notes", hide_short_help = true)]
+    quiet: bool,
+    /// Print each note in full, in a line of its own
+    #[arg(long, global = true, hide_short_help = true)]
+    notes: bool,
+}
+
+impl GeneralArgs {
+    /// Sets the number of threads, and which notes are printed.
+    pub(crate) fn apply(&self) -> Result<(), Failure> {
+        set_notes(match self {
+            Self { quiet: true, .. } => Notes::None,
+            Self { notes: true, .. } => Notes::Each,
+            _ => Notes::Brief,
+        });
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+        pool.build_global().map_err(|error| Failure::about("--threads", error))
     }
 }

@@ -24,7 +24,7 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     let mut folder = NewFolder::create(&args.output)?;
     let polygons = Polygons::open(&args.scene)?;
     let (name, total) = (polygons.scene().name().to_owned(), polygons.len());
-    let options = args.build.limits.options(args.build.heuristic.unwrap_or_default());
+    let options = args.build.limits.options(args.build.heuristic);
     let about = |error| job::about(&polygons.scene(), &error);
     let (extent, samples) = polygons.extent_and_samples();
     let partition = options.partition(&extent, samples, cells).map_err(about)?;
@@ -43,11 +43,12 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     }
     drop(progress);
     let Found { sum, .. } = found;
-    job::note_found(&empty, found.dropped(), &sum);
     job::note_length(&empty, &args.build.limits, partition.tolerance(), &sum, quads);
+    job::note_found(&empty, found.dropped(), &sum);
     if sum.dropped == total {
         return Err(Failure::about(name, job::NOTHING_LEFT));
     }
+    let _progress = Progress::spinner("writing");
     folder.finish()
 }
 
@@ -98,7 +99,7 @@ fn divide(
     let unwritable = |error: io::Error| {
         Failure::about(beside.display(), format!("cannot be written to: {error}"))
     };
-    let file = |_| Ok(BufWriter::with_capacity(WAITING, crate::unfinished::create_in(beside)?));
+    let file = |_| Ok(BufWriter::with_capacity(WAITING, tempfile::tempfile_in(beside)?));
     let files: io::Result<Vec<BufWriter<File>>> = (0..partition.cells()).map(file).collect();
     let mut files = files.map_err(unwritable)?;
     let _progress = Progress::spinner("dividing");

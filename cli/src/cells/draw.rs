@@ -1,6 +1,6 @@
 //! Pictures and orders of scenes in folders: cell after cell, with one in memory at a time.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use binspace::Viewpoint;
@@ -11,24 +11,19 @@ use binspace::scene::Scene;
 use binspace::view::Camera;
 
 use super::folder::{Cell, Folder};
-use crate::args::{Format, OrderArgs, RenderArgs};
+use crate::args::{OrderArgs, RenderArgs};
 use crate::camera;
 use crate::colours::{BACKGROUND, Colours};
 use crate::commands::order::write_order;
 use crate::failure::Failure;
 use crate::files::Output;
-use crate::pictures::{Drawing, Kind, rows_at_once};
+use crate::pictures::{Kind, rows_at_once};
+use crate::png_file;
 use crate::progress::Progress;
 use crate::samples::averaged;
-use crate::{png_file, svg};
 
 /// `binspace render`.
-pub(crate) fn render(
-    args: &RenderArgs,
-    path: &Path,
-    output: Output,
-    format: Format,
-) -> Result<(), Failure> {
+pub(crate) fn render(args: &RenderArgs, path: &Path, output: Output) -> Result<(), Failure> {
     if Kind::asked(&args.kind) != Kind::Painter {
         let problem =
             "a folder of cells is painted: a depth buffer needs the scene that it was built of";
@@ -37,30 +32,8 @@ pub(crate) fn render(
     let folder = Folder::open(path)?;
     let camera = camera::asked(&args.view, &boxed(&folder.bounds))?;
     let order = folder.partition.back_to_front(camera.viewpoint());
-    match format {
-        Format::Svg => {
-            let mut failure = None;
-            output
-                .write(|out| {
-                    svg::begin(out, camera.size())?;
-                    for &cell in &order {
-                        match folder.cell(cell) {
-                            Ok(cell) => write_svg(out, args, &camera, &cell)?,
-                            Err(error) => {
-                                failure = Some(error);
-                                return Err(io::ErrorKind::InvalidData.into());
-                            }
-                        }
-                    }
-                    svg::end(out)
-                })
-                .map_err(|error| failure.unwrap_or(error))
-        }
-        Format::Png => {
-            let pixels = paint(args, &folder, &camera, &order)?;
-            output.write(|out| png_file::write(out, camera.size(), &pixels))
-        }
-    }
+    let pixels = paint(args, &folder, &camera, &order)?;
+    output.write(|out| png_file::write(out, camera.size(), &pixels))
 }
 
 /// The bounding box as a scene, for cameras that are to show all of it.
@@ -72,18 +45,6 @@ fn boxed(bounds: &Scene) -> Scene {
     let mut scene = bounds.clone();
     scene.push([0, 1, 3, 2, 6, 7, 5, 4].map(corner), u32::MAX);
     scene
-}
-
-fn write_svg(
-    out: &mut dyn Write,
-    args: &RenderArgs,
-    camera: &Camera,
-    cell: &Cell,
-) -> io::Result<()> {
-    let colours = Colours::new(&cell.scene, args.colours).numbered(&cell.numbers);
-    let (cull, samples) = (args.cull.cull, 1);
-    let drawing = Drawing { tree: &cell.tree, camera, colours: &colours, cull, samples };
-    svg::write_fragments(out, &drawing, &cell.scene)
 }
 
 /// Paints the cells one over the other.
@@ -106,8 +67,8 @@ fn paint(
             let cell = folder.cell(number)?;
             let rays = Rays::sampled(camera, cell.tree.faces(), samples)
                 .map_err(|error| camera::about(&folder.bounds, &error))?;
-            let rays = args.cull.cull.rays(rays.rows(start..end));
-            let colours = Colours::new(&cell.scene, args.colours).numbered(&cell.numbers);
+            let rays = args.look.cull.cull.rays(rays.rows(start..end));
+            let colours = Colours::new(&cell.scene, args.look.colours).numbered(&cell.numbers);
             let look = |polygon| (colours.rgb(polygon), colours.opacity(polygon));
             let viewpoint = camera.viewpoint();
             for_each_painted(&cell.tree, viewpoint, &rays, look, |pixel, colour, opacity| {

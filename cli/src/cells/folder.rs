@@ -12,7 +12,7 @@ use binspace::{BspTree, Error};
 use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;
 use crate::files::{self, STANDARD};
-use crate::{job, saved_file, unfinished};
+use crate::{job, saved_file};
 
 /// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
 /// of the bounding box.
@@ -67,7 +67,7 @@ impl NewFolder {
         if is_mounted(target, folder.beside()) {
             return Err(about("it is a mount point: name a folder in it".to_owned()));
         }
-        match unfinished::create_in(folder.beside()) {
+        match tempfile::tempfile_in(folder.beside()) {
             Ok(_) => Ok(folder),
             Err(error) => Err(about(format!("cannot be written: {error}"))),
         }
@@ -107,7 +107,7 @@ impl NewFolder {
         name: String,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let written = unfinished::create_in(self.beside()).and_then(|file| {
+        let written = tempfile::tempfile_in(self.beside()).and_then(|file| {
             let mut out = BufWriter::new(file);
             write(&mut out)?;
             out.into_inner().map_err(io::IntoInnerError::into_error)
@@ -122,8 +122,7 @@ impl NewFolder {
 
     /// Puts the folder in its place, with all its files.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let placed =
-            unfinished::place_all(self.files, files::folder_of(&self.target), &self.target);
+        let placed = files::place_all(self.files, files::folder_of(&self.target), &self.target);
         placed.map_err(|error| {
             Failure::about(self.target.display(), format!("cannot be written: {error}"))
         })
@@ -164,7 +163,7 @@ pub(crate) fn asked<'a>(
 ) -> Result<Option<&'a Path>, Failure> {
     let path = named(&scene.name);
     if let Some(path) = path {
-        job::refuse_options(path.display(), build.heuristic.is_some(), &build.limits)?;
+        job::refuse_options(path.display(), build.is_given)?;
     }
     Ok(path)
 }

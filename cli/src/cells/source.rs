@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::formats::{self, Kind};
 use crate::progress::Progress;
 use crate::scene_arg::{self, Source};
-use crate::terminal::note;
+use crate::terminal::remark;
 
 /// The problem with a tree in place of a scene.
 const BUILT: &str = "its tree is built already: give the scene that it was built of";
@@ -55,7 +55,7 @@ impl Polygons {
                 let file = ObjStream::open(&path)
                     .map_err(|error| formats::not_obj(&name, &beginning, error.to_string()))?;
                 if !file.report().is_clean() {
-                    note(&format!("{name}: {}", file.report()));
+                    remark(&name, file.report(), file.report());
                 }
                 Ok(Self::File(Box::new(file)))
             }

@@ -1,21 +1,21 @@
 //! `binspace demo`: draws built-in scenes with every heuristic, and compares their
 //! pictures with a depth buffer's.
 
-use std::ops::AddAssign;
 use std::path::Path;
 
-use binspace::paint::paint_tree;
-use binspace::raster::{DepthImage, Rays, compare, zbuffer};
+use binspace::drawing::{VectorPicture, ViewOptions};
+use binspace::raster::Comparison;
 use binspace::scene::{Builtin, Scene};
-use binspace::verify::check_orders;
+use binspace::verify::verify;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic};
 
+use super::verify::add;
 use crate::Outcome;
 use crate::args::DemoArgs;
-use crate::camera::{self, FIELD_OF_VIEW};
-use crate::colours::{Colouring, Colours};
+use crate::colours::{BACKGROUND, Colouring, Colours};
 use crate::cull::Cull;
+use crate::drawn::{Seams, Style, add_drawing};
 use crate::failure::Failure;
 use crate::files::{NewFile, make_folder};
 use crate::measure;
@@ -24,7 +24,7 @@ use crate::progress::Progress;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, say, styled};
 use crate::units::{count, time};
-use crate::{job, png_file, svg};
+use crate::{camera, job, png_file};
 
 /// The scenes to show: the smallest that no order of whole polygons solves, a room, a mesh,
 /// and triangles that cross. Small enough for the heuristics that weigh every plane.
@@ -35,30 +35,12 @@ const SCENES: [(Builtin, Option<u32>); 4] = [
     (Builtin::Random, Some(200)),
 ];
 
-/// Totals over all pixels compared.
-#[derive(Clone, Copy, Debug, Default)]
+/// Totals over all pictures compared.
+#[derive(Clone, Debug, Default)]
 struct Sum {
-    covered: usize,
-    contested: usize,
-    wrong: usize,
-    /// Views whose orders miss or repeat a fragment, or are not the same in all their forms.
+    pixels: Comparison,
+    /// Views with all pixels right, whose orders are not the same in all their forms.
     faulty_orders: usize,
-}
-
-impl AddAssign for Sum {
-    fn add_assign(&mut self, other: Self) {
-        self.covered += other.covered;
-        self.contested += other.contested;
-        self.wrong += other.wrong;
-        self.faulty_orders += other.faulty_orders;
-    }
-}
-
-/// A view of a scene with its depth-buffer picture.
-struct View {
-    camera: Camera,
-    rays: Rays,
-    truth: DepthImage,
 }
 
 /// Runs the command.
@@ -67,7 +49,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     let mut total = Sum::default();
     for (builtin, size) in SCENES {
         let scene = builtin.build(size, args.seed);
-        total += show(args, builtin, &scene)?;
+        show(args, builtin, &scene, &mut total)?;
     }
     say("build: time to build the tree; order: time of an order, per fragment")?;
     say(format!("Wrote pictures of each scene into {}:", args.output.display()))?;
@@ -76,20 +58,24 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     say("  (a difference is dark where the painter is right; wrong pixels are bright)")?;
     say(format!(
         "Compared {} from {} of each scene with a depth buffer:",
-        count(total.covered, "pixel"),
+        count(total.pixels.covered, "pixel"),
         count(args.views as usize, "view"),
     ))?;
     say(verdict(&total))?;
-    Ok(if total.wrong + total.faulty_orders == 0 { Outcome::Done } else { Outcome::Differs })
+    Ok(if total.pixels.wrong() + total.faulty_orders == 0 {
+        Outcome::Done
+    } else {
+        Outcome::Differs
+    })
 }
 
 fn verdict(total: &Sum) -> String {
-    let (style, found) = match total.wrong {
+    let (style, found) = match total.pixels.wrong() {
         0 => (GOOD, "no pixel is wrong".to_owned()),
         1 => (BAD, "1 pixel is wrong".to_owned()),
         wrong => (BAD, format!("{wrong} pixels are wrong")),
     };
-    let mut verdict = format!("  {}, {} contested", styled(style, found), total.contested);
+    let mut verdict = format!("  {}, {} contested", styled(style, found), total.pixels.contested);
     if total.faulty_orders > 0 {
         let faults = format!("the orders of {} are faulty", count(total.faulty_orders, "view"));
         verdict += &format!("; {}", styled(BAD, faults));
@@ -97,10 +83,9 @@ fn verdict(total: &Sum) -> String {
     verdict
 }
 
-/// A scene's table and pictures.
-fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure> {
-    let title = format!("{}: {}", styled(HEAD, builtin), builtin.description());
-    say(title)?;
+/// Prints a scene's table, and writes its pictures.
+fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene, total: &mut Sum) -> Result<(), Failure> {
+    say(format!("{}: {}", styled(HEAD, builtin), builtin.description()))?;
     let table = Table::new(&[
         ("heuristic", 15),
         ("faces", 6),
@@ -111,77 +96,49 @@ fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene) -> Result<Sum, Failure
         ("wrong pixels", 0),
     ]);
     say(styled(HEAD, table.head()))?;
-    let mut total = Sum::default();
-    let mut views = Vec::new();
-    let mut auto = None;
+    // The whole scene first.
+    let (fov, size, others) = (camera::FIELD_OF_VIEW, args.size, args.views as usize - 1);
+    let mut views = vec![camera::whole(scene, None, fov, size, camera::MARGIN)?];
+    views.extend(camera::around_and_inside(scene, None, others, size, args.seed)?);
     for &heuristic in Heuristic::ALL {
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let (tree, seconds) =
             measure::timed_build(scene, &options).map_err(|error| job::about(scene, &error))?;
-        if views.is_empty() {
-            views = make_views(args, scene, &tree)?;
-        }
-        let found = judge(&tree, &views, heuristic);
-        say(row(&table, heuristic, (&tree, seconds), scene, &found))?;
-        total += found;
+        let found = judge(&tree, scene, &views, heuristic)?;
+        let (stats, order) = (tree.stats(), measure::order_nanoseconds(&tree, scene) * 1e-9);
+        say(table.row(&[
+            heuristic.to_string(),
+            stats.faces.to_string(),
+            stats.fragments.to_string(),
+            stats.depth_max.to_string(),
+            time(seconds),
+            time(order),
+            found.pixels.wrong().to_string(),
+        ]))?;
+        add(&mut total.pixels, &found.pixels);
+        total.faulty_orders += found.faulty_orders;
         if heuristic == Heuristic::Auto {
-            auto = Some(tree);
+            write_pictures(&args.output, builtin, scene, &tree, &views[0])?;
         }
     }
-    if let (Some(tree), Some(view)) = (auto, views.first()) {
-        write_pictures(&args.output, builtin, scene, &tree, &view.camera)?;
-    }
-    say("")?;
-    Ok(total)
+    say("")
 }
 
-/// The views, the whole scene first. Trees of different heuristics have the same faces, so one depth buffer
-/// suffices for all.
-fn make_views(args: &DemoArgs, scene: &Scene, tree: &BspTree) -> Result<Vec<View>, Failure> {
-    let count = args.views as usize;
-    let mut cameras = vec![camera::whole(scene, None, FIELD_OF_VIEW, args.size)?];
-    cameras.extend(camera::around_and_inside(scene, None, count - 1, args.size, args.seed)?);
-    let view = |camera: Camera| {
-        let rays = Rays::new(&camera, tree.faces()).map_err(|e| camera::about(scene, &e))?;
-        let truth = zbuffer(&rays, tree.faces());
-        Ok(View { camera, rays, truth })
-    };
-    cameras.into_iter().map(view).collect()
-}
-
-fn judge(tree: &BspTree, views: &[View], heuristic: Heuristic) -> Sum {
+fn judge(
+    tree: &BspTree,
+    scene: &Scene,
+    views: &[Camera],
+    heuristic: Heuristic,
+) -> Result<Sum, Failure> {
     let progress = Progress::steps(format!("{heuristic}: view"), views.len() as u64);
     let mut sum = Sum::default();
     for view in views {
-        let painted = paint_tree(tree, view.camera.viewpoint(), &view.rays);
-        let found = compare(&view.rays, tree.faces(), &painted, view.truth.image());
-        sum.covered += found.covered;
-        sum.contested += found.contested;
-        sum.wrong += found.wrong();
-        sum.faulty_orders += usize::from(check_orders(tree, view.camera.viewpoint()).is_err());
+        let seen = verify(tree, view).map_err(|error| camera::about(scene, &error))?;
+        add(&mut sum.pixels, &seen.comparison);
+        sum.faulty_orders += usize::from(!seen.is_right() && seen.comparison.wrong() == 0);
         progress.step();
     }
-    sum
-}
-
-fn row(
-    table: &Table,
-    heuristic: Heuristic,
-    (tree, seconds): (&BspTree, f64),
-    scene: &Scene,
-    found: &Sum,
-) -> String {
-    let stats = tree.stats();
-    let order = measure::order_nanoseconds(tree, scene) * 1e-9;
-    table.row(&[
-        heuristic.to_string(),
-        stats.faces.to_string(),
-        stats.fragments.to_string(),
-        stats.depth_max.to_string(),
-        time(seconds),
-        time(order),
-        found.wrong.to_string(),
-    ])
+    Ok(sum)
 }
 
 fn write_pictures(
@@ -198,8 +155,14 @@ fn write_pictures(
         let file = NewFile::create(&folder.join(format!("{builtin}-{}.png", kind.name())))?;
         file.write(|out| png_file::write(out, camera.size(), &pixels))?;
     }
+    let seams = Seams::default();
+    let style = Style { scene, camera, colours: &colours, ids: false, is_opaque: false, seams };
+    let map = tree.visibility(camera, &ViewOptions::DEFAULT);
+    let drawn = map.and_then(|map| map.drawing()).map_err(|error| job::about(scene, &error))?;
+    let mut picture = VectorPicture::new(camera.size()).with_background(BACKGROUND);
+    add_drawing(&mut picture, &drawn, &style);
     let file = NewFile::create(&folder.join(format!("{builtin}.svg")))?;
-    file.write(|out| svg::write(out, &drawing, scene))
+    file.write(|out| out.write_all(picture.to_svg().as_bytes()))
 }
 
 #[cfg(test)]
@@ -210,10 +173,11 @@ mod tests {
 
     #[test]
     fn whatever_is_wrong_is_told() {
-        let mut sum = Sum { covered: 9, contested: 1, ..Sum::default() };
+        let mut sum = Sum::default();
+        (sum.pixels.covered, sum.pixels.contested) = (9, 1);
         let verdict = |sum: &Sum| strip_str(&verdict(sum)).to_string();
         assert_eq!(verdict(&sum), "  no pixel is wrong, 1 contested");
-        sum.wrong = 2;
+        sum.pixels.holes = 2;
         assert_eq!(verdict(&sum), "  2 pixels are wrong, 1 contested");
         sum = Sum { faulty_orders: 1, ..Sum::default() };
         let expected = "  no pixel is wrong, 0 contested; the orders of 1 view are faulty";

@@ -1,7 +1,6 @@
 //! `binspace draw`: a view as a vector picture with one path a polygon, and lines.
 
 use std::collections::HashSet;
-use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -15,57 +14,68 @@ use serde::Serialize;
 use crate::Outcome;
 use crate::args::{DrawArgs, DrawFormat};
 use crate::backs::note_backs;
-use crate::colours::Colours;
+use crate::colours::{BACKGROUND, Colours};
 use crate::cull::Cull;
-use crate::drawn::{Style, add_drawing, add_regions, add_strokes, blank};
+use crate::drawn::{Seams, Style, add_drawing, add_regions, add_strokes};
 use crate::failure::Failure;
 use crate::files::{Output, STANDARD};
 use crate::format::{about_output, format};
+use crate::job::{self, Made};
 use crate::progress::Progress;
-use crate::seams::Seams;
-use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
-use crate::terminal::{note, say};
-use crate::upright::note_z_up;
-use crate::{camera, coverage, ink, job, png_file};
+use crate::strokes::{EdgeChoice, Strokes, strokes};
+use crate::terminal::{remark, say};
+use crate::upright::note_up;
+use crate::{camera, coverage, dxf, ink, png_file};
 
-/// The default side of the square, in pixels, that a polygon has to show.
+/// The default side of the square, in pixels, that a polygon has to show in a vector picture.
 const MIN_SIZE: f64 = 0.01;
 /// The longest side of a PDF's page, in points, by the standard (ISO 32000-1, annex C).
 const LONGEST: u32 = 14_400;
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
 
 /// Runs the command.
 pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
-    let edges = edges(args);
-    check(args, format, edges).map_err(|problem| about_output(&args.output, &problem))?;
+    let lines = args.lines.alone || format == DrawFormat::Dxf;
+    let about_output = |problem: &str| about_output(&args.output, problem);
+    check(args, format, lines).map_err(about_output)?;
+    let edges = match args.lines.edges {
+        EdgeChoice::None if format == DrawFormat::Dxf => EdgeChoice::DEFAULT,
+        edges => edges,
+    };
     let output = Output::open(Some(&args.output))?;
-    if format != DrawFormat::Svg && output.is_terminal() {
-        let problem = "a PDF or PNG is not for a terminal: pipe it, or name a file";
-        return Err(about_output(&args.output, problem));
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
+        return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
     }
-    let (scene, tree, tree_seconds) = job::timed_scene_and_tree(&args.scene, &args.build)?;
-    note_z_up(&scene, &args.view.up);
-    let camera = camera::asked(&args.view, &scene)?;
-    if args.cull.cull == Cull::None {
+    let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
+    note_up(&scene, &args.view.up);
+    let camera = match args.scale {
+        Some(scale) => camera::to_scale(&args.view, &scene, scale * pixels_in_inch(format) / INCH)?,
+        None => camera::asked(&args.view, &scene)?,
+    };
+    let size = camera.size();
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && size[0].max(size[1]) > LONGEST {
+        return Err(about_output(&format!(
+            "a page of a PDF or of TeX has at most {LONGEST} points each way, and this one would have \
+             {} x {}: give a smaller --size or --scale",
+            size[0], size[1]
+        )));
+    }
+    if args.look.cull.cull == Cull::None {
         note_backs(&scene, &tree, &camera);
     }
-    let colours = Colours::new(&scene, args.colours);
-    let is_opaque = args.opaque || !colours.are_translucent();
-    if !args.opaque {
+    let colours = Colours::new(&scene, args.look.colours);
+    let is_opaque = args.fill.opaque || !colours.are_translucent();
+    if !args.fill.opaque {
         check_opacities(&scene, &colours)?;
     }
-    let seams = args.seams.unwrap_or_default();
-    let style = Style {
-        scene: &scene,
-        camera: &camera,
-        colours: &colours,
-        ids: args.ids,
-        is_opaque,
-        seams,
-    };
+    let (ids, seams, width) = (args.ids, args.fill.seams, args.lines.line_width);
+    let style = Style { scene: &scene, camera: &camera, colours: &colours, ids, is_opaque, seams };
     let bar = Mutex::default();
     let go_on = |progress| go_on(&bar, progress);
-    let view = View { args, style, bar: &bar, options: options(args, format, &style, &go_on) };
+    let view =
+        View { args, lines, style, bar: &bar, options: options(args, format, &style, &go_on) };
     let mut figures = Figures {
         polygons: scene.len(),
         fragments: tree.len(),
@@ -75,42 +85,56 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let about = |error| job::about(&scene, &error);
     // Where nothing is hidden, only lines and regions need the map.
-    let needs_map = !args.translucent
+    let needs_map = !args.fill.translucent
         || format == DrawFormat::Png
         || seams == Seams::PlusLighter
         || edges != EdgeChoice::None;
     let map = needs_map.then(|| view.map(&tree)).transpose().map_err(about)?;
+    let mut file = Vec::new();
     if let (DrawFormat::Png, Some(map)) = (format, &map) {
         figures.visible = map.polygons().count();
+        let background = args.fill.background.0.unwrap_or(BACKGROUND);
+        view.show(Some(Progress::spinner("drawing")));
         let mut pixels = match is_opaque {
-            _ if args.lines => coverage::blank(camera.size()),
-            true => coverage::picture(map, |polygon| style.fill(polygon)),
+            _ if lines => coverage::blank(size, background),
+            true => coverage::picture(map, background, |polygon| style.fill(polygon)),
             false => {
-                view.show(Some("dividing the picture"));
-                coverage::blended(camera.size(), &map.regions().map_err(about)?, &style)
+                view.show(Some(Progress::share("dividing the picture")));
+                let regions = map.regions().map_err(about)?;
+                view.show(Some(Progress::spinner("drawing")));
+                coverage::blended(size, background, &regions, &style)
             }
         };
-        let strokes = view.strokes(Some(map), edges).map_err(about)?;
+        let strokes = view.strokes(Some(map), edges, format).map_err(about)?;
         figures.count(&strokes);
-        ink::draw(&mut pixels, camera.size(), &strokes);
+        view.show(Some(Progress::spinner("drawing")));
+        ink::draw(&mut pixels, size, &strokes, width);
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        view.show(None);
-        let write = |out: &mut dyn Write| png_file::write(out, camera.size(), &pixels);
-        figures.bytes = output.write_counted(write)?;
+        view.show(Some(Progress::spinner("writing")));
+        png_file::write(&mut file, size, &pixels).map_err(|e| Failure::about(scene.name(), e))?;
     } else {
-        let strokes = view.strokes(map.as_ref(), edges).map_err(about)?;
+        let strokes = view.strokes(map.as_ref(), edges, format).map_err(about)?;
         figures.count(&strokes);
-        let mut picture = blank(&camera);
+        let mut picture = VectorPicture::new(size);
+        if let Some(colour) = args.fill.background.0 {
+            picture = picture.with_background(colour);
+        }
         view.fill(&mut picture, &tree, map.as_ref(), start, &mut figures).map_err(about)?;
-        add_strokes(&mut picture, &strokes, args.ids);
-        view.show(None);
-        figures.bytes = output.write_counted(|out| match format {
-            DrawFormat::Pdf => out.write_all(&picture.to_pdf()),
-            _ => out.write_all(picture.to_svg().as_bytes()),
-        })?;
+        add_strokes(&mut picture, &strokes, width, ids);
+        view.show(Some(Progress::spinner("writing")));
+        file = match format {
+            DrawFormat::Dxf => dxf::written(size, &strokes),
+            DrawFormat::Pdf => picture.to_pdf(),
+            DrawFormat::Tex => picture.to_tikz().into_bytes(),
+            DrawFormat::Svg | DrawFormat::Png => picture.to_svg().into_bytes(),
+        };
     }
+    figures.bytes = file.len();
+    output.write(|out| out.write_all(&file))?;
+    view.show(None);
     if figures.visible == 0 {
-        note(&format!("{}: the picture shows nothing of it", scene.name()));
+        let nothing = "the picture shows nothing of it";
+        remark(scene.name(), nothing, nothing);
     }
     if args.json {
         say(serde_json::to_string(&figures).map_err(|error| Failure::about(scene.name(), error))?)?;
@@ -118,9 +142,16 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
+/// The pixels of a picture in an inch of paper: points in PDF, and the pixels of CSS elsewhere.
+fn pixels_in_inch(format: DrawFormat) -> f64 {
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) { 72.0 } else { 96.0 }
+}
+
 /// The content of the drawing, and its style.
 struct View<'a> {
     args: &'a DrawArgs,
+    /// Whether lines alone are drawn.
+    lines: bool,
     style: Style<'a>,
     /// The progress bar of the step that is being done, if one is shown.
     bar: &'a Mutex<Option<Progress>>,
@@ -141,32 +172,33 @@ fn options<'a>(
     style: &Style<'_>,
     progress: &'a (dyn Fn(binspace::Progress) -> ControlFlow<()> + Sync),
 ) -> ViewOptions<'a> {
-    // In a PNG, many small parts together may cover a pixel.
-    let least = if format == DrawFormat::Png { 0.0 } else { min_size(args) };
+    let least = min_size(args, format);
     let opacities = (0..style.scene.len()).map(|polygon| f64::from(style.opacity(polygon)));
     let options = ViewOptions::DEFAULT
         .with_opacities(opacities.collect())
         .with_least_area(least * least)
         .with_progress(progress);
-    if args.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
+    if args.look.cull.cull == Cull::Back { options.with_front_faces_only() } else { options }
 }
 
 /// The least visible size to be drawn: the side of a square for a polygon, a length for a line.
-fn min_size(args: &DrawArgs) -> f64 {
-    args.min_size.unwrap_or(MIN_SIZE)
+fn min_size(args: &DrawArgs, format: DrawFormat) -> f64 {
+    // In a PNG, many small parts together may cover a pixel.
+    let default = if format == DrawFormat::Png { 0.0 } else { MIN_SIZE };
+    args.fill.min_size.unwrap_or(default)
 }
 
 impl<'a> View<'a> {
     /// Shows the next step, if it takes long.
-    fn show(&self, phase: Option<&'static str>) {
-        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = phase.map(Progress::share);
+    fn show(&self, step: Option<Progress>) {
+        *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = step;
     }
 
     fn map<'t>(&self, tree: &'t BspTree) -> Result<VisibilityMap<'t>, Error>
     where
         'a: 't,
     {
-        self.show(Some("finding what shows"));
+        self.show(Some(Progress::share("finding what is visible")));
         tree.visibility(self.style.camera, &self.options)
     }
 
@@ -182,10 +214,10 @@ impl<'a> View<'a> {
         let Self { args, style, .. } = self;
         figures.visible = map.map_or(0, |map| map.polygons().count());
         figures.draw_seconds = start.elapsed().as_secs_f64();
-        if args.lines {
+        if self.lines {
             return Ok(());
         }
-        self.show(Some("drawing"));
+        self.show(Some(Progress::share("drawing")));
         let drawing = match map {
             Some(map) if style.seams == Seams::PlusLighter => {
                 let regions = map.regions()?;
@@ -194,17 +226,18 @@ impl<'a> View<'a> {
                 add_regions(picture, &regions, style);
                 return Ok(());
             }
-            Some(map) if !args.translucent => map.drawing()?,
+            Some(map) if !args.fill.translucent => map.drawing()?,
             _ => Drawing::translucent(tree, style.camera, &self.options, None)?,
         };
         figures.draw_seconds = start.elapsed().as_secs_f64();
         let paths: Vec<_> = drawing.paths().collect();
         figures.paths = paths.len();
         figures.clipped = paths.iter().filter(|path| path.is_clipped()).count();
-        if args.translucent {
+        if args.fill.translucent {
             let drawn = paths.iter().map(|path| path.polygon());
             figures.visible = drawn.collect::<HashSet<usize>>().len();
         }
+        self.show(Some(Progress::spinner("joining paths")));
         add_drawing(picture, &drawing, style);
         Ok(())
     }
@@ -213,15 +246,16 @@ impl<'a> View<'a> {
         &self,
         map: Option<&VisibilityMap<'_>>,
         edges: EdgeChoice,
+        format: DrawFormat,
     ) -> Result<Vec<Strokes>, Error> {
         let Some(map) = map.filter(|_| edges != EdgeChoice::None) else { return Ok(vec![]) };
-        self.show(Some("finding lines"));
-        let hidden = self.args.hidden.unwrap_or(Hidden::None).into();
+        self.show(Some(Progress::share("finding lines")));
+        let hidden = self.args.lines.hidden.into();
         let mut runs = map.edges(hidden)?;
         if edges != EdgeChoice::Silhouettes {
             runs.append(&mut map.crossings(hidden)?);
         }
-        strokes(&runs, edges, min_size(self.args))
+        strokes(&runs, edges, min_size(self.args, format))
     }
 }
 
@@ -236,7 +270,7 @@ struct Figures {
     /// Parts of edges that are drawn, and the lines that they are joined to.
     runs: usize,
     lines: usize,
-    bytes: u64,
+    bytes: usize,
     /// To build the tree, or to read it.
     tree_seconds: f64,
     /// For the map and the paths, without writing them.
@@ -251,49 +285,25 @@ impl Figures {
     }
 }
 
-/// The edges that are drawn. By default they are the edges of a line drawing that are seen best.
-fn edges(args: &DrawArgs) -> EdgeChoice {
-    let default = if args.lines { EdgeChoice::DEFAULT } else { EdgeChoice::None };
-    args.edges.unwrap_or(default)
-}
-
 /// An error if options do not fit together.
-fn check(args: &DrawArgs, format: DrawFormat, edges: EdgeChoice) -> Result<(), String> {
-    let has_lines = edges != EdgeChoice::None;
-    let longest = args.view.size[0].max(args.view.size[1]);
-    let problem = if args.json && args.output == Path::new(STANDARD) {
-        "the drawing and the figures of --json cannot both go there: name a file"
-    } else if args.lines && !has_lines {
-        "with --lines and `--edges none` there is nothing to draw: choose other edges"
-    } else if matches!(args.hidden, Some(Hidden::Dashed | Hidden::Layers)) && !has_lines {
-        "--hidden is for lines: add --lines, or --edges for lines over the polygons"
-    } else if args.seams.is_some() && args.lines {
-        "--lines draws no polygons, so that there are no seams: leave out one of the two"
-    } else if args.seams.is_some() && format == DrawFormat::Png {
-        "--seams is for SVG and PDF: pixels of a PNG have no seams"
-    } else if args.seams == Some(Seams::PlusLighter) && format == DrawFormat::Pdf {
-        "a PDF cannot add colours up: give `--seams trap` or none, or write .svg"
-    } else if args.translucent && args.lines {
-        "--lines draws no polygons, so that none is translucent: leave out one of the two"
-    } else if args.translucent
-        && args.min_size.is_some()
-        && !has_lines
-        && args.seams != Some(Seams::PlusLighter)
+fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'static str> {
+    let is_png = format == DrawFormat::Png;
+    if args.json && args.output == Path::new(STANDARD) {
+        Err("the drawing and the figures of --json cannot both go there: name a file")
+    } else if args.lines.alone && args.lines.edges == EdgeChoice::None {
+        Err("with --lines and `--edges none` there is nothing to draw: choose other edges")
+    } else if args.fill.seams == Seams::PlusLighter
+        && !lines
+        && matches!(format, DrawFormat::Pdf | DrawFormat::Tex)
     {
-        "with --translucent nothing is hidden, so --min-size leaves nothing out"
+        Err("only an SVG can add colours up: give `--seams trap` or none, or write .svg")
     } else if format != DrawFormat::Svg && args.ids {
-        "--ids is for SVG: other formats have no place for names"
-    } else if format == DrawFormat::Png && args.min_size.is_some() && !has_lines {
-        "--min-size is for SVG, PDF and lines: a PNG has of each polygon just what it shows"
-    } else if format == DrawFormat::Pdf && longest > LONGEST {
-        return Err(format!(
-            "a page of a PDF has at most {} points each way, one for each pixel: give a smaller --size",
-            LONGEST
-        ));
+        Err("only SVG has a place for names: write .svg, or leave out --ids")
+    } else if is_png && args.fill.background.0.is_none() {
+        Err("a PNG has a background: give a colour, or write .svg or .pdf")
     } else {
-        return Ok(());
-    };
-    Err(problem.to_owned())
+        Ok(())
+    }
 }
 
 /// An error if the opacity of a polygon is not a number from 0 to 1, as it may be in a saved file.

@@ -16,13 +16,14 @@ use crate::args::{ExportArgs, ExportFormat};
 use crate::colours::{Colouring, Colours};
 use crate::failure::Failure;
 use crate::files::{NewFile, Output, STANDARD};
-use crate::job;
+use crate::format::format;
+use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::samples::linear;
 
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
-    let format = format(args)?;
+    let format = format(&args.output, args.format)?;
     let output = Output::open(Some(&args.output))?;
     // Colours of OBJ files are in a file beside it.
     let library = match format {
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
         _ => None,
     };
     let materials = library.as_deref().map(NewFile::create).transpose()?;
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     let _progress = Progress::spinner("writing");
     let about = |error| job::about(&scene, &error);
     let mesh = if args.unwelded { tree.mesh() } else { tree.welded_mesh() }.map_err(about)?;
@@ -56,21 +57,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
         }
     }
     Ok(Outcome::Done)
-}
-
-/// The format of the option; by default, the format of the file's name.
-fn format(args: &ExportArgs) -> Result<ExportFormat, Failure> {
-    let named = |ext: &OsStr| match ext.to_ascii_lowercase().to_str()? {
-        "obj" => Some(ExportFormat::Obj),
-        "ply" => Some(ExportFormat::Ply),
-        "glb" => Some(ExportFormat::Glb),
-        _ => None,
-    };
-    let found = args.format.or_else(|| args.output.extension().and_then(named));
-    found.ok_or_else(|| {
-        let problem = "name it .obj, .ply or .glb, or give `--format`";
-        Failure::about(args.output.display(), problem)
-    })
 }
 
 /// The file of materials beside an OBJ file.

@@ -9,10 +9,11 @@ use serde::Serialize;
 
 use crate::Outcome;
 use crate::args::OrderArgs;
+use crate::cells;
 use crate::failure::Failure;
 use crate::files::Output;
+use crate::job::{self, Made};
 use crate::progress::Progress;
-use crate::{cells, job};
 
 /// Runs the command.
 pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
@@ -25,7 +26,7 @@ pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
         cells::draw::order(args, path, &viewpoints, output)?;
         return Ok(Outcome::Done);
     }
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     let _progress = Progress::spinner("writing");
     output.write(|out| {
         viewpoints.iter().enumerate().try_for_each(|(k, &viewpoint)| {

@@ -9,15 +9,15 @@ use crate::files::Output;
 use crate::job::{self, Made};
 use crate::page::{self, Page};
 use crate::progress::Progress;
-use crate::terminal::note;
+use crate::terminal::remark;
 use crate::units::{count, three_digits, time};
-use crate::upright::note_z_up;
+use crate::upright::{note_up, up_of};
 use crate::{camera, format};
 
 /// The shape of the picture for which the first view is chosen.
 const SIZE: [u32; 2] = [1280, 720];
-/// With more fragments than this, a page draws a few pictures a second. Too small: notes on pages that turn
-/// well. Too large: people wait and do not know why.
+/// With more fragments than this, a page draws a few pictures a second without a graphics card. Too small:
+/// notes on pages that turn well. Too large: people wait and do not know why.
 const MANY: usize = 200_000;
 
 /// Runs the command.
@@ -29,17 +29,19 @@ pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
     }
     let made = job::make(&args.scene, &args.build)?;
     let Made { scene, tree, .. } = &made;
-    note_z_up(scene, &args.up);
-    let camera = camera::whole(scene, args.up.up, camera::FIELD_OF_VIEW, SIZE)?;
+    note_up(scene, &args.up);
+    let camera =
+        camera::whole(scene, args.up.given(), camera::FIELD_OF_VIEW, SIZE, camera::MARGIN)?;
     let culls_backs = args.cull.cull == Cull::Back;
     if !culls_backs {
         note_backs(scene, tree, &camera);
     }
     if tree.len() > MANY {
         let fragments = count(tree.len(), "fragment");
-        note(&format!("{}: {fragments}, so the page will turn slowly", scene.name()));
+        let slow = format!("{fragments}, so the page turns slowly without a graphics card");
+        remark(scene.name(), &slow, &slow);
     }
-    let up = args.up.up.unwrap_or(scene.up());
+    let up = args.up.given().unwrap_or_else(|| up_of(scene));
     let figures = figures(&made);
     let _progress = Progress::spinner("writing");
     let page = Page { scene, tree, camera: &camera, up, culls_backs, figures };

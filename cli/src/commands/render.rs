@@ -5,72 +5,65 @@ use binspace::verify::Verification;
 
 use super::verify::unseen_faults;
 use crate::Outcome;
-use crate::args::{Format, RenderArgs};
+use crate::args::RenderArgs;
 use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::Output;
-use crate::format::{about_output, format};
+use crate::format::about_output;
+use crate::job::{self, Made};
 use crate::pictures::{Drawing, Kind};
-use crate::progress::Progress;
 use crate::terminal::note;
 use crate::units::count;
-use crate::upright::note_z_up;
-use crate::{camera, cells, job, png_file, svg};
+use crate::upright::note_up;
+use crate::{camera, cells, png_file};
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
-    let (format, kind) = (format(&args.output, args.format)?, Kind::asked(&args.kind));
-    check_kind(args, format, kind)?;
+    let kind = Kind::asked(&args.kind);
+    check(args, kind).map_err(|problem| about_output(&args.output, &problem))?;
     let output = Output::open(Some(&args.output))?;
-    if format == Format::Png && output.is_terminal() {
+    if output.is_terminal() {
         let problem = "a PNG is not for a terminal: pipe it, or name a file";
         return Err(about_output(&args.output, problem));
     }
     if let Some(path) = cells::folder::asked(&args.scene, &args.build)? {
-        cells::draw::render(args, path, output, format)?;
+        cells::draw::render(args, path, output)?;
         return Ok(Outcome::Done);
     }
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
-    note_z_up(&scene, &args.view.up);
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
+    note_up(&scene, &args.view.up);
     let camera = camera::asked(&args.view, &scene)?;
-    let colours = Colours::new(&scene, args.colours);
-    let (cull, samples) = (args.cull.cull, args.samples);
+    let colours = Colours::new(&scene, args.look.colours);
+    let (cull, samples) = (args.look.cull.cull, args.samples);
     if cull == Cull::None {
         note_backs(&scene, &tree, &camera);
     }
     let drawing = Drawing { tree: &tree, camera: &camera, colours: &colours, cull, samples };
-    match format {
-        Format::Svg => {
-            let _progress = Progress::spinner("drawing");
-            output.write(|out| svg::write(out, &drawing, &scene))?;
-        }
-        Format::Png => {
-            let drawn = drawing.draw(kind).map_err(|error| camera::about(&scene, &error));
-            let (pixels, seen) = drawn?;
-            output.write(|out| png_file::write(out, camera.size(), &pixels))?;
-            if let Some(seen) = seen {
-                return Ok(judge(&scene, &seen));
-            }
-        }
-    }
-    Ok(Outcome::Done)
+    let drawn = drawing.draw(kind).map_err(|error| camera::about(&scene, &error));
+    let (pixels, seen) = drawn?;
+    output.write(|out| png_file::write(out, camera.size(), &pixels))?;
+    Ok(seen.map_or(Outcome::Done, |seen| judge(&scene, &seen)))
 }
 
 /// An error if there is no such picture.
-fn check_kind(args: &RenderArgs, format: Format, kind: Kind) -> Result<(), Failure> {
+fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
+    let extension = args.output.extension().map(|extension| extension.to_ascii_lowercase());
+    let extension = extension.as_ref().map(|extension| extension.to_string_lossy());
+    match extension.as_deref() {
+        Some("svg" | "pdf") => {
+            return Err("`binspace render` makes pixels, a .png: use `binspace draw`".to_owned());
+        }
+        Some("png") | None => {}
+        Some(_) => return Err("name a file that ends in .png".to_owned()),
+    }
     let is_plain = matches!(kind, Kind::Painter | Kind::ZBuffer);
-    let problem = if format == Format::Svg && kind != Kind::Painter {
-        format!("--{} cannot be drawn as SVG: write a PNG", kind.name())
-    } else if format == Format::Svg && args.samples > 1 {
-        "--samples is for PNG: an SVG has no pixels".to_owned()
-    } else if !is_plain && args.samples > 1 {
-        format!("--samples cannot be used with --{}: it has one value a pixel", kind.name())
-    } else {
-        return Ok(());
-    };
-    Err(about_output(&args.output, &problem))
+    if !is_plain && args.samples > 1 {
+        let name = kind.name();
+        return Err(format!("--{name} has one value a pixel: leave out --samples"));
+    }
+    Ok(())
 }
 
 /// Reports the number of wrong pixels of a picture, and whether it differs.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use binspace::scene::Scene;
-use binspace::{BspTree, ErrorKind, Heuristic, Preparation, Stats};
+use binspace::{BspTree, ErrorKind, Heuristic};
 use serde::Serialize;
 
 use crate::Outcome;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::measure::{order_nanoseconds, timed_build};
 use crate::scene_arg::Loaded;
 use crate::table::Table;
-use crate::terminal::{HEAD, note, say, styled};
+use crate::terminal::{HEAD, note, remark, say, styled};
 use crate::units::{bytes, count, three_digits, time};
 use crate::values::Heuristics;
 use crate::{cells, job, scene_arg};
@@ -22,18 +22,68 @@ use crate::{cells, job, scene_arg};
 /// The width of the table's column of heuristics, in characters.
 const NAME: usize = 13;
 
-/// The figures of one tree.
+/// The figures of one tree, as they are printed as JSON.
+#[derive(Serialize)]
 struct Figures {
     /// `None` for a tree from a file.
-    heuristic: Option<Heuristic>,
+    heuristic: Option<String>,
     /// The number of its cell.
+    #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<usize>,
-    prepared: Preparation,
-    duplicates: usize,
-    stats: Stats,
+    polygons: usize,
+    faces: usize,
+    fragments: usize,
+    nodes: usize,
+    depth_max: usize,
+    depth_mean: f64,
+    splits: usize,
     /// The time to build the tree, or to read it.
     build_seconds: f64,
-    order_nanoseconds: f64,
+    order_ns_per_fragment: f64,
+    bytes: usize,
+    dropped: usize,
+    triangulated: usize,
+    duplicates: usize,
+    crossing: usize,
+    tolerance: f64,
+    flattened: usize,
+    flattened_by: f64,
+    bent: usize,
+    bent_by: f64,
+    nearly_coplanar: usize,
+    nearly_coplanar_by: f64,
+}
+
+impl Figures {
+    /// The figures of a tree from a file.
+    fn of(tree: &BspTree, scene: &Scene, build_seconds: f64) -> Self {
+        let (prepared, stats) = (tree.preparation(), tree.stats());
+        Self {
+            heuristic: None,
+            cell: None,
+            polygons: prepared.polygons,
+            faces: stats.faces,
+            fragments: stats.fragments,
+            nodes: stats.nodes,
+            depth_max: stats.depth_max,
+            depth_mean: stats.depth_mean,
+            splits: stats.splits,
+            build_seconds,
+            order_ns_per_fragment: order_nanoseconds(tree, scene),
+            bytes: stats.bytes,
+            dropped: prepared.dropped,
+            triangulated: prepared.triangulated,
+            duplicates: tree.duplicates(),
+            crossing: prepared.crossing,
+            tolerance: stats.tolerance,
+            flattened: prepared.flattened,
+            flattened_by: prepared.flattened_by,
+            bent: prepared.bent,
+            bent_by: prepared.bent_by,
+            nearly_coplanar: stats.nearly_coplanar,
+            nearly_coplanar_by: stats.nearly_coplanar_by,
+        }
+    }
 }
 
 /// Runs the command.
@@ -44,11 +94,13 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     }
     let Loaded { scene, tree, .. } = scene_arg::load(&args.scene.name, args.scene.seed)?;
     if let Some(tree) = tree {
-        return of_file(args, &scene, &tree, begin.elapsed().as_secs_f64());
+        let seconds = begin.elapsed().as_secs_f64();
+        job::refuse_options(scene.name(), args.is_given)?;
+        job::note_preparation(&scene, tree.faces(), tree.preparation());
+        return show(args, &title(&scene, &tree), &Figures::of(&tree, &scene, seconds), true);
     }
     let (mut over_budget, mut is_first) = (0, true);
-    let default = Heuristics(vec![Heuristic::default()]);
-    let Heuristics(heuristics) = args.heuristic.as_ref().unwrap_or(&default);
+    let Heuristics(heuristics) = &args.heuristic;
     for &heuristic in heuristics {
         let (tree, seconds) = match timed_build(&scene, &args.limits.options(heuristic)) {
             Ok(built) => built,
@@ -61,22 +113,15 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             Err(error) => return Err(job::about(&scene, &error)),
         };
         if is_first {
-            job::note_preparation(&scene, tree.faces(), tree.preparation());
             job::note_tolerance(&scene, &args.limits, &tree);
+            job::note_preparation(&scene, tree.faces(), tree.preparation());
             if tree.is_empty() {
-                note(&format!("{}: {}", scene.name(), job::NOTHING_LEFT));
+                remark(scene.name(), job::NOTHING_LEFT, job::NOTHING_LEFT);
             }
         }
-        let figures = Figures {
-            heuristic: Some(heuristic),
-            cell: None,
-            prepared: *tree.preparation(),
-            duplicates: tree.duplicates(),
-            stats: tree.stats(),
-            build_seconds: seconds,
-            order_nanoseconds: order_nanoseconds(&tree, &scene),
-        };
-        show(args, &scene, &figures, is_first)?;
+        let mut figures = Figures::of(&tree, &scene, seconds);
+        figures.heuristic = Some(heuristic.to_string());
+        show(args, &title(&scene, &tree), &figures, is_first)?;
         is_first = false;
     }
     match over_budget {
@@ -85,84 +130,53 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
     }
 }
 
-/// The figures of a tree that was read from a file.
-fn of_file(
-    args: &StatsArgs,
-    scene: &Scene,
-    tree: &BspTree,
-    seconds: f64,
-) -> Result<Outcome, Failure> {
-    job::refuse_options(scene.name(), args.heuristic.is_some(), &args.limits)?;
-    job::note_preparation(scene, tree.faces(), tree.preparation());
-    let figures = Figures {
-        heuristic: None,
-        cell: None,
-        prepared: *tree.preparation(),
-        duplicates: tree.duplicates(),
-        stats: tree.stats(),
-        build_seconds: seconds,
-        order_nanoseconds: order_nanoseconds(tree, scene),
-    };
-    show(args, scene, &figures, true)?;
-    Ok(Outcome::Done)
-}
-
 /// The figures of the trees in a folder.
 fn of_cells(args: &StatsArgs, path: &Path) -> Result<Outcome, Failure> {
     let folder = Folder::open(path)?;
-    job::refuse_options(path.display(), args.heuristic.is_some(), &args.limits)?;
-    for number in 0..folder.partition.cells() {
+    job::refuse_options(path.display(), args.is_given)?;
+    let cells = folder.partition.cells();
+    let title = format!("{}: {}", styled(HEAD, folder.bounds.name()), count(cells, "cell"));
+    for number in 0..cells {
         let begin = Instant::now();
         let cell = folder.cell(number)?;
-        let figures = Figures {
-            heuristic: None,
-            cell: Some(number),
-            prepared: *cell.tree.preparation(),
-            duplicates: cell.tree.duplicates(),
-            stats: cell.tree.stats(),
-            build_seconds: begin.elapsed().as_secs_f64(),
-            order_nanoseconds: order_nanoseconds(&cell.tree, &cell.scene),
-        };
-        if args.json {
-            say(json(&figures)?)?;
-            continue;
-        }
-        let table = table();
-        if number == 0 {
-            say(format!(
-                "{}: {}",
-                styled(HEAD, folder.bounds.name()),
-                count(folder.partition.cells(), "cell")
-            ))?;
-            say(styled(HEAD, table.head()))?;
-        }
-        say(row(&table, &figures))?;
+        let seconds = begin.elapsed().as_secs_f64();
+        let mut figures = Figures::of(&cell.tree, &cell.scene, seconds);
+        figures.cell = Some(number);
+        show(args, &title, &figures, number == 0)?;
     }
     Ok(Outcome::Done)
 }
 
-fn show(args: &StatsArgs, scene: &Scene, figures: &Figures, is_first: bool) -> Result<(), Failure> {
-    if args.json {
-        return say(json(figures)?);
-    }
-    let table = table();
-    if is_first {
-        say(title(scene, figures))?;
-        say(styled(HEAD, table.head()))?;
-    }
-    say(row(&table, figures))
-}
-
-fn title(scene: &Scene, Figures { prepared, duplicates, stats, .. }: &Figures) -> String {
+fn title(scene: &Scene, tree: &BspTree) -> String {
+    let prepared = tree.preparation();
     format!(
         "{}: {}, {}; {} dropped, {} triangulated, {}",
         styled(HEAD, scene.name()),
         count(prepared.polygons, "polygon"),
-        count(stats.faces, "face"),
+        count(tree.faces().len(), "face"),
         prepared.dropped,
         prepared.triangulated,
-        count(*duplicates, "duplicate"),
+        count(tree.duplicates(), "duplicate"),
     )
+}
+
+fn show(
+    args: &StatsArgs,
+    title: &str,
+    figures: &Figures,
+    is_first: bool,
+) -> Result<Outcome, Failure> {
+    if args.json {
+        say(serde_json::to_string(figures).map_err(|error| Failure::of_output(&error.into()))?)?;
+        return Ok(Outcome::Done);
+    }
+    let table = table();
+    if is_first {
+        say(title)?;
+        say(styled(HEAD, table.head()))?;
+    }
+    say(row(&table, figures))?;
+    Ok(Outcome::Done)
 }
 
 fn table() -> Table {
@@ -181,92 +195,31 @@ fn table() -> Table {
 }
 
 fn row(table: &Table, figures: &Figures) -> String {
-    let Figures { heuristic, stats, .. } = figures;
-    let per_face = stats.fragments as f64 / stats.faces.max(1) as f64;
+    let per_face = figures.fragments as f64 / figures.faces.max(1) as f64;
     table.row(&[
-        match (figures.cell, heuristic) {
+        match (figures.cell, &figures.heuristic) {
             (Some(cell), _) => format!("cell {cell}"),
-            (None, Some(heuristic)) => name(*heuristic),
+            (None, Some(heuristic)) => name(heuristic),
             (None, None) => "from a file".to_owned(),
         },
-        stats.fragments.to_string(),
+        figures.fragments.to_string(),
         format!("{per_face:.2}"),
-        stats.nodes.to_string(),
-        stats.depth_max.to_string(),
-        three_digits(stats.depth_mean),
+        figures.nodes.to_string(),
+        figures.depth_max.to_string(),
+        three_digits(figures.depth_mean),
         time(figures.build_seconds),
-        time(figures.order_nanoseconds * 1e-9),
-        bytes(stats.bytes),
+        time(figures.order_ns_per_fragment * 1e-9),
+        bytes(figures.bytes),
     ])
 }
 
-/// The name of a heuristic in the table: `weighted` with its default weights is written without them.
-fn name(heuristic: Heuristic) -> String {
-    let name = match heuristic {
-        _ if "weighted".parse() == Ok(heuristic) => "weighted".to_owned(),
-        other => other.to_string(),
-    };
-    if name.chars().count() <= NAME {
-        return name;
+/// The name of a heuristic in the table, cut to the column's width; of default weights without them.
+fn name(heuristic: &str) -> String {
+    if "weighted".parse::<Heuristic>().is_ok_and(|weighted| weighted.to_string() == heuristic) {
+        return "weighted".to_owned();
     }
-    name.chars().take(NAME - 1).chain(['…']).collect()
-}
-
-/// The figures of a tree as a JSON object.
-#[derive(Serialize)]
-struct Line {
-    heuristic: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cell: Option<usize>,
-    polygons: usize,
-    faces: usize,
-    fragments: usize,
-    nodes: usize,
-    depth_max: usize,
-    depth_mean: f64,
-    splits: usize,
-    build_seconds: f64,
-    order_ns_per_fragment: f64,
-    bytes: usize,
-    dropped: usize,
-    triangulated: usize,
-    duplicates: usize,
-    crossing: usize,
-    tolerance: f64,
-    flattened: usize,
-    flattened_by: f64,
-    bent: usize,
-    bent_by: f64,
-    nearly_coplanar: usize,
-    nearly_coplanar_by: f64,
-}
-
-fn json(figures: &Figures) -> Result<String, Failure> {
-    let Figures { prepared, stats, .. } = figures;
-    let line = Line {
-        heuristic: figures.heuristic.map(|heuristic| heuristic.to_string()),
-        cell: figures.cell,
-        polygons: prepared.polygons,
-        faces: stats.faces,
-        fragments: stats.fragments,
-        nodes: stats.nodes,
-        depth_max: stats.depth_max,
-        depth_mean: stats.depth_mean,
-        splits: stats.splits,
-        build_seconds: figures.build_seconds,
-        order_ns_per_fragment: figures.order_nanoseconds,
-        bytes: stats.bytes,
-        dropped: prepared.dropped,
-        triangulated: prepared.triangulated,
-        duplicates: figures.duplicates,
-        crossing: prepared.crossing,
-        tolerance: stats.tolerance,
-        flattened: prepared.flattened,
-        flattened_by: prepared.flattened_by,
-        bent: prepared.bent,
-        bent_by: prepared.bent_by,
-        nearly_coplanar: stats.nearly_coplanar,
-        nearly_coplanar_by: stats.nearly_coplanar_by,
-    };
-    serde_json::to_string(&line).map_err(|error| Failure::of_output(&error.into()))
+    if heuristic.chars().count() <= NAME {
+        return heuristic.to_owned();
+    }
+    heuristic.chars().take(NAME - 1).chain(['…']).collect()
 }

@@ -1,60 +1,91 @@
 //! `binspace verify`: compares every pixel of a tree's pictures with a depth buffer.
 
-use binspace::glam::DVec3;
 use binspace::raster::Comparison;
 use binspace::verify::{Verification, verify, verify_fronts};
 use binspace::view::{Camera, Projection};
+use serde_json::json;
 
 use crate::Outcome;
 use crate::args::VerifyArgs;
+use crate::camera;
 use crate::cull::Cull;
 use crate::failure::Failure;
+use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::table::Table;
 use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::count;
-use crate::upright::note_z_up;
-use crate::{camera, job};
+use crate::upright::note_up;
 
 /// Runs the command.
 pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
-    let (scene, tree) = job::scene_and_tree(&args.scene, &args.build)?;
-    note_z_up(&scene, &args.up);
-    let (views, up) = (args.views as usize, args.up.up);
+    let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
+    note_up(&scene, &args.up);
+    let (views, up) = (args.views as usize, args.up.given());
     let cameras = camera::around_and_inside(&scene, up, views, args.size, args.scene.seed)?;
-    say(format!(
-        "{}: {}, {}, {}",
-        styled(HEAD, scene.name()),
-        count(scene.len(), "polygon"),
-        count(tree.faces().len(), "face"),
-        count(tree.len(), "fragment"),
-    ))?;
     let table = table(views * args.size[0] as usize * args.size[1] as usize);
-    say(styled(HEAD, table.head()))?;
+    if !args.json {
+        say(format!(
+            "{}: {}, {}, {}",
+            styled(HEAD, scene.name()),
+            count(scene.len(), "polygon"),
+            count(tree.faces().len(), "face"),
+            count(tree.len(), "fragment"),
+        ))?;
+        say(styled(HEAD, table.head()))?;
+    }
+    let show = |view: Option<usize>, place, found: &Comparison, is_right| {
+        if args.json {
+            return say(json(view, place, found, is_right)?);
+        }
+        let name = view.map_or("total".to_owned(), |view| view.to_string());
+        say(row(&table, [&name, place], found, is_right))
+    };
     let progress = Progress::steps("view", args.views.into());
     let mut total = Comparison::default();
     let mut all_right = true;
     let verify = if args.cull.cull == Cull::Back { verify_fronts } else { verify };
-    for (i, camera) in cameras.iter().enumerate() {
+    for (number, camera) in (1..).zip(&cameras) {
         let seen = verify(&tree, camera).map_err(|error| camera::about(&scene, &error))?;
         progress.step();
         let place = if camera::is_inside(camera, &scene) { "inside" } else { "around" };
-        let line = row(&table, [&(i + 1).to_string(), place], &seen.comparison, seen.is_right());
-        progress.suspend(|| say(line))?;
+        let is_right = seen.is_right();
+        progress.suspend(|| show(Some(number), place, &seen.comparison, is_right))?;
         for fault in unseen_faults(&seen) {
-            progress.suspend(|| note(&format!("view {} is wrong: {fault}", i + 1)));
+            progress.suspend(|| note(&format!("view {number} is wrong: {fault}")));
         }
         if seen.comparison.wrong() > 0 {
-            progress.suspend(|| {
-                note(&format!("view {} is wrong; see where:\n  {}", i + 1, reproduce(args, camera)))
-            });
+            let view = reproduce(args, camera);
+            let advice =
+                "with the other options given, and these, `binspace render --difference` draws";
+            progress.suspend(|| note(&format!("{advice} where view {number} is wrong:\n  {view}")));
         }
         add(&mut total, &seen.comparison);
-        all_right &= seen.is_right();
+        all_right &= is_right;
     }
     drop(progress);
-    say(row(&table, ["total", ""], &total, all_right))?;
+    show(None, "", &total, all_right)?;
     Ok(if all_right { Outcome::Done } else { Outcome::Differs })
+}
+
+/// The figures of a view, or of all of them, as a JSON object.
+fn json(
+    view: Option<usize>,
+    from: &str,
+    found: &Comparison,
+    is_right: bool,
+) -> Result<String, Failure> {
+    let object = json!({
+        "view": view,
+        "from": view.map(|_| from),
+        "covered": found.covered,
+        "contested": found.contested,
+        "wrong_order": found.wrong_order,
+        "holes": found.holes,
+        "spills": found.spills,
+        "is_right": is_right,
+    });
+    serde_json::to_string(&object).map_err(|error| Failure::of_output(&error.into()))
 }
 
 /// The faults of a view, without faults of the picture painted back to front, as phrases.
@@ -98,7 +129,8 @@ fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison, is_right: bo
     format!("{figures}{}", styled(style, verdict))
 }
 
-fn add(total: &mut Comparison, found: &Comparison) {
+/// Adds the figures of a view to those of others.
+pub(super) fn add(total: &mut Comparison, found: &Comparison) {
     total.covered += found.covered;
     total.contested += found.contested;
     total.wrong_order += found.wrong_order;
@@ -106,31 +138,16 @@ fn add(total: &mut Comparison, found: &Comparison) {
     total.spills += found.spills;
 }
 
-/// The command that draws the wrong pixels of a view.
+/// The options of `binspace render` that show a view.
 fn reproduce(args: &VerifyArgs, camera: &Camera) -> String {
     let (eye, fov) = match *camera.projection() {
         Projection::Perspective { eye, half_height } => (eye, 2.0 * half_height.atan()),
         Projection::Parallel { centre, .. } => (centre, camera::FIELD_OF_VIEW),
     };
-    let vector = |v: DVec3| format!("{:?},{:?},{:?}", v.x, v.y, v.z);
-    let (build, limits) = (&args.build, &args.build.limits);
-    // Options that were given alone: trees in files take none.
-    let heuristic = build.heuristic.map_or(String::new(), |h| format!(" --heuristic='{h}'"));
-    let tolerance = limits.tolerance.map_or(String::new(), |t| format!(" --tolerance={t:?}"));
-    let most = limits.max_fragments.map_or(String::new(), |n| format!(" --max-fragments={n}"));
-    let cull = if args.cull.cull == Cull::Back { " --cull=back" } else { "" };
-    format!(
-        "binspace render '{}' --difference -o difference.png --seed={}{heuristic}{tolerance}{most}{cull} \
-         --size={}x{} --fov={:?} --eye={} --target={} --up={}",
-        args.scene.name.to_string_lossy(),
-        args.scene.seed,
-        args.size[0],
-        args.size[1],
-        fov.to_degrees(),
-        vector(eye),
-        vector(eye + camera.forward()),
-        vector(camera.up()),
-    )
+    let [eye, target, up] = [eye, eye + camera.forward(), camera.up()]
+        .map(|v| format!("{:?},{:?},{:?}", v.x, v.y, v.z));
+    let ([width, height], fov) = (args.size, fov.to_degrees());
+    format!("--size={width}x{height} --fov={fov:?} --eye={eye} --target={target} --up={up}")
 }
 
 #[cfg(test)]
@@ -140,9 +157,7 @@ mod tests {
     use clap::Parser;
 
     fn parse(command: &str) -> Command {
-        // As a shell does with these quotes.
-        let words = command.split_whitespace().map(|word| word.replace('\'', ""));
-        Cli::try_parse_from(words).unwrap().command
+        Cli::try_parse_from(command.split_whitespace()).unwrap().command
     }
 
     #[test]
@@ -176,19 +191,18 @@ mod tests {
     }
 
     #[test]
-    fn the_command_that_shows_a_wrong_view_shows_that_view() {
-        let command = "binspace verify random:30 --seed 7 --heuristic sampled(3) --tolerance 1e-7 \
-                       --cull back";
+    fn the_options_that_show_a_wrong_view_show_that_view() {
+        let command = "binspace verify random:30 --seed 7 --size 200x100";
         let Command::Verify(args) = parse(command) else { panic!("another command") };
         let scene = crate::scene_arg::load(&args.scene.name, args.scene.seed).unwrap().scene;
         let views = camera::around_and_inside(&scene, None, 4, args.size, 7).unwrap();
         for view in views {
-            let Command::Render(again) = parse(&reproduce(&args, &view)) else {
+            let options = reproduce(&args, &view);
+            let Command::Render(again) =
+                parse(&format!("binspace render random:30 -o a {options}"))
+            else {
                 panic!("another command")
             };
-            assert_eq!(again.build.heuristic, args.build.heuristic);
-            assert_eq!(again.build.limits.tolerance, Some(1e-7));
-            assert_eq!(again.cull.cull, Cull::Back);
             let camera = camera::asked(&again.view, &scene).unwrap();
             assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
             assert!((camera.forward() - view.forward()).length() < 1e-12);

@@ -27,12 +27,19 @@ use crate::units::count;
 const HEADER: usize = 12;
 /// The problem with files of the first version.
 const FIRST: &str = "it is glTF 1.0; glTF 2.0 is read";
-/// Extensions that change where triangles are, so that a file that requires another is still understood.
-const GEOMETRIC: [&str; 4] = [
-    "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",
+/// How the names of extensions begin that a file may require: they change looks alone, except for
+/// quantized positions, which are read.
+const KNOWN: [&str; 10] = [
     "KHR_mesh_quantization",
-    "EXT_mesh_gpu_instancing",
+    "KHR_materials_",
+    "KHR_texture_",
+    "KHR_lights_",
+    "KHR_animation_",
+    "KHR_xmp",
+    "EXT_texture_",
+    "EXT_lights_",
+    "EXT_materials_",
+    "MSFT_texture_",
 ];
 
 /// Keys of a document. They occur in any order, and one may be long.
@@ -110,8 +117,9 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
         error => error.to_string(),
     })?;
     let root = gltf.as_json();
-    if let Some(name) = root.extensions_required.iter().find(|name| GEOMETRIC.contains(&&name[..]))
-    {
+    let is_known = |name: &String| KNOWN.iter().any(|known| name.starts_with(known));
+    if let Some(name) = root.extensions_required.iter().find(|name| !is_known(name)) {
+        let name: String = name.escape_debug().take(60).collect();
         return Err(format!("it needs the extension {name}, which is not supported"));
     }
     // The crate takes for granted that these lead somewhere.
@@ -304,19 +312,22 @@ impl<'a> Part<'a> {
             return Ok(None);
         }
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
-        if (positions.data_type(), positions.dimensions()) != (DataType::F32, Dimensions::Vec3) {
-            return Err("its positions are not three numbers of 32 bits".into());
+        if positions.data_type() == DataType::U32 || positions.dimensions() != Dimensions::Vec3 {
+            return Err("its positions are not three numbers of 32 bits or fewer".into());
         }
-        let values = |accessor| Values::of(&accessor, buffers);
+        let values = |accessor: Accessor<'_>, is_share| Values::of(&accessor, is_share, buffers);
+        let are_shares = positions.normalized();
+        let indices = primitive.indices().map(|indices| values(indices, false)).transpose()?;
+        let colours = primitive.get(&Semantic::Colors(0)).map(|colours| values(colours, true));
         let material = primitive.material();
         let mut colour = material.pbr_metallic_roughness().base_color_factor();
         let is_blended = material.alpha_mode() == AlphaMode::Blend;
         colour[3] = opacity(&material, colour[3]);
         Ok(Some(Self {
             place: place.to_owned(),
-            positions: values(positions)?,
-            indices: primitive.indices().map(values).transpose()?,
-            colours: primitive.get(&Semantic::Colors(0)).map(values).transpose()?,
+            positions: values(positions, are_shares)?,
+            indices,
+            colours: colours.transpose()?,
             mode,
             colour,
             is_blended,
@@ -408,10 +419,17 @@ struct Values<'a> {
     count: usize,
     dimensions: usize,
     data_type: DataType,
+    /// The integer that stands for 1.
+    full: f64,
 }
 
 impl<'a> Values<'a> {
-    fn of(accessor: &Accessor<'_>, buffers: &'a [Rc<Vec<u8>>]) -> Result<Self, String> {
+    /// `is_share`: whether integers are shares of the largest one.
+    fn of(
+        accessor: &Accessor<'_>,
+        is_share: bool,
+        buffers: &'a [Rc<Vec<u8>>],
+    ) -> Result<Self, String> {
         let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
         if accessor.sparse().is_some() {
             return Err(about("it is sparse, which is not supported".into()));
@@ -429,14 +447,21 @@ impl<'a> Values<'a> {
             Some(bytes) if needed.unwrap_or(0) <= bytes.len() => {
                 let data_type = accessor.data_type();
                 let dimensions = accessor.dimensions().multiplicity();
-                Ok(Self { bytes, stride, count, dimensions, data_type })
+                let full = match data_type {
+                    _ if !is_share => 1.0,
+                    DataType::I8 => 127.0,
+                    DataType::U8 => 255.0,
+                    DataType::I16 => 32_767.0,
+                    DataType::U16 => 65_535.0,
+                    DataType::U32 | DataType::F32 => 1.0,
+                };
+                Ok(Self { bytes, stride, count, dimensions, data_type, full })
             }
             _ => Err(about(format!("its {count} values do not fit into its buffer"))),
         }
     }
 
-    /// A value, its first four numbers; missing ones are 1, as for opacities. Integer colours are shares of
-    /// the largest integer.
+    /// A value, its first four numbers; missing ones are 1, as for opacities.
     fn get(&self, index: usize) -> Option<[f64; 4]> {
         if index >= self.count {
             return None;
@@ -447,25 +472,19 @@ impl<'a> Values<'a> {
         for (number, bytes) in
             numbers.iter_mut().zip(value.chunks_exact(size)).take(self.dimensions)
         {
-            let full = if self.dimensions > 1 { self.full() } else { 1.0 };
-            *number = match (self.data_type, bytes) {
+            let value = match (self.data_type, bytes) {
                 (DataType::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
                 (DataType::U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
                 (DataType::U16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
+                (DataType::I16, &[a, b]) => f64::from(i16::from_le_bytes([a, b])),
                 (DataType::U8, &[a]) => f64::from(a),
-                // Signed numbers are neither indices nor colours.
+                (DataType::I8, &[a]) => f64::from(a as i8),
                 _ => return None,
-            } / full;
+            };
+            // The least signed integer stands for -1 too.
+            *number = if self.full > 1.0 { (value / self.full).max(-1.0) } else { value };
         }
         Some(numbers)
-    }
-
-    fn full(&self) -> f64 {
-        match self.data_type {
-            DataType::U8 => 255.0,
-            DataType::U16 => 65_535.0,
-            _ => 1.0,
-        }
     }
 }
 

@@ -17,7 +17,7 @@ use binspace::scene::Scene;
 
 use crate::failure::Failure;
 use crate::saved_file;
-use crate::terminal::note;
+use crate::terminal::remark;
 
 /// The number of leading bytes by which a file's kind is detected. Too small: the first line of an OBJ file
 /// may be behind a long comment.
@@ -93,7 +93,8 @@ impl MeshKind {
             Self::Gltf => {
                 let gltf::Read { scene, left_out } = gltf::read(name, bytes, folder)?;
                 if !left_out.is_empty() {
-                    note(&format!("{name}: {}", left_out.join("; ")));
+                    let left_out = left_out.join("; ");
+                    remark(name, &left_out, &left_out);
                 }
                 return Ok(scene);
             }

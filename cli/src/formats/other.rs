@@ -1,7 +1,7 @@
 //! Files that are not read, by how they begin, so that messages can name them.
 
 /// The kind of files that begin with these bytes.
-const BEGINNINGS: [(&[u8], &str); 26] = [
+const BEGINNINGS: [(&[u8], &str); 31] = [
     (b"ISO-10303-21", "a STEP or IFC file"),
     (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
     (b"\x1f\x8b", "compressed by gzip: unpack it (`gunzip -c FILE | binspace … -`)"),
@@ -18,6 +18,11 @@ const BEGINNINGS: [(&[u8], &str); 26] = [
     (b"#X3D", "an X3D file"),
     (b"xof ", "a DirectX file"),
     (b"AC10", "a DWG file"),
+    (b"AutoCAD Binary DXF", "a DXF file"),
+    (b"FORM", "an IFF file, as LightWave writes"),
+    (b"LWSC", "a LightWave scene"),
+    (b"*3DSMAX", "an ASE file, as 3ds Max writes"),
+    (b"AC3D", "an AC3D file"),
     (b"DBRep_DrawableShape", "a BREP file"),
     (b"LASF", "a LAS cloud of points"),
     (b"# .PCD", "a PCD cloud of points"),
@@ -69,8 +74,11 @@ pub(crate) fn name(beginning: &[u8], length: u64) -> Option<&'static str> {
     if text.starts_with(b"{") {
         return Some("a JSON file, but not a glTF file");
     }
-    let mut lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
-    if lines.next() == Some(b"0") && lines.next() == Some(b"SECTION") {
+    let lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let lines: Vec<&[u8]> = lines.take(64).collect();
+    // Pairs of lines, the first of which may be comments.
+    let first = lines.chunks_exact(2).find(|pair| pair[0] != b"999");
+    if first == Some(&[b"0", b"SECTION"]) {
         return Some("a DXF file");
     }
     // The first section of lines of 80 letters.

@@ -1,16 +1,17 @@
-//! STL files: triangles without colours, as text or binary. Up is z, as in the machines that print them.
+//! STL files: triangles as text or binary, with colours in some binary ones. Up is z, as in the machines that
+//! print them.
 //!
 //! Crates for STL read text as `f32`, and of several solids the first alone.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 
-use super::mesh::{Mesh, Precision};
+use super::mesh::{Colour, Mesh, Precision};
 use super::text::Lines;
 
 /// The bytes before the triangles of a binary file: a header, and their number.
 const HEADER: usize = 84;
-/// The bytes of a triangle: a normal and three corners of three `f32`, and two bytes.
+/// The bytes of a triangle: a normal and three corners of three `f32`, and two bytes, which may be a colour.
 const TRIANGLE: usize = 50;
 
 /// Whether a file of `length` bytes that begins like this is a binary one.
@@ -41,6 +42,7 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         return Err(format!("it says that it has {count} triangles, and has {has}: cut short?"));
     }
     let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Z), Precision::default());
+    let colours = Colours::of(&bytes[..HEADER - 4]);
     for (number, triangle) in triangles.take(count as usize).enumerate() {
         let mut numbers = triangle[12..48].chunks_exact(4).map(|bytes| {
             let value = f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
@@ -51,9 +53,41 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         let [Some(a), Some(b), Some(c)] = corners else {
             return Err(format!("triangle {number} (from 0): a coordinate is not a finite number"));
         };
-        mesh.face([a, b, c], None);
+        mesh.face([a, b, c], colours.of_triangle(u16::from_le_bytes([triangle[48], triangle[49]])));
     }
     Ok(mesh.finish(precision.unit()))
+}
+
+/// What the last two bytes of triangles mean.
+enum Colours {
+    /// Red, green and blue from the lowest bits on; with the highest bit, the colour of the whole (Magics).
+    Magics(Colour),
+    /// Blue, green and red from the lowest bits on, with the highest bit; without it, no colour (VisCAM).
+    VisCam,
+}
+
+impl Colours {
+    /// The colours of a file with some header.
+    fn of(header: &[u8]) -> Self {
+        const KEY: &[u8] = b"COLOR=";
+        let at = header.windows(KEY.len()).position(|word| word == KEY);
+        match at.and_then(|at| header.get(at + KEY.len()..at + KEY.len() + 4)) {
+            Some(&[r, g, b, opacity]) => {
+                Self::Magics([r, g, b, opacity].map(|channel| f32::from(channel) / 255.0))
+            }
+            _ => Self::VisCam,
+        }
+    }
+
+    fn of_triangle(&self, word: u16) -> Option<Colour> {
+        let [low, middle, high] = [0, 5, 10].map(|shift| f32::from(word >> shift & 31) / 31.0);
+        match (self, word >> 15) {
+            (Self::Magics(whole), 1) => Some(*whole),
+            (Self::Magics(_), _) => Some([low, middle, high, 1.0]),
+            (Self::VisCam, 1) => Some([high, middle, low, 1.0]),
+            (Self::VisCam, _) => None,
+        }
+    }
 }
 
 /// Reads a file of text, with all its solids.

@@ -371,6 +371,11 @@ fn what_is_wrong_is_named() {
             ),
             "needs the extension KHR_draco_mesh_compression",
         ),
+        (
+            MeshKind::Gltf,
+            gltf_of("\"asset\"", "\"extensionsRequired\":[\"ACME_new\\nthing\"],\"asset\""),
+            "needs the extension ACME_new\\nthing,",
+        ),
         (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: it is outside"),
         (
             MeshKind::Gltf,
@@ -385,6 +390,66 @@ fn what_is_wrong_is_named() {
             "{problem}: {message}"
         );
         assert!(message.len() < 300 && !message.contains('\n'), "{message}");
+    }
+}
+
+/// Two conventions have the order of the colours and the highest bit the other way round.
+#[test]
+fn binary_stl_files_have_colours() {
+    let coloured = |header: &[u8], words: [u16; 4]| -> Vec<[u8; 4]> {
+        let mut bytes = stl_binary();
+        bytes[..header.len()].copy_from_slice(header);
+        for (number, word) in words.into_iter().enumerate() {
+            bytes[84 + 50 * number + 48..][..2].copy_from_slice(&word.to_le_bytes());
+        }
+        let scene = read(MeshKind::BinaryStl, &bytes).unwrap();
+        let colour = |number| {
+            let material = scene.material(number);
+            let [r, g, b] = material.color;
+            [r, g, b, material.opacity].map(|channel| (channel * 255.0).round() as u8)
+        };
+        (0..4).map(colour).collect()
+    };
+    let words = [
+        0b1_11111_00000_00000,
+        0b1_00000_11111_00000,
+        0b1_00000_00000_11111,
+        0b0_00000_00000_11111,
+    ];
+    let grey = [204, 204, 204, 255];
+    let [red, green, blue] = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255]];
+    assert_eq!(coloured(b"", words), [red, green, blue, grey]);
+    let whole = [1, 2, 3, 255];
+    let header = [&b"made by hand COLOR="[..], &whole].concat();
+    assert_eq!(coloured(&header, words), [whole, whole, whole, red]);
+    assert_eq!(coloured(&header, words.map(|word| word & 0x7fff)), [blue, green, red, red]);
+}
+
+/// `KHR_mesh_quantization`: positions are integers, shares of the largest one or not.
+#[test]
+fn integers_are_positions() {
+    let corners: [[i16; 3]; 3] = [[-32_768, 0, 32_767], [0, 32_767, -100], [16_384, 7, 8]];
+    // Three numbers of 16 bits fill eight bytes.
+    let bytes: Vec<u8> = corners
+        .iter()
+        .flat_map(|corner| corner.iter().copied().chain([0]).flat_map(i16::to_le_bytes))
+        .collect();
+    for (normalized, full) in [(false, 1.0), (true, 32_767.0)] {
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "extensionsUsed":["KHR_mesh_quantization","KHR_materials_unlit"],
+            "extensionsRequired":["KHR_mesh_quantization","KHR_materials_unlit"],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5122,"count":3,"type":"VEC3",
+            "normalized":{normalized}}}],
+            "bufferViews":[{{"buffer":0,"byteLength":24,"byteStride":8}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":24}}]}}"#,
+            STANDARD.encode(&bytes)
+        );
+        let scene = read(MeshKind::Gltf, json.as_bytes()).unwrap();
+        let share = |c: i16| (f64::from(c) / full).max(if normalized { -1.0 } else { -1e9 });
+        let expected = corners.map(|corner| DVec3::from(corner.map(share)));
+        assert_eq!(scene.polygon(0), expected);
     }
 }
 
@@ -459,6 +524,9 @@ fn files_of_other_programs_are_named() {
         (b"<!DOCTYPE html><html>", "HTML"),
         (b"PK\x03\x04\x14", "ZIP"),
         (b"  0\r\nSECTION\r\n  2\r\n", "DXF"),
+        (b"999\nwritten by hand\n999\n\n  0\nSECTION\n", "DXF"),
+        (b"AutoCAD Binary DXF\r\n\x1a\0", "DXF"),
+        (b"FORM\0\0\x01\0LWO2", "LightWave"),
         (b"MM\x08\0\0\0\x02\0", "3DS"),
         (b"{\"a\": 1}", "JSON"),
         (b"\xff\xfe<\0?\0x\0m\0l\0>\0<\0X\x003\0D\0>\0", "X3D"),

@@ -32,11 +32,13 @@ pub(super) struct Arrays {
     back_leaf: Packed,
     front_node: Packed,
     back_node: Packed,
-    /// For each fragment: its polygon, its plane, and its number of corners.
-    polygons: Packed,
-    fragment_planes: Packed,
+    /// Polygons with one of their planes, two numbers each.
+    faces: Packed,
+    /// For each fragment: the number of its face, and its number of corners.
+    fragment_faces: Packed,
     corner_counts: Packed,
-    /// For each of these corners: its vertex, and the kind of the edge from there to the next.
+    /// For each of these corners: how far its vertex is behind the first one that no corner before has, and
+    /// the kind of the edge from there to the next.
     corners: Packed,
     edge_kinds: Packed,
     /// Three numbers each.
@@ -65,8 +67,8 @@ impl Arrays {
             back_leaf: Packed::whole(&nodes.back.leaves),
             front_node: Packed::whole(&nodes.front.nodes),
             back_node: Packed::whole(&nodes.back.nodes),
-            polygons: Packed::whole(&fragments.polygons),
-            fragment_planes: Packed::whole(&fragments.planes),
+            faces: Packed::whole(fragments.faces.list().as_flattened()),
+            fragment_faces: Packed::whole(&fragments.fragment_faces),
             corner_counts: Packed::whole(&fragments.counts),
             corners: Packed::whole(&fragments.corners),
             edge_kinds: Packed::whole(&fragments.edges),
@@ -152,8 +154,8 @@ impl Nodes {
 /// all nodes before it: on its plane, in its front leaf, in its back leaf.
 #[derive(Default)]
 struct Fragments {
-    polygons: Vec<u32>,
-    planes: Vec<u32>,
+    faces: Numbered<[u32; 2]>,
+    fragment_faces: Vec<u32>,
     counts: Vec<u32>,
     corners: Vec<u32>,
     edges: Vec<u32>,
@@ -165,13 +167,14 @@ impl Fragments {
     fn of(tree: &BspTree, planes: &mut Planes) -> Self {
         let mut all = Self::default();
         for fragment in tree.fragments() {
-            all.polygons.push(fragment.polygon() as u32);
-            all.planes.push(planes.through(fragment.grid_points()));
+            let face = [fragment.polygon() as u32, planes.through(fragment.grid_points())];
+            all.fragment_faces.push(all.faces.number(face));
             all.counts.push(fragment.vertex_count() as u32);
             all.edges.extend(edge_kinds(&fragment));
             for vertex in fragment.lattice_vertices() {
                 let bits = vertex.map(|c| ((c / LATTICE_LIMIT) as f32).to_bits());
-                all.corners.push(all.vertices.number(bits));
+                let first_new = all.vertices.list().len() as u32;
+                all.corners.push(first_new - all.vertices.number(bits));
             }
         }
         all

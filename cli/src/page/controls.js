@@ -39,6 +39,7 @@ const style = {
   opacities: Float64Array.from({ length: TREE.fragments }, (_, i) => materialOf(i).opacity),
 };
 let coarse = null, fine = null;
+let graphics = graphicsOf(TREE);
 const state = { count: TREE.fragments, isPlaying: false, isDirty: false, restTimer: 0, filled: 0 };
 
 /** A colour of the style sheet. */
@@ -72,15 +73,25 @@ function readPlace() {
 function draw(fineness) {
   const { clientWidth, clientHeight } = CANVAS;
   const size = [clientWidth, clientHeight].map(side => Math.max(1, side * fineness));
+  if ($("colours").value === "facing") {
+    compare(TREE, viewpointOf(TREE, camera));
+    colour();
+  }
+  if (graphics) {
+    const picture = { width: size[0], height: size[1], lineWidth: fineness };
+    state.filled = graphics.paint(camera, picture, style, state.count);
+    // A card may be taken away.
+    if (graphics.isLost()) graphics = null;
+    else {
+      CANVAS.getContext("2d", { alpha: false }).drawImage(graphics.canvas, 0, 0, CANVAS.width, CANVAS.height);
+      return;
+    }
+  }
   const isOf = picture => picture?.width === size[0] && picture.height === size[1];
   let picture = fineness > 1 ? fine : coarse;
   if (!isOf(picture)) picture = { ...pictureOf(...size), lineWidth: fineness };
   if (fineness > 1) fine = picture;
   else coarse = picture;
-  if ($("colours").value === "facing") {
-    compare(TREE, viewpointOf(TREE, camera));
-    colour();
-  }
   state.filled = paint(TREE, camera, picture, style, state.count);
   show(picture);
 }

@@ -21,9 +21,11 @@ use data::Data;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 6] = [
+    include_str!("inflate.js"),
     include_str!("tree.js"),
     include_str!("picture.js"),
+    include_str!("graphics.js"),
     include_str!("colours.js"),
     include_str!("controls.js"),
 ];

@@ -8,11 +8,18 @@ const ARRAYS = {
 };
 
 /** An array of the page: little-endian, as every processor is that runs a browser. */
-function unpacked({ kind, base64 }) {
+function unpacked({ kind, bytes, base64 }) {
+  const numbers = new ARRAYS[kind](bytes / ARRAYS[kind].BYTES_PER_ELEMENT);
   const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i);
-  return new ARRAYS[kind](bytes.buffer);
+  const packed = new Uint8Array(text.length);
+  for (let i = 0; i < packed.length; i++) packed[i] = text.charCodeAt(i);
+  const planes = inflated(packed, bytes);
+  // The first bytes of all numbers come first.
+  const places = new Uint8Array(numbers.buffer);
+  for (let place = 0, from = 0; from < bytes; place++) {
+    for (let i = place; i < bytes; i += numbers.BYTES_PER_ELEMENT) places[i] = planes[from++];
+  }
+  return numbers;
 }
 
 /** Where each run begins in a list of runs, by their lengths; and where the last one ends. */
@@ -28,6 +35,11 @@ function treeOf(data) {
     Object.entries(data.arrays).map(([name, array]) => [name, unpacked(array)]));
   const { steps, nodePlaneCount } = data;
   const tree = { ...arrays, steps, nodePlaneCount, cornerStarts: starts(arrays.cornerCounts) };
+  tree.polygons = Uint32Array.from(arrays.fragmentFaces, face => arrays.faces[2 * face]);
+  tree.fragmentPlanes = Uint32Array.from(arrays.fragmentFaces, face => arrays.faces[2 * face + 1]);
+  // Corners count back from the first vertex that none before has.
+  let vertices = 0;
+  tree.corners = Uint32Array.from(arrays.corners, back => (back ? vertices - back : vertices++));
   tree.fragments = arrays.cornerCounts.length;
   tree.nodes = arrays.nodePlanes.length;
   addPlanes(tree);

@@ -111,8 +111,8 @@ fn numbers_at_the_end_of_the_range_are_no_panic() {
             format!("verify {scene} --size 40x30 --views 3"),
             format!("stats {scene} --json"),
             format!("render {scene} -o p.png --size 40x30"),
-            format!("render {scene} -o p.svg --size 1x1"),
-            format!("render {scene} -o p.svg --direction=1,2,3"),
+            format!("render {scene} -o p.png --size 1x1"),
+            format!("draw {scene} -o p.svg --direction=1,2,3"),
             format!("render {scene} -o p.png --eye=1e300,0,0 --size 4x3"),
         ] {
             let run = folder.run(&command);
@@ -126,7 +126,7 @@ fn numbers_at_the_end_of_the_range_are_no_panic() {
 fn a_scene_too_large_for_a_camera_is_said_to_be_that() {
     let folder = Folder::new("bad_large");
     folder.write("s.obj", "v -1e308 -1e308 0\nv 1e308 0 0\nv 0 1e308 1e308\nf 1 2 3\n");
-    for command in ["verify s.obj", "render s.obj -o p.png", "render s.obj -o p.svg"] {
+    for command in ["verify s.obj", "render s.obj -o p.png", "draw s.obj -o p.svg"] {
         let message = folder.run(command).refused();
         assert!(message.contains("too large for a camera") && message.contains("1.0e308"));
     }
@@ -185,7 +185,6 @@ fn a_tree_that_memory_does_not_hold_ends_the_program_as_an_error_does() {
     let folder = Folder::new("bad_memory_tree");
     for command in [
         "order random:6000 --eye=1,2,3 -o a.jsonl",
-        "render random:6000 -o a.svg",
         "render random:6000 -o a.png",
         "draw random:6000 -o a.svg",
         "stats random:6000",
@@ -241,7 +240,7 @@ fn libraries_outside_the_folder_are_not_read() {
     ] {
         let text = format!("mtllib {library}\nusemtl red\n{CROSSING}");
         folder.write("scene/s.obj", text);
-        let run = folder.run("stats scene/s.obj");
+        let run = folder.run("stats scene/s.obj --notes");
         let note = format!("material libraries outside the file's folder, not read: {library}");
         assert_eq!(run.err.contains(&note), !is_read, "{library}: {run:?}");
         assert_eq!(run.err.contains("materials not defined: red"), !is_read, "{library}: {run:?}");

@@ -1,4 +1,4 @@
-use crate::run::Folder;
+use crate::run::{Folder, Run};
 
 #[test]
 fn help_has_examples_and_fits() {
@@ -6,9 +6,19 @@ fn help_has_examples_and_fits() {
     for command in
         ["", "demo", "order", "verify", "stats", "render", "draw", "page", "export", "build"]
     {
-        let help = folder.run(&format!("{command} --help")).good();
-        assert!(help.contains("Examples:\n  binspace"), "{help}");
-        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+        let help = |option: &str| {
+            let mut run = folder.command(&format!("{command} {option}"));
+            Run::new(&run.env("COLUMNS", "100").output().unwrap()).good()
+        };
+        let (short, long) = (help("-h"), help("--help"));
+        assert!(short.lines().count() <= 40, "{} lines: {short}", short.lines().count());
+        for help in [&short, &long] {
+            assert!(help.contains("Examples:\n  binspace"), "{help}");
+            assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+        }
+        for option in ["--threads", "--quiet", "--notes"] {
+            assert!(long.contains(option), "{command}: {long}");
+        }
     }
     let version = folder.run("--version").good();
     assert_eq!(version, format!("binspace {}\n", env!("CARGO_PKG_VERSION")));

@@ -21,15 +21,20 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     folder.write("y.obj", block(true));
     folder.write("hangs.obj", block(false).replace(" 0\n", " 1\n"));
     let said = |options: &str| {
-        let run = folder.run(options);
-        let said = run.err.contains("z pointed up");
-        assert!(!said || run.err.contains("`--up z`"), "{}", run.err);
+        let run = folder.run(&format!("{options} --notes"));
+        let said = run.err.contains("z is taken for up, as it stands on z = 0; `--up y`");
         run.good();
         said
     };
     let (render, verify) = ("-o p.png --size 16x12", "--views 1 --size 16x12");
     assert!(said(&format!("render z.obj {render}")));
-    assert!(said("render z.obj -o p.svg"));
+    // The picture is that with z up.
+    let picture = |options: &str| {
+        folder.run(&format!("render z.obj {render} {options}")).good();
+        std::fs::read(folder.path("p.png")).unwrap()
+    };
+    assert_eq!(picture(""), picture("--up z"));
+    assert_ne!(picture(""), picture("--up y"));
     assert!(said("draw z.obj -o p.svg"));
     assert!(said(&format!("verify z.obj {verify}")));
     for options in [
@@ -46,8 +51,9 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     ] {
         assert!(!said(&options), "{options}");
     }
-    let run = crate::run::Run::new(&folder.pipe(&format!("verify - {verify}"), block(false)));
-    assert!(run.err.contains("standard input: it looks as if z pointed up"), "{}", run.err);
+    let run =
+        crate::run::Run::new(&folder.pipe(&format!("verify - {verify} --notes"), block(false)));
+    assert!(run.err.contains("standard input: z is taken for up"), "{}", run.err);
 }
 
 #[test]
@@ -55,7 +61,7 @@ fn a_drawing_of_nothing_is_noted() {
     let folder = Folder::new("notes_nothing");
     folder.write("block.obj", block(true));
     let says = |options: &str| {
-        let run = folder.run(&format!("draw block.obj --size 16x12 {options}"));
+        let run = folder.run(&format!("draw block.obj --size 16x12 {options} --notes"));
         let says = run.err.contains("block.obj: the picture shows nothing of it");
         run.good();
         says
@@ -65,4 +71,33 @@ fn a_drawing_of_nothing_is_noted() {
         // Everything is behind the eye.
         assert!(says(&format!("--eye 0,9,0 --target 0,20,1 -o {output}")), "{output}");
     }
+}
+
+#[test]
+fn the_notes_on_a_scene_are_one_line_unless_all_or_none_are_asked_for() {
+    let folder = Folder::new("notes_line");
+    folder.write("s.obj", block(false) + "f 1 1 2\nf 1 2 7 4\n");
+    let notes = |options: &str| {
+        let run = folder.run(&format!("render s.obj -o a.png {options}"));
+        let notes = run.err.clone();
+        run.good();
+        notes
+    };
+    assert_eq!(notes("--quiet"), "");
+    let brief = notes("");
+    assert_eq!(brief.lines().count(), 1, "{brief}");
+    for part in
+        ["note: s.obj: tolerance ", " (rounded input); ", "; 1 face triangulated; 1 dropped; "]
+    {
+        assert!(brief.contains(part), "{brief}");
+    }
+    assert!(
+        brief.contains("z is taken for up") && brief.ends_with("; --notes for each\n"),
+        "{brief}"
+    );
+    let each = notes("--notes");
+    assert_eq!(each.lines().count(), 4, "{each}");
+    assert!(each.lines().all(|line| line.starts_with("note: s.obj: ")), "{each}");
+    // Errors are printed all the same.
+    assert!(folder.run("stats missing.obj --quiet").refused().contains("missing.obj"));
 }

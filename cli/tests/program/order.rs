@@ -125,7 +125,7 @@ fn polygons_are_numbered_by_their_line_in_the_file() {
     // A point, a line, a face without area and one of two corners lie between them.
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nf 1 2 4\nl 1 2 3\nf 1 2\nf 1 2 3\n";
     folder.write("s.obj", text);
-    let run = folder.run("order s.obj --eye=0,0,1");
+    let run = folder.run("order s.obj --eye=0,0,1 --notes");
     for part in [
         "`p` lines skipped: 1",
         "`l` lines skipped: 1",
@@ -144,7 +144,7 @@ fn polygons_are_numbered_by_their_line_in_the_file() {
 fn of_many_dropped_faces_the_first_are_named() {
     let folder = Folder::new("order_dropped");
     folder.write("s.obj", format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}f 1 2 3\n", "f 1 2 1\n".repeat(9)));
-    let run = folder.run("order s.obj --eye=0,0,1");
+    let run = folder.run("order s.obj --eye=0,0,1 --notes");
     let names = "face 0 (line 4), face 1 (line 5), face 2 (line 6) and 6 more";
     assert!(run.err.contains(&format!("9 faces without area dropped: {names}")), "{}", run.err);
     assert_eq!(run.good().lines().count(), 1);
@@ -155,10 +155,10 @@ fn duplicate_faces_are_kept_and_said() {
     let folder = Folder::new("order_duplicates");
     let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\n";
     folder.write("s.obj", format!("{corners}f 1 2 3 4\nf 3 2 5 4\nf 1 2 3\n"));
-    let run = folder.run("order s.obj --eye=0,0,1");
+    let run = folder.run("order s.obj --eye=0,0,1 --notes");
     assert!(run.err.contains("s.obj: 1 face given more than once"), "{}", run.err);
     assert_eq!(run.good().lines().count(), 3);
-    let run = folder.run("stats s.obj --json");
+    let run = folder.run("stats s.obj --json --notes");
     assert!(run.err.contains("1 face given more than once"), "{}", run.err);
     assert!(run.good().contains("\"duplicates\":1"));
     assert!(folder.run("stats s.obj").good().contains("0 triangulated, 1 duplicate\n"));
@@ -168,7 +168,7 @@ fn duplicate_faces_are_kept_and_said() {
 fn faces_that_cross_themselves_are_said() {
     let folder = Folder::new("order_crossing");
     folder.write("s.obj", "v 0 0 0\nv 3 2 0\nv 3 0 0\nv 0 1 0\nf 1 2 3 4\n");
-    let run = folder.run("stats s.obj --json");
+    let run = folder.run("stats s.obj --json --notes");
     assert!(run.err.contains("s.obj: of these, 1 face with crossing edges"), "{}", run.err);
     assert!(run.good().contains("\"crossing\":1"));
 }
@@ -198,7 +198,7 @@ fn there_is_no_negative_zero() {
     for command in [
         "order s.obj --eye=-0,-0,1 --eye=-0,-0,-1 --edges --weights",
         "order s.obj --eye=-0,-0,1 --cull back --weights",
-        "render s.obj -o - --format svg --direction=-0,-0,-1 --target=-0,-0,-0",
+        "draw s.obj -o - --direction=-0,-0,-1 --target=-0,-0,-0",
         "stats s.obj --json",
     ] {
         // No number is a negative zero; "-0.5" and "1e-05" are not meant.

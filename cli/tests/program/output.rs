@@ -189,7 +189,6 @@ fn output_that_cannot_be_written_is_an_error_in_every_command() {
     for command in [
         "order s.obj --eye=3,2,6 -o /dev/full",
         "render s.obj --size 8x6 -o full.png",
-        "render s.obj --size 8x6 -o full.svg",
         "draw s.obj --size 8x6 -o full.svg",
         "draw s.obj --size 8x6 -o full.pdf",
         "draw s.obj --size 8x6 -o full.png",

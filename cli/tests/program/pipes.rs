@@ -13,7 +13,7 @@ fn a_scene_on_standard_input_is_that_of_the_file() {
         "order SCENE --eye=3,2,6",
         "order SCENE --eye=3,2,6 --edges --weights",
         "verify SCENE --views 2 --size 20x10",
-        "render SCENE -o - --format svg",
+        "draw SCENE -o -",
         "draw SCENE -o - --ids",
     ] {
         let piped = Run::new(&folder.pipe(&command.replace("SCENE", "-"), CROSSING));
@@ -47,7 +47,7 @@ fn material_libraries_beside_standard_input_are_not_read_and_that_is_said() {
     let folder = Folder::new("pipes_materials");
     folder.write("m.mtl", "newmtl red\nKd 1 0 0\n");
     let text = format!("mtllib m.mtl\nmtllib ../n.mtl\nusemtl red\n{CROSSING}");
-    let output = folder.pipe("render - -o - --size 40x30", &text);
+    let output = folder.pipe("render - -o - --size 40x30 --notes", &text);
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.contains("name the file to have the colours of m.mtl, ../n.mtl"), "{said}");
     assert_eq!(said.matches("m.mtl").count(), 1, "{said}");
@@ -76,19 +76,20 @@ fn a_picture_on_standard_output_is_that_of_the_file() {
     let folder = Folder::new("pipes_output");
     folder.write("s.obj", CROSSING);
     for (options, file) in [
-        ("", "a.png"),
-        ("--format png --samples 2", "a.png"),
-        ("--depth", "a.png"),
-        ("--format svg", "a.svg"),
+        ("render", "a.png"),
+        ("render --samples 2", "a.png"),
+        ("render --depth", "a.png"),
+        ("draw --format png", "a.png"),
+        ("draw", "a.svg"),
     ] {
-        let command = format!("render s.obj --size 40x30 {options} -o");
+        let command = format!("{options} s.obj --size 40x30 -o");
         let piped = folder.pipe(&format!("{command} -"), "");
         assert_eq!(piped.status.code(), Some(0));
         folder.run(&format!("{command} {file}")).good();
         assert_eq!(piped.stdout, fs::read(folder.path(file)).unwrap(), "{options}");
     }
     // A name without a known extension, with a format.
-    folder.run("render s.obj --size 40x30 --format svg -o drawing").good();
+    folder.run("draw s.obj --size 40x30 --format svg -o drawing").good();
     assert!(fs::read_to_string(folder.path("drawing")).unwrap().starts_with("<svg"));
     assert_eq!(folder.files(), ["a.png", "a.svg", "drawing", "s.obj"]);
 }
@@ -116,15 +117,15 @@ fn a_png_is_not_written_to_a_terminal() {
     let terminal = || open(name.as_c_str(), OFlags::RDWR | OFlags::NOCTTY, Mode::empty()).unwrap();
     let device = name.to_str().unwrap();
     let run = |options: &str| {
-        let mut command = folder.command(&format!("render newell --size 8x6 {options}"));
+        let mut command = folder.command(&format!("{options} newell --size 8x6"));
         let output = command.stdout(terminal()).output().unwrap();
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
-    for options in ["-o -".to_owned(), format!("--format png -o {device}")] {
+    for options in ["render -o -".to_owned(), format!("render -o {device}")] {
         let (status, message) = run(&options);
         assert_eq!(status, Some(2), "{message}");
         assert!(message.contains("a PNG is not for a terminal"), "{message}");
     }
-    assert_eq!(run("-o - --format svg").0, Some(0));
-    assert_eq!(run("-o p.png").0, Some(0));
+    assert_eq!(run("draw -o -").0, Some(0));
+    assert_eq!(run("render -o p.png").0, Some(0));
 }

@@ -37,7 +37,7 @@ fn files_that_test_parsers_are_read_or_refused() {
             format!("order {path} --eye=3,2,1"),
             format!("verify {path} --size 64x48 --views 2"),
             format!("stats {path}"),
-            format!("render {path} -o p.svg"),
+            format!("draw {path} -o p.svg"),
         ] {
             let run = folder.run(&command);
             assert!(matches!(run.status, Some(0 | 2)), "{command}: {run:?}");

@@ -31,9 +31,9 @@ fn every_command_says_the_same_of_a_scene_and_of_its_tree_s_file() {
         "order SCENE --eye=3,2,6 --eye=-1,2,2 --front-to-back --cull back",
         "order SCENE --direction=0,0,-1",
         "verify SCENE --views 4 --size 40x30",
-        "render SCENE -o - --format svg --up z",
         "draw SCENE -o - --up z --opaque --ids",
     ] {
+        let command = &format!("{command} --notes");
         let scene = folder.run(&command.replace("SCENE", "s.obj"));
         let file = folder.run(&command.replace("SCENE", "s.bsp"));
         // The tolerance of an existing tree was chosen before.

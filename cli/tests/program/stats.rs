@@ -91,7 +91,7 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
     let folder = Folder::new("stats_tolerance");
     folder.write("s.obj", rounded_quads(6));
     let run = |options: &str| {
-        let run = folder.run(&format!("stats s.obj --json {options}"));
+        let run = folder.run(&format!("stats s.obj --json --notes {options}"));
         let notes = run.err.clone();
         (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
     };
@@ -117,7 +117,7 @@ fn quads_that_a_coarse_rounding_bends_are_noted_with_a_tolerance_that_helps() {
     let folder = Folder::new("stats_coarse");
     for places in [2, 3] {
         folder.write("s.obj", rounded_quads(places));
-        let run = folder.run("stats s.obj --json");
+        let run = folder.run("stats s.obj --json --notes");
         let notes = run.err.clone();
         let line: Value = serde_json::from_str(&run.good()).unwrap();
         let (bent, bent_by) = (line["bent"].as_u64().unwrap(), line["bent_by"].as_f64().unwrap());

@@ -1,4 +1,4 @@
-//! Anti-aliasing: the visible areas in each pixel, against samples, and against coverages blended in paint
+//! Antialiasing: compares the visible areas in each pixel with samples, and with coverages blended in paint
 //! order.
 
 use binspace::drawing::VisibilityMap;
@@ -83,8 +83,8 @@ pub fn supersampled(
         .collect())
 }
 
-/// The fragments of a tree painted back to front, each blended with the share of the pixel that it covers
-/// as its opacity.
+/// Paints the fragments of a tree back to front. The opacity of a fragment in a pixel is the share of the pixel
+/// that it covers.
 ///
 /// Painting programs do this. It is wrong along edges that fragments share: the share is the covered area of
 /// a pixel, not the covered part (T. Porter and T. Duff, "Compositing digital images", 1984, take the parts
@@ -172,7 +172,7 @@ fn part(corners: &[[f64; 2]], value: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> 
     left
 }
 
-/// The area of a polygon, whichever way around its corners run.
+/// The area of a polygon of either orientation.
 fn area(corners: &[[f64; 2]]) -> f64 {
     let Some(&[ox, oy]) = corners.first() else { return 0.0 };
     let cross = |pair: &[[f64; 2]]| {

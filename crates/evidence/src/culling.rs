@@ -67,7 +67,7 @@ pub struct Left {
     pub wrong: usize,
 }
 
-/// The steps of culling in figures, each picture held against the exact one of all polygons.
+/// Measures the steps of culling. Each picture is compared with the exact picture of all polygons.
 pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
     let truth = zbuffer(rays, tree.faces());
     let left = |Step { name, left, time }| {
@@ -135,7 +135,7 @@ mod tests {
     use binspace::raster::NONE;
     use binspace::scene;
 
-    /// Holds every step against the exact picture of all, and the last against its owners.
+    /// Compares every step with the exact picture of all polygons, and the last step with the owners of pixels.
     fn check(tree: &BspTree, camera: &Camera) -> Vec<usize> {
         let rays = Rays::new(camera, tree.faces()).unwrap();
         let truth = zbuffer(&rays, tree.faces());

@@ -1,4 +1,4 @@
-//! Which sides of faces a viewpoint sees: back-face detection.
+//! Back-face detection: the sides of faces that a viewpoint sees.
 
 #[cfg(test)]
 mod tests;
@@ -12,7 +12,7 @@ use binspace::internals::{Eye, Faces};
 use crate::place::{self, Plane};
 
 /// The numbers of faces that show each side to a viewpoint, by the sign of Ax + By + Cz + D at the eye, in
-/// big integers. For parallel rays along the z axis the sign is that of C.
+/// big integers. For parallel rays along the z axis this is the sign of C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Facing {
     /// Faces that show their front.

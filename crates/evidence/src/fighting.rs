@@ -1,5 +1,4 @@
-//! Two sheets so near each other that depth buffers cannot separate them: they show through each other in
-//! patches (z-fighting).
+//! Z-fighting: two sheets so near each other that depth buffers cannot separate them.
 
 use glam::DVec3;
 
@@ -9,8 +8,8 @@ use binspace::raster::{Image, Rays, zbuffer};
 use binspace::view::Camera;
 
 /// A sheet that fills the picture and recedes from 20 to 190 units, and another behind it whose
-/// distance from the eye is larger by a share `gap` along every ray. The further comes first, so that
-/// it shows wherever a buffer stores the same of both.
+/// distance from the eye is larger by a share `gap` along every ray. The further sheet comes first,
+/// so it shows wherever a buffer stores the same number for both.
 #[derive(Debug)]
 pub struct Sheets {
     gap: f64,
@@ -198,7 +197,7 @@ fn is_linear(format: DepthFormat) -> bool {
 /// A sheet as two triangles, `times` as far away.
 fn sheet(times: f64) -> [[DVec3; 3]; 2] {
     let [near, far] = ENDS;
-    // A little beyond the picture's corners. 1 / w is linear there, as it is on every plane.
+    // A little beyond the picture's corners. 1 / w is linear there, as on every plane.
     let corner = |x: f64, y: f64| {
         let share = 0.5 + 0.47 * y + 0.03 * x;
         let depth = times / (near + share * (far - near));

@@ -8,11 +8,11 @@ use num_traits::Signed;
 use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
-/// The faces that each pixel's ray meets, the nearest first. Of faces met at the same point the later
-/// polygon's comes first, as it is painted later.
+/// The faces that each pixel's ray meets, the nearest first. Of faces at the same point, the face of the later
+/// polygon comes first, because it is painted later.
 ///
 /// Where the ray meets a plane is a fraction of two integers, and fractions are compared by
-/// multiplication, so no order is ever in doubt.
+/// multiplication, so every order is exact.
 #[derive(Clone, Debug)]
 pub struct Layers {
     pixels: Vec<Vec<u32>>,

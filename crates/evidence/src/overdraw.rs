@@ -51,7 +51,7 @@ impl Overdraw {
     }
 }
 
-/// The painter's: every fragment of a tree over all fragments behind it, each pixel written each time.
+/// The overdraw of a painter: it writes a pixel once for every fragment that covers it.
 pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     let (mut overdraw, mut pieces) = (Overdraw::new(rays), Pieces::default());
     let width = rays.size()[0];
@@ -90,8 +90,8 @@ pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     Ok(overdraw)
 }
 
-/// The depth buffer's, of faces in an order: a pixel is written whenever a face is nearer than all earlier
-/// ones. `layers` belong to the same rays.
+/// The overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is nearer than all
+/// earlier ones. `layers` belong to the same rays.
 pub fn depth_buffer(
     faces: &Faces,
     rays: &Rays,
@@ -118,8 +118,7 @@ pub fn depth_buffer(
     overdraw
 }
 
-/// A colour for each count: black is none, then blue for one, over green and yellow to red for
-/// `most` and more.
+/// A colour for each count: black for zero, blue for one, then green and yellow, and red for `most` or more.
 pub fn heat(counts: &[u32], most: u32) -> Vec<u8> {
     const STOPS: [[f64; 3]; 5] = [
         [40.0, 60.0, 150.0],

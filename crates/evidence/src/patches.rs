@@ -13,7 +13,7 @@ use binspace::{BspTree, Ray};
 
 /// Sight lines end this share of their length before the surfaces that they join, as points of surfaces are
 /// rounded. A face that is nearer to an end does not block.
-pub const RIM: f64 = 1e-6;
+pub const SHORTENED: f64 = 1e-6;
 
 /// A quad that is lit evenly; its front is the side from which its corners run counter-clockwise.
 #[derive(Clone, Copy, Debug)]
@@ -183,7 +183,7 @@ fn seen(point: DVec3, normal: DVec3, patch: &Patch) -> f64 {
 
 /// Whether one point of a surface sees another.
 fn is_free(tree: &BspTree, p: DVec3, q: DVec3) -> bool {
-    !tree.is_occluded(Ray::between(p.lerp(q, RIM), q.lerp(p, RIM)))
+    !tree.is_occluded(Ray::between(p.lerp(q, SHORTENED), q.lerp(p, SHORTENED)))
 }
 
 /// A number from 0 to 1.

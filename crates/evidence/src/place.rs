@@ -1,8 +1,8 @@
-//! Where planes and vertices are by their definitions, in big integers.
+//! The exact positions of planes and vertices, from their definitions, in big integers.
 //!
 //! It shares no arithmetic with the library's: planes by their coefficients, vertices as crossings
-//! of segments and by Cramer's rule. It takes over the input: the corners on the lattice, which of
-//! them define a face's plane, and the names of planes and vertices.
+//! of segments and by Cramer's rule. Its input is the corners on the lattice, the
+//! corners that define each face's plane, and the names of planes and vertices.
 
 use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use dashu_int::IBig;

@@ -26,7 +26,7 @@ pub enum Met {
     /// Nothing.
     Nothing,
     /// Its boundary, or all of its plane.
-    Rim,
+    Boundary,
     /// Its inside.
     At(Depth),
 }
@@ -39,7 +39,7 @@ pub struct Depth {
 }
 
 impl Depth {
-    /// Which is further.
+    /// Compares two depths.
     pub fn compare(&self, other: &Self) -> Ordering {
         (self.over * other.under).cmp(&(other.over * self.under))
     }
@@ -102,7 +102,7 @@ impl PlainView {
         let normal = cross(minus(corner(1), corner(0)), minus(corner(2), corner(0)));
         let (over, under) = (dot(normal, corner(0)), dot(normal, ray));
         if on || under == 0 {
-            return Met::Rim;
+            return Met::Boundary;
         }
         let sign = under.signum();
         let (over, under) = (over * sign * -ray[2], under * sign);
@@ -116,7 +116,7 @@ impl PlainView {
         for (polygon, number) in polygons.iter().zip(0..) {
             match self.meet(polygon, pixel) {
                 Met::Nothing => {}
-                Met::Rim => return None,
+                Met::Boundary => return None,
                 Met::At(depth) => met.push((number, depth)),
             }
         }

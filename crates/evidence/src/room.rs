@@ -94,7 +94,7 @@ impl Room {
         (0..self.patches.len()).map(|k| [0, 1, 2].map(|c| channels[c][k])).collect()
     }
 
-    /// Where the lamp's light went.
+    /// The destinations of the lamp's light.
     pub fn balance(&self) -> Balance {
         let sent: f64 =
             self.patches.iter().zip(&self.light).map(|(p, light)| p.area() * light).sum();

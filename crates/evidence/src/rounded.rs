@@ -93,7 +93,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// Where a piece lies.
+    /// The side of a plane on which a piece lies.
     pub fn classify(&self, piece: &RoundedPiece) -> Side {
         if self.plane == PlaneId::face(piece.face) {
             return Side::Coplanar;
@@ -139,7 +139,7 @@ impl<T: Precision> RoundedPlane<T> {
         parts
     }
 
-    /// Where the plane cuts an edge.
+    /// The point in which the plane cuts an edge.
     fn crossing(&self, from: &Vertex, to: &Vertex) -> Vertex {
         let (a, b) = (self.distance(from.position), self.distance(to.position));
         let t = T::round(a / T::round(a - b));
@@ -189,9 +189,8 @@ struct Pending {
 
 impl Tree {
     /// Builds a tree of faces by rounded numbers: vertices no further from a plane than `epsilon`
-    /// times half the scene's extent are on it. It cuts wrongly wherever distances are near the
-    /// epsilon or the precision; `Heuristic::Sampled` is the same choice of planes with exact
-    /// decisions.
+    /// times half the scene's extent are on it. Decisions are wrong where distances are near
+    /// the epsilon or the precision. `Heuristic::Sampled` chooses the same planes with exact decisions.
     ///
     /// `None` if there would be more than `max_fragments` fragments.
     pub fn with_epsilon<T: Precision>(
@@ -310,7 +309,9 @@ fn choose<T: Precision>(faces: &Faces, pieces: &[RoundedPiece], epsilon: f64) ->
 
 /// On which side of a face's plane an eye lies, rounded.
 fn eye_side<T: Precision>(faces: &Faces, plane: PlaneId, eye: &Eye) -> Ordering {
-    let PlaneKind::Face(face) = plane.kind() else { unreachable!("planes are those of faces") };
+    let PlaneKind::Face(face) = plane.kind() else {
+        unreachable!("only planes of faces are chosen")
+    };
     let RoundedPlane { normal, offset, .. } = RoundedPlane::<T>::new(faces, face, 0.0);
     let (e, w) = eye.homogeneous();
     let distance = normal[0] * e[0] + normal[1] * e[1] + normal[2] * e[2] - w * offset;

@@ -39,8 +39,8 @@ pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
     }
 }
 
-/// Whether one convex polygon lies between a point and all corners of a lamp. Then it hides all of the lamp,
-/// as the hidden part of the lamp's plane is convex.
+/// Whether one convex polygon lies between a point and all corners of a lamp. Then it hides the whole
+/// lamp, because the hidden part of the lamp's plane is convex.
 pub fn is_umbra(tree: &BspTree, point: DVec3, corners: &[DVec3]) -> bool {
     let between = |&at: &DVec3| {
         let hits = tree.hits(Ray::between(point, at));
@@ -77,7 +77,7 @@ pub fn lamp(side: u32) -> Vec<DVec3> {
     (0..side * side).map(at).collect()
 }
 
-/// The points of surfaces that a camera sees, rounded to whole numbers; `None` where there is none.
+/// The points of surfaces that a camera sees, rounded to whole numbers; `None` in empty pixels.
 pub fn seen_points(camera: &Camera, eye: DVec3, rays: &Rays, tree: &BspTree) -> Vec<Option<DVec3>> {
     let [width, height] = camera.size().map(f64::from);
     let depth = zbuffer(rays, tree.faces());

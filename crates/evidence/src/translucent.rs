@@ -10,7 +10,7 @@ use binspace::internals::Pieces;
 /// A colour, each channel from 0 to 1.
 pub type Colour = [f32; 3];
 
-/// How a polygon looks: its colour, and its opacity from 0 to 1.
+/// The appearance of a polygon: its colour, and its opacity from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// The colour.

@@ -1,4 +1,4 @@
-//! A tree as plain lists, to measure its errors and its orders, for any builder.
+//! A tree of any builder as plain lists, to measure its errors and its orders.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -17,11 +17,11 @@ pub struct Tree {
     /// The vertices of all fragments that are not whole faces.
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) cuts: usize,
-    /// On which side of a plane an eye lies.
+    /// The side of a plane on which an eye lies.
     pub(crate) eye_side: fn(&Faces, PlaneId, &Eye) -> Ordering,
 }
 
-/// Nodes stand depth first, the front before the back. Fragments are numbered likewise: fragments on the
+/// Nodes are stored depth first, the front before the back. Fragments are numbered likewise: fragments on the
 /// plane, in a front leaf, in a back leaf, then in the nodes below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {

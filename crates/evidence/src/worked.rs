@@ -7,8 +7,8 @@ use binspace::glam::DVec3;
 use binspace::view::Camera;
 use binspace::{BspTree, Error};
 
-/// Where eight walls stand on a floor, as x and y of their ends, by their letters. In the order of
-/// the letters as the order of splitters, A divides C, F and G from B, D, E and H; C divides F from
+/// The eight walls on a floor: their letters, and x and y of their ends. If the planes are taken in
+/// alphabetical order, A divides C, F and G from B, D, E and H; C divides F from
 /// G; and B cuts D into D₁ and D₂.
 const EIGHT: [(char, [[f64; 2]; 2]); 8] = [
     ('A', [[2.0, 8.0], [7.0, 8.0]]),
@@ -21,7 +21,7 @@ const EIGHT: [(char, [[f64; 2]; 2]); 8] = [
     ('H', [[6.0, 2.0], [9.0, 1.0]]),
 ];
 
-/// Where the eye of the eight walls is, on their floor.
+/// The position of the eye on the floor.
 pub const EYE_OF_EIGHT: [f64; 2] = [8.0, 0.0];
 
 /// The order in which this eye's picture is painted, worked by hand.

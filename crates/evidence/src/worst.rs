@@ -1,4 +1,4 @@
-//! Scenes that trees cut into the maximal number of pieces.
+//! Scenes whose trees have the maximal number of pieces.
 
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@ use binspace_cli::values;
 use binspace_evidence::Family;
 use clap::{Args, Parser, Subcommand};
 
-/// What a course on visibility teaches, and every way to decide visibility, measured and judged
+/// A course on visibility as a page, and a report that compares methods to decide visibility
 #[derive(Debug, Parser)]
 #[command(name = "binspace-lab", version, max_term_width = 100)]
 pub(crate) struct Cli {
@@ -21,9 +21,9 @@ pub(crate) enum Command {
     Report(ReportArgs),
 }
 
-/// Show what a course on visibility teaches, measured and judged, as one page
+/// Write the subjects of a course on visibility as one page
 ///
-/// Pictures and graphs with a few sentences each, in the order of a course, in one HTML file that needs no
+/// The page has pictures, graphs and short texts in the order of a course. It is one HTML file that needs no
 /// network. All figures come from the run, which takes less than half a minute on two processors.
 #[derive(Args, Debug)]
 #[command(after_help = LECTURE)]
@@ -33,14 +33,14 @@ pub(crate) struct LectureArgs {
     pub(crate) output: PathBuf,
 }
 
-/// Measure every way to decide visibility: speed against error
+/// Compare the speed and the errors of methods to decide visibility
 ///
-/// Trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and depth
-/// buffers paint families of scenes that grow harder step by step, and the scenes that you name.
-/// Each pixel, vertex and piece is compared with exact truth. Writes report.md, plots as SVG, and
-/// the figures as CSV; errors.csv is the same for the same seed on any machine. If the command is
-/// interrupted, the results so far are kept. The exit status is 1 if the exact tree is wrong
-/// anywhere, or is too large to be built.
+/// The methods are trees with exact and with rounded decisions, Newell's algorithm, sorted centroids
+/// and depth buffers. They paint families of scenes that become harder step by step, and the scenes
+/// that you name. Each pixel, vertex and piece is compared with an exact result. Writes report.md,
+/// plots as SVG, and figures as CSV; errors.csv is the same for the same seed on any machine. If the
+/// command is interrupted, the results so far are kept. The exit status is 1 if the exact tree is
+/// wrong anywhere, or is too large to be built.
 #[derive(Args, Debug)]
 #[command(after_help = REPORT)]
 pub(crate) struct ReportArgs {

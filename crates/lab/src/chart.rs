@@ -1,4 +1,4 @@
-//! A chart with two logarithmic axes, a place for zero, and a legend beside it.
+//! A chart with two logarithmic axes, a separate lane for zero, and a legend.
 
 mod scale;
 
@@ -16,10 +16,10 @@ use plotters::prelude::{
 use self::scale::{Scale, label};
 use binspace_cli::failure::Failure;
 
-/// The picture, in pixels, and the part of it for the legend.
+/// The size of the picture, and the width of the legend, in pixels.
 const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
-/// How high the place for zero is, as a share of the axis above it.
+/// The height of the lane for zero, as a share of the axis above it.
 const LANE: f64 = 0.28;
 /// Its distance below the axis, as a share of its own height.
 const GAP: f64 = 0.3;
@@ -36,7 +36,7 @@ pub(crate) enum Marker {
     Cross,
 }
 
-/// How a series looks.
+/// The colour and the marker of a series.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Style {
     colour: RGBColor,
@@ -66,25 +66,25 @@ impl Series {
         Self { name: name.to_owned(), style, points, line: true }
     }
 
-    /// Points alone, and larger ones, as there are few.
+    /// Points without a line. They are few, so they are drawn larger.
     pub(crate) fn without_line(mut self) -> Self {
         self.style.reach = self.style.reach.max(6);
         Self { line: false, ..self }
     }
 }
 
-/// The data to draw, and their name.
+/// The data of a chart, and its title.
 #[derive(Debug)]
 pub(crate) struct Chart<'a> {
     pub(crate) title: &'a str,
     pub(crate) x_label: &'a str,
     pub(crate) y_label: &'a str,
-    /// Ticks of the x axis; decades if there are none.
+    /// Ticks of the x axis; if `None`, decades.
     pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
     pub(crate) falls: bool,
-    /// Whether values may be 0: they are drawn in a separate lane below the axis, side by side, so that none
-    /// hides another.
+    /// Whether values may be 0. Zeros are drawn in a separate lane below the axis, side by side, so that all are
+    /// visible.
     pub(crate) zero: bool,
     pub(crate) series: Vec<Series>,
 }
@@ -92,7 +92,7 @@ pub(crate) struct Chart<'a> {
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Plot<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Scale, Scale>>;
 
-/// The place for zero: where it ends above, how high it is, and its ends to the sides.
+/// The lane for zero: its upper end, its height, and its ends on the left and right.
 struct Lane {
     top: f64,
     height: f64,
@@ -114,7 +114,7 @@ impl Chart<'_> {
         Ok(svg)
     }
 
-    /// Both axes, and the lane for zero at the foot of the second.
+    /// Both axes, and the lane for zero below the second.
     fn scales(&self) -> (Scale, Scale, Lane) {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let mut x = match &self.ticks {
@@ -124,7 +124,7 @@ impl Chart<'_> {
         x.falls = self.falls;
         let mut y = Scale::decades(points().map(|&(_, y)| y).filter(|&y| y > 0.0));
         let height = if self.zero { LANE * (y.high - y.low) } else { 0.0 };
-        // The distance below the axis, so that no mark in it reaches a value that is not zero.
+        // A gap below the axis, so that no marker in the lane reaches values above zero.
         let gap = GAP * height;
         let lane = Lane { top: y.low - gap, height, ends: [x.low, x.high] };
         if self.zero {
@@ -173,10 +173,10 @@ impl Chart<'_> {
     fn draw_points(&self, chart: &mut Plot<'_>, lane: &Lane) -> Result<(), Failure> {
         let has_zero = |series: &&Series| series.points.iter().any(|point| point.1 <= 0.0);
         let count = self.series.iter().filter(has_zero).count() as f64;
-        // Away from the lane's edges, which would cut through marks.
+        // Away from the lane's edges, which would clip markers.
         let step = lane.height / (count + 1.0);
         let mut slot = lane.top - lane.height + step;
-        // The first is drawn last, above all others.
+        // The first series is drawn last, over all others.
         for series in self.series.iter().rev() {
             let place = |&(x, y): &(f64, f64)| (x.log10(), if y > 0.0 { y.log10() } else { slot });
             let places: Vec<(f64, f64)> = series.points.iter().map(place).collect();
@@ -209,7 +209,7 @@ impl Chart<'_> {
     }
 }
 
-/// A point, of the same size in pixels wherever it is.
+/// A marker, whose size in pixels does not depend on its position.
 fn draw_marker<C: plotters::coord::CoordTranslate>(
     area: &DrawingArea<SVGBackend<'_>, C>,
     at: C::From,

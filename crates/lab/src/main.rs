@@ -1,5 +1,5 @@
-//! The program `binspace-lab`: the content of a course on visibility, and every way to decide visibility,
-//! measured and judged.
+//! The program `binspace-lab`: a course on visibility as a page, and a report that compares methods to decide
+//! visibility.
 
 mod args;
 mod chart;

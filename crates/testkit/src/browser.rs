@@ -54,7 +54,7 @@ pub fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }
 
-/// The same hash, of a list in the script.
+/// Computes the same hash of a list in the script.
 pub fn hash_in_script(list: &str) -> String {
     format!(
         "({list}.reduce((hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0)"

@@ -70,7 +70,7 @@ fn lattice(bytes: &mut Unstructured<'_>) -> Result<DVec3> {
     Ok(DVec3::new(axis()?, axis()?, axis()?))
 }
 
-/// Any coordinates from −1 to 1; now and then any bits at all.
+/// Any coordinates from −1 to 1; occasionally any bits.
 fn number(bytes: &mut Unstructured<'_>) -> Result<DVec3> {
     if bytes.int_in_range(0..=31u8)? == 7 {
         return Ok(DVec3::new(bytes.arbitrary()?, bytes.arbitrary()?, bytes.arbitrary()?));

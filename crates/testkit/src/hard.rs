@@ -222,7 +222,7 @@ pub fn chaos() -> impl Strategy<Value = Vec<Corners>> {
     prop::collection::vec(prop::collection::vec(point(), 3), 2..7)
 }
 
-/// Offsets to 1e8 and scales from 1e-30 to 1e30, often neither.
+/// Offsets up to 1e8 and scales from 1e-30 to 1e30, often none.
 fn placement() -> impl Strategy<Value = (DVec3, f64)> {
     let far = (prop::array::uniform3(-1.0..1.0f64), 2..=8i32);
     let offset = prop_oneof![

@@ -240,7 +240,7 @@ impl Face {
 }
 
 impl Line {
-    /// A point of it, in lattice units.
+    /// A point of the hit, in lattice units.
     fn at(&self, u: &Fraction) -> Point {
         let under = &u.under << self.bits;
         std::array::from_fn(|i| {
@@ -265,7 +265,7 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// The oracle of an overlay's hits. The faces are the tree's, and those of the overlay's polygons.
+    /// The oracle of an overlay's hits. It contains the faces of the tree and of the overlay's polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }
@@ -499,7 +499,7 @@ impl<'t> Oracle<'t> {
         Ok(())
     }
 
-    /// Checks that the parameter and the point are as near as documented.
+    /// Checks that the errors of the parameter and of the point are within the documented bounds.
     fn check_place(&self, line: &Line, hit: &Hit<'_>, u: &Fraction) -> Result<(), String> {
         let (exact, rounded) = (line.parameter(u), hit.parameter());
         if (rounded - exact).abs() > exact.abs() * 2f64.powi(-52) && exact.is_normal() {

@@ -1,4 +1,4 @@
-//! Pages like those of a compositor of CSS 3D layers, from a seed: for tests, benches and examples.
+//! Pages as in a compositor of CSS 3D layers, from a seed: for tests, benches and examples.
 //!
 //! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its
 //! own origin; its matrix places it on a screen of [`SCREEN`] pixels and includes the page's perspective.

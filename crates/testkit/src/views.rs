@@ -67,7 +67,7 @@ impl View {
 /// A direction as integers, the largest from 2⁵² to 2⁵³: scaled by a power of two.
 fn whole_direction(direction: DVec3) -> DVec3 {
     let size = direction.abs().max_element();
-    // Bits without those of the fraction.
+    // The bits without the fraction.
     let power = f64::from_bits(size.to_bits() >> 52 << 52);
     (direction / power * (1u64 << 52) as f64).round()
 }

@@ -67,7 +67,7 @@ impl Auto {
         }
     }
 
-    /// The plane on which all pieces lie, if it is that of a large piece; also for a single piece.
+    /// The plane on which all pieces lie, if it is the plane of a large piece; also for a single piece.
     pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
@@ -77,7 +77,7 @@ impl Auto {
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
         };
         let large = set.sample(tuning.first_sample).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        // The last is likely to be far from the first.
+        // The last piece is likely to be far from the first.
         let pieces = || (0..set.len()).rev();
         if !pieces().all(|piece| sketch.may_be_on(set, large, piece)) {
             return None;
@@ -164,7 +164,7 @@ fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     })
 }
 
-/// The better of an own plane and a free one.
+/// The better of an own plane and a free plane.
 fn better(
     set: &Set<'_>,
     terms: &CostModel,
@@ -217,7 +217,7 @@ mod tests {
         }
     }
 
-    /// So near that single precision cannot decide, at any place among the others.
+    /// The piece is so near that single precision cannot decide, at any place among the others.
     #[test]
     fn one_piece_beside_the_plane_of_all_others_is_noticed() {
         let flat = grid(4, |_| 0.0);

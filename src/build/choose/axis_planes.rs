@@ -13,10 +13,11 @@ use crate::build::piece::Piece;
 use crate::exact::{Faces, PlaneId};
 use crate::progress::{PIECES_AT_ONCE, SWEEP, Watch};
 
-/// Mean number of pieces per bin in large sets. Too small: bins take longer to compare than pieces to count.
+/// Mean number of pieces per bin in large sets. Too small: comparing bins takes longer than counting pieces.
 /// Too large: narrow gaps are not found.
 const PER_BIN: usize = 4;
-/// The fewest bins. Too small: small sets are cut more often. Too large: as above.
+/// The fewest bins. Too small: small sets are cut more often. Too large: comparing bins takes longer than
+/// counting pieces.
 const FEWEST_BINS: usize = 64;
 /// The most bins. Too small: large sets are cut more often. Too large: bins no longer fit the processor's
 /// first cache.
@@ -31,12 +32,12 @@ pub(super) struct FreePlanes {
 }
 
 impl FreePlanes {
-    /// An axis plane of low cost that has fewer pieces on each side than the set, if one is found.
+    /// Searches for an axis plane of low cost that has fewer pieces on each side than the set.
     ///
-    /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of
-    /// SAH-based bounding volume hierarchies”, 2007). Compares the borders of bins, and the places inside
-    /// bins at which all of the bin's ends come before its first beginning: rows of vertices, and gaps. The
-    /// corner nearest the best of these names the plane. Takes O(n) time.
+    /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of SAH-based
+    /// bounding volume hierarchies”, 2007). The candidates are the borders of bins, and the places inside
+    /// bins at which all ends of the bin precede its first beginning: rows of vertices, and gaps. The corner
+    /// nearest the best candidate names the plane. Takes O(n) time.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -95,8 +96,8 @@ impl FreePlanes {
         }
     }
 
-    /// The free plane of least cost among those that cut nothing. It sorts the set, which for a small one
-    /// takes less time than counting by bins.
+    /// Searches for the free plane of least cost among the planes that cut nothing. It sorts the set, which
+    /// takes less time than counting by bins if the set is small.
     pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
@@ -109,7 +110,7 @@ impl FreePlanes {
             self.spans.reserve(n);
             self.spans.extend(spans);
             self.spans.sort_unstable_by(|a, b| compare(&a.0, &b.0).then(compare(&a.1, &b.1)));
-            // The piece so far that reaches furthest, and its end.
+            // The piece that reaches furthest so far, and its end.
             let mut furthest = (f64::NEG_INFINITY, 0);
             for (behind, &(min, max, i)) in self.spans.iter().enumerate() {
                 if behind > 0 && min + tolerance >= furthest.0 {
@@ -173,8 +174,7 @@ fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Thr
     corner(next).or_else(|| corner(first)).map(Through::Corner)
 }
 
-/// The axes along which a set has an extent: first those that may have a gap, and the longest of them
-/// first.
+/// The axes along which a set has an extent: axes that may have a gap first, and then the longest first.
 fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
     let size = set.size();
     let mut axes = [0, 1, 2];
@@ -203,8 +203,8 @@ fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     if begin <= end { [begin, end] } else { [0.5 * (begin + end); 2] }
 }
 
-/// The cost of a plane, from the numbers of the `n` pieces that have begun and ended there, and of those
-/// that lie on it; more than any other if all are on one side.
+/// The cost of a plane, given how many of the `n` pieces have begun there, have ended there, and lie on it;
+/// more than any other cost if all pieces are on one side.
 #[inline]
 fn cost(n: usize, begun: u32, ended: u32, on: u32) -> Cost {
     let n = n as u32;
@@ -246,8 +246,8 @@ struct Bins {
     last: f64,
 }
 
-/// Added to a number from 0 to 2³², it leaves the nearest integer in the last bits of the sum: faster than
-/// a conversion, which would saturate.
+/// Adding this to a number from 0 to 2³² leaves the nearest integer in the last bits of the sum. That is
+/// faster than a conversion, which would saturate.
 const TO_INTEGER: f64 = (1_u64 << 52) as f64;
 
 impl Bins {

@@ -63,7 +63,7 @@ impl Cost {
         !self.cuts && self.amount <= work(pieces / uneven) + work(pieces - pieces / uneven)
     }
 
-    /// Whether the plane is better than another.
+    /// Whether the plane is better than another plane.
     #[inline]
     pub(super) fn is_less(&self, other: &Self) -> bool {
         (self.cuts, other.cuts) == (false, true)
@@ -85,7 +85,7 @@ impl Cost {
 pub(super) struct CostModel {
     /// The reward of a polygon that fills the box.
     reward: f64,
-    /// Whether a plane that cuts nothing is preferred to all that cut.
+    /// Whether a plane that cuts nothing is preferred to all planes that cut.
     prefers_uncut: bool,
 }
 
@@ -102,15 +102,16 @@ impl CostModel {
         Self { reward: tuning.reward * (1.0 + mean) * pieces, prefers_uncut: true }
     }
 
-    /// For a large set, cuts are ignored. The first rounds use a sample, in which many planes cut nothing
-    /// that cut much of the set; and the planes at the boundary of a set, which also cut nothing, would
-    /// make a list of it.
+    /// For a large set, cuts are ignored. The first rounds use a sample, and many planes that cut much of the
+    /// set cut nothing of the sample. Planes at the boundary of a set also cut nothing, but they would make a
+    /// list of it.
     pub(super) fn large(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self { prefers_uncut: false, ..Self::small(set, tuning) }
     }
 
-    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power: the work of a
-    /// share of the pieces is a fixed share of the work, so costs of samples compare.)
+    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power of the number of
+    /// pieces, so the work of a share of the pieces is a fixed share of the work, and costs of samples
+    /// compare.)
     pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
         Self { reward: self.reward * work(looked) / work(all), ..*self }
     }
@@ -137,9 +138,9 @@ pub(super) struct PricedPlane {
 
 /// The work of sorting `n` pieces into an order: n^1.25.
 ///
-/// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. A larger
-/// exponent balances trees better, and cuts scans more for that; a smaller one prefers planes at the
-/// boundary of sets in which every plane cuts much.
+/// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. Too large an
+/// exponent: scans are cut more for better balance. Too small: planes at the boundary are preferred in sets
+/// where every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
     WORK.get(n).copied().unwrap_or_else(|| {

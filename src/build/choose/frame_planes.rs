@@ -13,9 +13,9 @@ use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 impl FrameTuning {
     /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
     ///
-    /// Corners in `f32` are rounded. So small polygons that were meant to lie in one plane have different
-    /// planes, and far from such a polygon its plane is off by more than the tolerance: it would separate
-    /// others that belong together.
+    /// Corners in `f32` are rounded, so small polygons that were meant to lie in one plane have different
+    /// planes. Far from such a polygon, its plane is off by more than the tolerance: it would separate other
+    /// polygons that belong together.
     fn least_share(&self, faces: &Faces) -> f64 {
         if self.is_coarse(faces) { self.trusted_share } else { 0.0 }
     }
@@ -26,8 +26,9 @@ impl FrameTuning {
     }
 }
 
-/// The first plane of a few pieces that can be trusted, and cuts nothing and divides the set evenly, or
-/// cuts few pieces, all of which cross its own. Writes the sides of the pieces on it.
+/// Tries the planes of a few pieces, and returns the first good one. A plane is good if it can be trusted,
+/// and either cuts nothing and divides the set evenly, or cuts few pieces that all cross its own piece.
+/// Writes the sides of the pieces on it.
 pub(super) fn find_own(
     set: &Set<'_>,
     tuning: &Tuning,
@@ -44,7 +45,8 @@ pub(super) fn find_own(
     own.map(|own| set.own_plane(own))
 }
 
-/// Whether the plane of a piece cuts some pieces, and all of them cross the piece: any tree has to cut them, or it.
+/// Whether the plane of a piece cuts some pieces, and all of them cross the piece. Any tree has to cut either
+/// them or the piece.
 fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
     let mut cut = (0..set.len()).filter(|&other| division.sides[other] == Side::Spanning);
     division.count(Side::Spanning) > 0
@@ -54,10 +56,10 @@ fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
         })
 }
 
-/// The largest distance of a plane from a vertex, in the `size` of its rounded normal. The vertex is
-/// rounded by less than 1 lattice unit, and its difference from the plane's point, which is below 2⁵³, by
-/// ½. The normal's components are off by 2⁻⁵² of their shares of the size together, and their products and
-/// sums by as much again: 4 units.
+/// The largest distance of a plane from a vertex, in the `size` of its rounded normal. The vertex is rounded
+/// by less than 1 lattice unit. Its difference from the plane's point is below 2⁵³ and rounded by ½. The
+/// normal's components are off by 2⁻⁵² of their shares of the size together, and their products and sums by
+/// as much again: 4 units.
 const PLANE_OFF: f64 = 6.0;
 /// The largest error of a coordinate of the difference of two vertices, in lattice units: each vertex is
 /// rounded by less than 1, and the difference by ½.
@@ -69,18 +71,17 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Whether two pieces certainly cross: no tree leaves both whole, except by its tolerance.
 ///
 /// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and the
-/// segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
-/// orientation predicates”, 2003). Returns false if rounding may decide, as for pieces that only touch or
-/// lie nearly in one plane.
+/// segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using orientation
+/// predicates”, 2003). Returns false if rounding may decide, for example if pieces only touch or lie nearly
+/// in one plane.
 fn crosses(faces: &Faces, arena: &[Vertex], a: &Piece, b: &Piece) -> bool {
     if (0..3).any(|axis| a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) {
         return false;
     }
     let Some(one) = Ends::of(faces, arena, a, b.face) else { return false };
     let Some(other) = Ends::of(faces, arena, b, a.face) else { return false };
-    // Along the line, in the direction in which the front of `b` is on the left in the plane of `a`: the
-    // last point of `a` is where it enters the front of `b`, and the first of `b` is where it enters the
-    // front of `a`.
+    // Follow the line so that in the plane of `a` the front of `b` is on the left. The last point of `a` is
+    // where `a` enters the front of `b`; the first point of `b` is where `b` enters the front of `a`.
     let [p, q] = one.to_back;
     is_positive(one.to_front, other.to_front) && is_positive([q, p], other.to_back)
 }
@@ -197,7 +198,7 @@ mod crossing_tests {
             let size = 2f64.powf(random.range(-40.0, 0.0));
             let [a, mut b] = [(); 2].map(|()| triangles(&mut random, 1, 1.0)[0]);
             if round % 2 == 0 {
-                // The first with one corner moved off its plane, and each a little.
+                // The first triangle with one corner moved off its plane, and each corner moved a little.
                 b = [a[0].lerp(a[1], 0.3), a[2].lerp(a[1], 0.2), a[2].lerp(a[0], 0.4)];
                 b = b.map(|corner| corner + random.point(-size, size));
             } else {

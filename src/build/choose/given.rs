@@ -12,8 +12,8 @@ use crate::build::piece::Division;
 use crate::exact::{Faces, PlaneId, Side};
 use crate::progress::Watch;
 
-/// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic
-/// (see [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser)).
+/// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic,
+/// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
 /// A piece has a number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon on one
 /// side of every plane above. Polygons that are not convex or not planar are divided into triangles.
@@ -36,8 +36,8 @@ pub enum SplitPlane {
     OfPiece(usize),
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
-    /// Every plane of a tree goes through a corner of a polygon: this one through the corner nearest the
-    /// coordinate, among those of all polygons of the build, after rounding to the grid and the tolerance.
+    /// Every plane of a tree goes through a corner of a polygon. This plane goes through the corner nearest
+    /// the coordinate, of all polygons of the build, after rounding to the grid and the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -47,34 +47,34 @@ pub enum SplitPlane {
 }
 
 impl<'a> PieceSet<'a> {
-    /// The number of pieces, two or more.
+    /// Returns the number of pieces, two or more.
     pub fn piece_count(&self) -> usize {
         self.set.len()
     }
 
-    /// The number of planes that separated the pieces from others before: 0 at the root.
+    /// Returns the number of planes that have already separated the pieces from others: 0 at the root.
     pub fn depth(&self) -> usize {
         self.set.depth
     }
 
-    /// The index in the input of the polygon of which a piece is a part. O(1).
+    /// Returns the index, in input order, of the polygon that a piece is a part of. O(1).
     pub fn polygon(&self, piece: usize) -> usize {
         self.set.faces.polygon(self.set.pieces[piece].face)
     }
 
-    /// The number of planes that cut it out of its polygon; stays at 255. O(1).
+    /// Returns the number of planes that cut the piece out of its polygon, at most 255. O(1).
     pub fn cuts(&self, piece: usize) -> usize {
         self.set.pieces[piece].cuts.into()
     }
 
-    /// Its bounding box: the corner of smallest coordinates, and that of largest. O(1).
+    /// Returns the bounding box of a piece: its smallest and its largest coordinates. O(1).
     pub fn bounds(&self, piece: usize) -> [DVec3; 2] {
         let lattice = self.set.faces.lattice();
         let piece = &self.set.pieces[piece];
         [piece.min, piece.max].map(|corner| lattice.to_world(corner))
     }
 
-    /// Its vertices, three or more, counter-clockwise seen from its front.
+    /// Returns the vertices of a piece, three or more, counter-clockwise seen from its front.
     pub fn vertices(
         &self,
         piece: usize,
@@ -86,15 +86,15 @@ impl<'a> PieceSet<'a> {
             .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
     }
 
-    /// The unit normal of its plane, which points to the front: equal to that of its fragments
-    /// ([`Fragment::normal`](crate::Fragment::normal)). O(1).
+    /// Returns the unit normal of the piece's plane, which points to the front. It equals the
+    /// [normal](crate::Fragment::normal) of the piece's fragments. O(1).
     pub fn normal(&self, piece: usize) -> DVec3 {
         let plane = PlaneId::face(self.set.pieces[piece].face);
         self.set.faces.plane(plane).normal_f64().normalize()
     }
 
-    /// The side of a plane on which each piece lies, in the order of their numbers. `None` if the plane
-    /// names a piece or axis that does not exist, or a coordinate that is NaN or infinite.
+    /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. `None` if
+    /// the plane names a piece or axis that does not exist, or a coordinate that is NaN or infinite.
     ///
     /// These are the sides that the build will use: exact, except for the tolerance. The build uses another
     /// plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
@@ -128,7 +128,7 @@ impl<'a> PieceSet<'a> {
 
 type Function = dyn Fn(&PieceSet<'_>) -> Option<SplitPlane> + Send + Sync;
 
-/// The function of a caller that chooses planes. Two are equal if one is a clone of the other.
+/// The function of a caller that chooses planes. Two functions are equal if one is a clone of the other.
 #[derive(Clone)]
 pub(in crate::build) struct GivenChooser(pub(in crate::build) Arc<Function>);
 
@@ -172,8 +172,8 @@ impl GivenChooser {
 pub(in crate::build) struct SortedCorners([OnceLock<Vec<u32>>; 3]);
 
 impl SortedCorners {
-    /// The corner nearest a world coordinate; of several, the one of smallest coordinate and number. O(log n)
-    /// time for n corners, and O(n log n) at the first call for an axis.
+    /// Returns the corner nearest a world coordinate; of several, the corner with the smallest coordinate and
+    /// number. Takes O(log n) time for n corners, and O(n log n) at the first call for an axis.
     fn nearest(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let at = faces.lattice().to_lattice(DVec3::splat(coordinate))[axis];
         let along = |corner: u32| faces.corner(corner)[axis];

@@ -1,10 +1,10 @@
 //! Chooses the plane that divides a set of pieces.
 //!
-//! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto`
-//! is the default heuristic; `own` has the heuristics that only try the pieces' own planes, and the
-//! comparison of these planes. `axis_planes` finds planes perpendicular to the axes, `frame_planes` a good
-//! enough own plane of a small set in frames, `peel` pieces that planes at the boundary of a set separate
-//! without a cut. `cost` compares planes, `tuning` has the constants; `set` has a set's pieces, exact and
+//! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto` is
+//! the default heuristic; `own` contains the heuristics that only try the pieces' own planes, and compares
+//! these planes. `axis_planes` finds planes perpendicular to the axes. `frame_planes` finds a good enough own
+//! plane of a small set in frames. `peel` finds pieces that planes at the boundary of a set separate without
+//! a cut. `cost` compares planes, `tuning` contains the constants, and `set` a set's pieces, exact and
 //! rounded.
 
 mod auto;
@@ -41,9 +41,9 @@ pub(super) struct Chooser {
 }
 
 impl Chooser {
-    /// Chooses the division of a set of at least one piece. `is_peeled`: peeling left the set; then peeling
-    /// is not tried again if the set is small. Not every plane chosen makes progress; the builder checks.
-    /// Writes the sides of the pieces on the plane, or nothing if they are not known.
+    /// Chooses the division of a set of at least one piece. `is_peeled` means that peeling left this set; if
+    /// it is small, peeling is not tried again. Not every chosen plane makes progress; the builder checks
+    /// this. Writes the sides of the pieces on the plane, or nothing if they are not known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,

@@ -25,7 +25,7 @@ struct Candidate {
 /// The share of its set's bounding box that a piece fills along its two longer sides, 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shares {
-    /// 1 divided by the size of the box; none where the box has no extent.
+    /// 1 divided by the size of the box; `None` along axes where the box has no extent.
     per_unit: [Option<f64>; 3],
 }
 
@@ -45,8 +45,8 @@ impl Shares {
     }
 }
 
-/// Compares candidates with more and more pieces, and keeps the best of them (successive halving:
-/// Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+/// Compares candidates with more and more pieces, and keeps the best candidates (successive halving: Karnin,
+/// Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
 #[derive(Debug, Default)]
 pub(super) struct Candidates {
     field: Vec<Candidate>,
@@ -54,8 +54,8 @@ pub(super) struct Candidates {
     seen: usize,
     /// The costs of the field, by their places in it.
     ranks: Vec<(Cost, u32)>,
-    /// Places of the candidates that had all pieces of the first sample on one side: the same in the field,
-    /// as it began, and in the packed pieces.
+    /// The places of the candidates that had all pieces of the first sample on one side. A candidate had the
+    /// same place in the initial field and in the packed pieces.
     one_sided: Vec<usize>,
 }
 
@@ -96,7 +96,8 @@ impl Candidates {
         &self.one_sided
     }
 
-    /// The best plane of the field, by larger and larger parts of the set; the earliest of equals.
+    /// Returns the best plane of the field, compared with larger and larger parts of the set; the earliest of
+    /// equal planes.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -158,8 +159,8 @@ pub(super) struct Scored {
 }
 
 impl Scored {
-    /// The best plane of `candidates` pieces by a score of the counts and of whether the plane is
-    /// perpendicular to an axis, lower being better; the earliest of equals.
+    /// Returns the plane of lowest score among those of `candidates` pieces; the earliest of equal planes.
+    /// The score depends on the counts and on whether the plane is perpendicular to an axis.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -193,7 +194,7 @@ impl Scored {
     }
 }
 
-/// Some packed pieces of a set, extended in an order of which every prefix is a sample of the set.
+/// Some packed pieces of a set, extended in an order in which every prefix is a sample of the set.
 #[derive(Debug, Default)]
 pub(super) struct Sample {
     pub(super) sketch: PackedPieces,
@@ -201,7 +202,7 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// Replaces the sample by the first `count` pieces, or all of them if there are not more.
+    /// Replaces the sample by the first `count` pieces, or by all pieces if there are fewer.
     pub(super) fn restart(&mut self, set: &Set<'_>, count: usize) {
         self.sketch.clear();
         self.rest = Spread::new(set.len());
@@ -217,7 +218,7 @@ impl Sample {
     }
 }
 
-/// The numbers below `n` in an order of which every prefix is spread evenly.
+/// The numbers below `n` in an order in which every prefix is spread evenly.
 #[derive(Debug, Default)]
 struct Spread {
     n: usize,

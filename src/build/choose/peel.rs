@@ -8,7 +8,7 @@ use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
 
-/// Pieces that are separated from a set one after the other, and whose planes cut nothing of the rest.
+/// Pieces that are separated from a set one after the other. Their planes cut none of the remaining pieces.
 #[derive(Debug, Default)]
 pub(crate) struct Peeled {
     layers: Vec<Layer>,
@@ -45,12 +45,12 @@ impl Peeled {
     }
 }
 
-/// Finds, in a set of pieces, those whose planes have all the rest on one side, once those found before are
-/// removed; its lists are reused.
+/// Finds the pieces of a set whose planes have all remaining pieces on one side, and removes each at once.
+/// Its lists are reused.
 ///
-/// Separating such a piece first never adds a fragment: a tree of the whole set, with the piece and its
-/// plane left out, is one of the rest, with no more fragments. A set in convex position is divided entirely
-/// if all places are tried.
+/// Separating such a piece first never adds a fragment: a tree of the whole set, without the piece and its
+/// plane, is a tree of the remaining pieces with no more fragments. A set in convex position is divided
+/// entirely if all places are tried.
 ///
 /// Exact: only certain results of the packed pieces are used, and exact arithmetic decides on pieces near a
 /// plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a piece. So a
@@ -59,10 +59,10 @@ impl Peeled {
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
     boxes: Boxes,
-    /// For each group of the packed pieces, a bit for each of its pieces that is left.
+    /// For each group of the packed pieces, a bit for each remaining piece.
     left: Vec<u8>,
-    /// The reason why the current piece cannot be separated: a piece in front of its plane and one behind,
-    /// or twice one across.
+    /// The reason why the current piece cannot be separated: a piece in front of its plane and a piece
+    /// behind, or twice the same piece across.
     witnesses: [u32; 2],
     /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
@@ -80,9 +80,9 @@ const BACK: usize = 1;
 const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches a set, all of whose pieces are packed, for peelable pieces at some places; returns those
-    /// found, if any. If there are more groups than `tuning.groups_per_box`, groups must be near one
-    /// another (see [`arrange`]), or the boxes decide nothing.
+    /// Searches a set, all of whose pieces are packed, for peelable pieces at some places; returns the pieces
+    /// found, if any. If there are more groups than `tuning.groups_per_box`, each group's pieces must be near
+    /// one another (see [`arrange`]), or the boxes decide nothing.
     pub(super) fn search(
         &mut self,
         set: &Set<'_>,
@@ -146,8 +146,8 @@ impl Search<'_, '_> {
         self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
     }
 
-    /// Compares the others with a piece's plane until there are some on both sides. Returns the number of
-    /// comparisons, and whether there may be none on one side.
+    /// Compares the other pieces with a piece's plane until some are on both sides. Returns the number of
+    /// comparisons, and whether one side may be empty.
     fn look(&mut self, p: usize, plane: &PackedPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
@@ -188,8 +188,8 @@ impl Search<'_, '_> {
         (work, true)
     }
 
-    /// Records the pieces of a group, among those left, that are witnesses against piece `p`, and those
-    /// near its plane.
+    /// Records the remaining pieces of a group that are witnesses against piece `p`, and the pieces near its
+    /// plane.
     #[inline]
     fn see(&mut self, p: usize, plane: &PackedPlane, group: usize) {
         let others = if p / LANES == group { !(1 << (p % LANES)) } else { u8::MAX };
@@ -205,8 +205,8 @@ impl Search<'_, '_> {
         self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
     }
 
-    /// Separates a piece, with those on its plane, if all others that are left are on one side of it;
-    /// returns their number.
+    /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of it.
+    /// Returns the number of separated pieces.
     fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
@@ -242,8 +242,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// The pieces of a large set in an order in which groups, and ranges of groups, are near one another: by
-/// repeatedly halving the longest side of their box.
+/// Sorts the pieces of a large set so that the pieces of a group, and of a range of groups, are near one
+/// another, by repeatedly halving the longest side of their box.
 pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
     let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {
@@ -272,7 +272,7 @@ pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) ->
     order
 }
 
-/// A balanced tree of boxes around the groups of packed pieces: the children of node i are 2i + 1 and
+/// A balanced tree of boxes around the groups of packed pieces: the children of node i are nodes 2i + 1 and
 /// 2i + 2. If the root is a leaf, there are no boxes.
 #[derive(Debug, Default)]
 struct Boxes {
@@ -314,7 +314,7 @@ impl Boxes {
     }
 }
 
-/// The ranges of a node's children, if it has more than `most` groups.
+/// The ranges of a node's children, if the node has more than `most` groups.
 fn halves(groups: &Range<usize>, most: usize) -> Option<[Range<usize>; 2]> {
     let middle = groups.start + groups.len() / 2;
     (groups.len() > most).then_some([groups.start..middle, middle..groups.end])

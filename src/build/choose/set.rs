@@ -14,7 +14,8 @@ pub(super) const LANES: usize = 4;
 
 /// Pieces of a set, moved to its middle and rounded to `f32`.
 ///
-/// Used to rank planes, which may err. Results called certain hold exactly, beyond the tolerance.
+/// They rank planes, and rounding may change the ranks. Results called certain hold exactly, beyond the
+/// tolerance.
 #[derive(Debug, Default)]
 pub(super) struct PackedPieces {
     middle: DVec3,
@@ -69,11 +70,11 @@ impl PackedPieces {
         let (min, max) = (DVec3::from_array(set.min), DVec3::from_array(set.max));
         self.middle = 0.5 * (min + max);
         let size = (max - self.middle).max(self.middle - min).max_element();
-        // With u = 2⁻²⁴, half an ε, and in units of u · size: the normal is off by 2√3 between a vertex and
-        // the plane's point, both in the box; the vertex by √3, its products by √3, their two sums by √2 +
-        // √3, the offset and its sum with the slack by √3 each. That is 13.5, less than 7 ε. Vertex and
-        // point are off by 1.5 lattice units in each coordinate: 3√3. The tolerance is rounded to `f32` and
-        // in two sums: 3 u of it, less than 2 ε.
+        // In units of u · size, with u = 2⁻²⁴ = ε / 2: the normal adds 2√3 between a vertex and the plane's
+        // point, both in the box. The vertex adds √3, its products √3, their two sums √2 + √3, the offset and
+        // its sum with the slack √3 each. The total is 13.5, less than 7 ε. Vertex and point are off by 1.5
+        // lattice units in each coordinate: 3√3. The tolerance is rounded to `f32` and in two sums, by 3 u of
+        // it, less than 2 ε.
         let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
         self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
     }
@@ -127,7 +128,7 @@ impl PackedPieces {
         self.ends.len()
     }
 
-    /// The rows of some groups, at least one.
+    /// The rows of some groups, at least one group.
     #[inline]
     fn rows_of(&self, groups: Range<usize>) -> Range<usize> {
         let start = groups.start.checked_sub(1).map_or(0, |before| self.ends[before] as usize);
@@ -188,7 +189,7 @@ impl PackedPieces {
         PackedBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
     }
 
-    /// The side of a plane on which a box certainly lies: 0 in front, 1 behind; none if it may reach the
+    /// The side of a plane on which a box certainly lies: 0 in front, 1 behind; `None` if it may reach the
     /// plane.
     #[inline]
     pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &PackedBox) -> Option<usize> {
@@ -274,7 +275,7 @@ impl<'a> Set<'a> {
     pub(crate) fn new(faces: &'a Faces, pieces: &'a [Piece], arena: &'a [Vertex]) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let (mut first_end, mut last_begin) = (min, max);
-        // None is NaN: a comparison takes fewer instructions than `f64::min`.
+        // No coordinate is NaN, so a comparison suffices; it takes fewer instructions than `f64::min`.
         let lower = |a: &mut f64, b: f64| *a = if b < *a { b } else { *a };
         let raise = |a: &mut f64, b: f64| *a = if b > *a { b } else { *a };
         for piece in pieces {
@@ -302,9 +303,9 @@ impl<'a> Set<'a> {
         self.first_end[axis] <= self.last_begin[axis] + self.faces.tolerance()
     }
 
-    /// A closer test than [`may_part`](Self::may_part): there is no such plane if every place for it is
-    /// inside a piece. Places are counted by bins, one bit each, which a piece covers if it reaches across.
-    /// For small sets this takes less time than an unsuccessful sort.
+    /// A closer test than [`may_part`](Self::may_part): false if a piece covers every place for such a plane.
+    /// Places are counted by bins, one bit each; a piece covers a bin if it reaches across it. For small sets
+    /// this takes less time than an unsuccessful sort.
     pub(super) fn may_have_gap(&self, axis: usize) -> bool {
         let tolerance = self.faces.tolerance();
         let (start, end) = (self.first_end[axis], self.last_begin[axis] + tolerance);
@@ -350,7 +351,7 @@ impl<'a> Set<'a> {
         self.pieces[piece].side(self.faces, prepared, self.arena)
     }
 
-    /// Classifies all pieces against a plane. Returns false if it cuts more than `most`.
+    /// Classifies all pieces against a plane. Returns false if it cuts more than `most` pieces.
     pub(in crate::build) fn divide(
         &self,
         plane: PlaneId,
@@ -371,7 +372,7 @@ impl<'a> Set<'a> {
         cut.map_or_else(|| self.faces.corners(self.pieces[piece].face).len(), <[_]>::len)
     }
 
-    /// `count` of the pieces, spread evenly; all of them if there are not more.
+    /// Returns `count` of the pieces, spread evenly; all pieces if there are fewer.
     pub(super) fn sample(&self, count: usize) -> impl Iterator<Item = usize> + use<> {
         let n = self.len();
         let count = count.min(n);

@@ -159,7 +159,7 @@ fn own_planes_are_held_against_all_of_a_large_set() {
     let wall =
         |x: f64, y: f64| [DVec3::new(x, y, -1.0), DVec3::new(y, x, -1.0), DVec3::new(y, x, top)];
     let mut polygons: Vec<_> = (0..2 * HALF).map(layer).collect();
-    // In the plane x = 0, and in the plane y = 0: both are among the candidates.
+    // A wall in the plane x = 0, and one in the plane y = 0: both planes are candidates.
     polygons[0] = wall(0.0, 7.0).map(|corner| corner.with_x(0.0));
     polygons[104] = wall(0.0, 7.0).map(|corner| corner.with_y(0.0));
     polygons[0][1].y = 9.0;
@@ -175,7 +175,7 @@ fn of_equal_scores_the_earliest_wins() {
     }
 }
 
-/// Even if other planes divide the set more evenly.
+/// It is used at once even if other planes divide the set more evenly.
 #[test]
 fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
     let mut random = SplitMix64::new(7);
@@ -215,7 +215,7 @@ fn ring(cards: usize) -> Vec<[DVec3; 4]> {
     (0..cards).map(card).collect()
 }
 
-/// For sets of every range of sizes: each pair of neighbours is cut once.
+/// In sets of every range of sizes, each pair of neighbours is cut once.
 #[test]
 fn a_ring_of_cards_is_cut_no_more_than_it_crosses() {
     for cards in [8, 12, 31, 33, 60, 100, 200] {

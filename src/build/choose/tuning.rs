@@ -8,14 +8,14 @@ pub struct Tuning {
     /// planes on them. Too large: fewer axis planes to choose from. Too small: time, because counting by
     /// bins takes longer than sorting.
     pub clean_below: usize,
-    /// Smaller sets try more own planes, and pieces that need no cut are peeled off them. Too large: more
-    /// time and deeper trees for slightly fewer fragments. Too small: more fragments on scans, whose
-    /// surfaces no free plane follows.
+    /// Smaller sets try more own planes, and peel off pieces that need no cut. Too large: more time and
+    /// deeper trees for slightly fewer fragments. Too small: more fragments on scans, whose surfaces no free
+    /// plane follows.
     pub small: usize,
-    /// Own planes tried in a small set, and at most by the heuristics that only score own planes. Too
-    /// large: time. Too small: more fragments.
+    /// The number of own planes tried in a small set, and the most tried by heuristics that only score own
+    /// planes. Too large: time. Too small: more fragments.
     pub own_planes: usize,
-    /// Own planes tried in a large set. Too large: time. Too small: more fragments.
+    /// The number of own planes tried in a large set. Too large: time. Too small: more fragments.
     pub few_own_planes: usize,
     /// A large set is searched for peelable pieces if at least this many of its tried own planes have the
     /// whole first sample on one side. Too large: large convex sets are cut. Too small: searches that find
@@ -24,21 +24,21 @@ pub struct Tuning {
     /// A plane that cuts nothing is used at once if each side keeps at least 1/`uneven` of the pieces. Too
     /// large: unbalanced trees. Too small: a longer search for little gain.
     pub uneven: usize,
-    /// Pieces in the first sample that own planes are compared with; the largest of them decides whether
-    /// all lie on one plane. Too large: time. Too small: good planes are dropped by chance, and the pieces
-    /// tried for the common plane may be too small.
+    /// The number of pieces in the first sample that own planes are compared with; the largest piece of the
+    /// sample decides whether all pieces lie on one plane. Too large: time. Too small: good planes are
+    /// dropped by chance, and the pieces tried for the common plane may be too small.
     pub first_sample: usize,
     /// Each round keeps 1/`rate` of the own planes and compares them with `rate` times as many pieces. Too
     /// large: the best are dropped by chance. Too small: time.
     pub rate: usize,
-    /// Subtracted from the cost of a polygon's plane, per piece of the set, scaled by the share of the
-    /// bounding box that the polygon fills and by 1 + the mean number of cuts per piece. (A wall that is
-    /// not used early is cut again by every plane through it.) Too large: depth wasted on polygons that
-    /// nothing would cut. Too small: large polygons are cut.
+    /// Subtracted from the cost of a polygon's plane, per piece of the set. It is scaled by the share of the
+    /// bounding box that the polygon fills, and by 1 + the mean number of cuts per piece. (A wall that is not
+    /// used early is cut again by every plane through it.) Too large: depth is wasted on polygons that no
+    /// plane would cut. Too small: large polygons are cut.
     pub reward: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
-    /// tested one by one. Too small: more boxes to build, which decide nothing in small sets (of fewer than
-    /// `small` pieces), whose groups are not near one another.
+    /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) these
+    /// decide nothing, because the pieces of a group are not near one another.
     pub groups_per_box: usize,
     /// The constants for dividing small sets quickly; `None` in permanent trees. With them, orders take a
     /// fifth longer.
@@ -68,24 +68,24 @@ impl Tuning {
 /// The constants for dividing small sets quickly in frames.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// The largest number of pieces that a plane used at once may cut. It must cut at least one, and each
-    /// of them must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons
-    /// that cross at random are cut by worse planes. Too small: all planes of rings are compared
-    /// repeatedly.
+    /// The largest number of pieces that a plane used at once may cut. It must cut at least one, and each cut
+    /// piece must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons that
+    /// cross at random are cut by worse planes. Too small: all planes of rings are compared repeatedly.
     pub crossings: usize,
-    /// Own planes of a set of fewer than `small` pieces that are tried first, and used at once if they cut
-    /// nothing and divide the set evenly, or as above. Too large: time if each plane cuts something. Too
-    /// small: stacks of layers are searched for the best plane, though any is good.
+    /// The number of own planes tried first in a set of fewer than `small` pieces. Such a plane is used at
+    /// once if it cuts nothing and divides the set evenly, or as `crossings` allows. Too large: time if each
+    /// plane cuts something. Too small: stacks of layers are searched for the best plane, though any plane is
+    /// good.
     pub probes: usize,
     /// The share of its set's box that a piece has to fill for its plane to be trusted at once, if the
     /// tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie in one
-    /// plane have different planes, which separate others that belong together. Too small: of 400 pages
-    /// with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50. Too large: each set
-    /// of layers in `f32` is searched for its best plane.
+    /// plane have different planes, which separate other polygons that belong together. Too small: of 400
+    /// pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50. Too large: each
+    /// set of layers in `f32` is searched for its best plane.
     pub trusted_share: f64,
-    /// A tolerance is coarse if it is a larger share of the extent: above that of numbers in `f64`, and
-    /// below that of `f32`. Too small: planes of layers in `f64` are searched for, which takes stacks 1.4
-    /// times as long. Too large: small cards in `f32` lose their order.
+    /// A tolerance is coarse if it is a larger share of the extent than this: a share above the tolerance of
+    /// numbers in `f64`, and below that of `f32`. Too small: layers in `f64` are searched for the best plane;
+    /// stacks take 1.4 times as long. Too large: small cards in `f32` lose their order.
     pub coarse: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::view::Camera;
 const SIZE: [u32; 2] = [320, 200];
 
 impl LineTable<'_> {
-    /// How many lines there are, borders not counted.
+    /// The number of lines, without borders.
     pub(in crate::drawing) fn len(&self) -> usize {
         self.keys.len()
     }
@@ -27,11 +27,11 @@ pub(in crate::drawing) fn all_lines<'t>(
     Some(Primitives::new(tree, rays, vec![], &Watch::default()).unwrap())
 }
 
-/// Whether a line in floats is no further from another one, in the picture, than both say.
+/// Whether the difference of two lines in floats, in the picture, is within their errors.
 fn agree(a: &Rounded, b: &Rounded, reach: [f64; 2]) -> bool {
     let [_, ax, ay] = a.k;
     let axis = if ax.abs() > ay.abs() { 1 } else { 2 };
-    // The scales are powers of two: they are one, or one apart.
+    // The scales are powers of two: equal, or adjacent.
     let ratio = (a.k[axis] / b.k[axis]).log2().round().exp2();
     let error = 1.001 * (a.error + ratio * b.error);
     let corners = [[-1.0, -1.0], [-1.0, reach[1]], [reach[0], -1.0], reach];
@@ -51,7 +51,7 @@ pub(in crate::drawing) fn quads(random: &mut SplitMix64, size: f64, off: DVec3) 
     (0..12).map(quad).collect()
 }
 
-/// Rings of more corners than edges in the picture go through as given, bent a little too.
+/// Rings of so many corners that edges go through the moved corners, also bent a little.
 fn rings(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<Vec<DVec3>> {
     let ring = |_| {
         let [middle, u, v] = [(); 3].map(|()| random.point(-size, size));
@@ -101,8 +101,8 @@ fn lines_in_floats_are_as_near_as_they_say() {
 
 #[test]
 fn edges_on_one_line_are_one() {
-    // Walls side by side on the ground, and above them a beam along all of them, on which they do not
-    // have corners in common with it.
+    // Walls side by side on the ground, and a beam along all of them, which has no corners in common with the
+    // walls.
     let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
     let wall = |x: f64, w: f64, z: f64, h: f64| {
         [corner(x, z), corner(x + w, z), corner(x + w, z + h), corner(x, z + h)]
@@ -117,7 +117,7 @@ fn edges_on_one_line_are_one() {
     assert_eq!(primitives.lines.keys.len(), 3 + 8 + 2);
     let halves = |face: u32| primitives.outline(face);
     for face in 0..7 {
-        // Walls are above the ground and below the beam; those beside share an edge from two sides.
+        // Walls are above the ground and below the beam; neighbouring walls share an edge from two sides.
         assert_eq!([halves(face)[0], halves(face)[2]], [halves(0)[0], halves(0)[2]]);
         let beam: HalfPlane = halves(7)[0];
         assert_eq!(halves(face)[2], beam.flipped(true));
@@ -141,7 +141,7 @@ fn squares() -> BspTree {
     BuildOptions::DEFAULT.with_tolerance(0.0).build(&polygons).unwrap()
 }
 
-/// How many lines a picture has; no two are one, and none is a border.
+/// The number of lines of a picture; asserts that no two lines are equal and that no line is a border.
 fn lines(tree: &BspTree, camera: &Camera) -> usize {
     let primitives = all_lines(tree, camera).unwrap();
     let lines = &primitives.lines;
@@ -177,7 +177,7 @@ fn edges_cuts_and_borders_on_one_line_are_one() {
     }
 }
 
-/// All lines of the scene are nearer to one another than feet of lines can tell.
+/// All lines of the scene are closer to one another than feet can distinguish.
 #[test]
 fn more_lines_than_a_few_in_one_place_are_told_apart() {
     let corner = |x: i32, y: i32| DVec3::new(f64::from(x), f64::from(y), 0.0);

@@ -24,8 +24,8 @@ pub(super) struct Triangulation {
     pub(super) crosses_itself: bool,
 }
 
-/// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter
-/// diagonal, any other as a fan from its first corner.
+/// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter diagonal, any
+/// other polygon as a fan from its first corner.
 pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     let diagonal = |a: usize, b: usize| DVec3::from(corners[a]).distance_squared(corners[b].into());
     let triangles = if corners.len() == 4 && diagonal(1, 3) < diagonal(0, 2) {
@@ -108,11 +108,11 @@ fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     (axis, if facing.is_eq() { normal[axis].cmp(&0) } else { facing })
 }
 
-/// A vector area counts as cancelled if it is no more than this share of a triangle of the polygon:
-/// its direction then comes from rounding alone.
+/// A vector area counts as cancelled if it is no more than this share of a triangle of the polygon: then only
+/// rounding determines its direction.
 ///
-/// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: so may a polygon
-/// that is planar except for rounding.
+/// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: a polygon that is
+/// planar except for rounding may be projected edge-on.
 const CANCELLED: f64 = 1e-6;
 
 /// Triangles of a polygon in the plane, counter-clockwise, as numbers of its corners.
@@ -177,20 +177,20 @@ fn fan(corners: &[Point]) -> Vec<[u32; 3]> {
 }
 
 /// Search budget of small polygons, in edges swept. Too small: tangles of some hundred corners become fans.
-/// Too large: each of them takes longer.
+/// Too large: each tangle takes longer.
 const PATIENCE: usize = 1 << 17;
 /// Search budget of large polygons, in sweeps. Too small: outlines with several crossings in sequence
 /// become fans. Too large: tangles take longer.
 const SWEEPS: usize = 16;
 
-/// Replaces edges that cross until none do, and triangulates the inside by [`Rule::Parity`]. Returns no
-/// triangles if the budget runs out.
+/// Replaces edges that cross until no edges cross, and triangulates the inside by [`Rule::Parity`]. Returns
+/// no triangles if the budget runs out.
 ///
 /// Two edges that cross are replaced by two edges between the same four ends that do not cross (a 2-opt
-/// move). Of the two ways to do that, this uses the one that changes less of the inside by the even-odd
-/// rule. So the result covers somewhat more or less than the outline near a crossing, and exactly the
-/// inside everywhere else. The new edges are shorter than the old ones, so the process ends, but it may
-/// take long (van Leeuwen and Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
+/// move). Of the two possible moves, the one that changes less of the inside by the even-odd rule is used. So
+/// the result covers somewhat more or less than the outline near a crossing, and exactly the inside
+/// everywhere else. The new edges are shorter than the old edges, so the process ends, but it may take long
+/// (van Leeuwen and Schoone, “Untangling a travelling salesman tour in the plane”, 1981).
 fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
     let mut edges = outline.edges.clone();
     let mut budget = PATIENCE.max(SWEEPS * edges.len());
@@ -207,7 +207,7 @@ fn uncross(outline: &Outline, watch: &Watch<'_>) -> Result<Triangles, Error> {
     Ok(vec![])
 }
 
-/// Two edges that do not cross, between the ends of two that do.
+/// Two edges that do not cross, between the ends of two edges that cross.
 fn rejoined(points: &[Point], [first, second]: [Edge; 2]) -> [Edge; 2] {
     let nearer_to_low = |edge: &Edge, other: &Edge| {
         let [c, d] = other.ends.map(|end| points[end as usize]);
@@ -217,10 +217,10 @@ fn rejoined(points: &[Point], [first, second]: [Edge; 2]) -> [Edge; 2] {
     let end = |edge: &Edge, end: usize| (edge.corners[end], edge.ends[end]);
     let [a, b] = [0, 1].map(|k| end(&first, k));
     let [c, d] = [0, 1].map(|k| end(&second, k));
-    // The crossing and the four ends form four triangles. Each of the two ways changes the inside
-    // of two of them. As shares of all four, these have the areas t·u + (1 − t)(1 − u) and t(1 − u)
-    // + u(1 − t), where the crossing is at t between a and b and at u between c and d. The first is
-    // smaller if just one of t and u is below 1/2.
+    // The crossing and the four ends form four triangles, and each move changes the inside of two of them.
+    // The crossing is at t between a and b, and at u between c and d. As shares of all four triangles, the
+    // changed areas are t·u + (1 − t)(1 − u) and t(1 − u) + u(1 − t). The first area is smaller if exactly
+    // one of t and u is below 1/2.
     if nearer_to_low(&first, &second) == nearer_to_low(&second, &first) {
         [Edge::between(a, d), Edge::between(c, b)]
     } else {

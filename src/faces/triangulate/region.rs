@@ -9,9 +9,9 @@ use smallvec::{SmallVec, smallvec};
 
 use super::sweep::{Point, turn};
 
-/// The region between two neighbouring edges on the sweep line: nothing if it is not inside the polygon; a
-/// monotone polygon; or two, the lower one first, that share their last point, where two regions became
-/// one.
+/// The region between two neighbouring edges on the sweep line: empty outside the polygon; a monotone
+/// polygon; or, where two regions became one, two monotone polygons that share their last point, the lower
+/// first.
 #[derive(Default)]
 pub(super) struct Region(SmallVec<[Chain; 1]>);
 
@@ -51,7 +51,7 @@ impl Region {
         triangles: &mut Triangles,
     ) -> [Self; 2] {
         if let [chain] = &self.0[..] {
-            // The last point sees this one, because the sweep met no point of the region in between.
+            // The last point sees the new point, because the sweep met no point of the region in between.
             let last = Chain::new(chain.stack[chain.stack.len() - 1]);
             self.0.insert(if chain.side == ChainSide::Lower { 0 } else { 1 }, last);
         }
@@ -60,7 +60,7 @@ impl Region {
         [low, high.add(lower, ChainSide::Lower, triangles)]
     }
 
-    /// Makes one region of two when the edges between them have ended.
+    /// Joins two regions when the edges between them have ended.
     pub(super) fn join(mut self, high: Self) -> Self {
         self.0.extend(high.0);
         self
@@ -81,8 +81,8 @@ pub(super) enum ChainSide {
     Upper,
 }
 
-/// The part of a monotone polygon that the sweep has passed and no triangle covers yet: a chain of
-/// points on one side that turn inwards. The first of them lies on the other side as well.
+/// The part of a monotone polygon that the sweep has passed and no triangle covers yet: a chain of points on
+/// one side that turn inwards. The first point lies on the other side as well.
 #[derive(Debug)]
 struct Chain {
     stack: Vec<Vertex>,
@@ -130,8 +130,7 @@ impl Chain {
         }
     }
 
-    /// Cuts triangles off between the whole chain and a point of the other side, which sees all of
-    /// it.
+    /// Cuts triangles off between the whole chain and a point of the other side, which sees the whole chain.
     fn fan(&self, vertex: Vertex, triangles: &mut Triangles) {
         for pair in self.stack.windows(2) {
             self.triangle(pair[0], pair[1], vertex, triangles);

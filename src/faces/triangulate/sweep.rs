@@ -17,8 +17,8 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 /// then by y.
 pub(super) type Point = [i64; 2];
 
-/// The side of a point on the line from `a` to `b`: `Greater` is to the left, above an edge whose ends come
-/// in the sweep's order. Exact.
+/// The side of a point on the line from `a` to `b`, exactly: `Greater` is to the left, above an edge whose
+/// ends are in the sweep's order.
 #[inline]
 pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
     area(a, b, c).cmp(&0)
@@ -39,10 +39,10 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) struct Edge {
     /// The points at its ends, in the order of the sweep.
     pub(super) ends: [u32; 2],
-    /// The polygon's corners at its ends; [`NONE`] where the outline continues straight.
+    /// The polygon's corners at these ends; [`NONE`] where the outline continues straight.
     pub(super) corners: [u32; 2],
-    /// The number of times that the outline runs along it from the first end to the second, minus those in
-    /// reverse.
+    /// The number of times that the outline traverses the edge from the first end to the second, minus the
+    /// number of times in reverse.
     pub(super) weight: i32,
 }
 
@@ -73,7 +73,7 @@ fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
 /// The fill rule, which also decides how overlapping edges are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// By direction: opposite edges cancel, two of the same direction count 2. A point is inside if its
+    /// By direction: opposite edges cancel, two edges of the same direction count 2. A point is inside if its
     /// winding number is not 0. Edges must not cross.
     Signed,
     /// By parity: any two overlapping edges cancel.
@@ -82,17 +82,17 @@ pub(super) enum Rule {
 
 /// A sweep over the points of an outline.
 ///
-/// Its lists are not checked for memory. Edges that overlap are merged, so `n` edges and `n` points have
-/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of
-/// 20 000 random corners takes some megabytes; an outline with the largest allowed number of corners takes
-/// a gigabyte.
+/// Allocations of its lists are not checked. Edges that overlap are merged, so `n` edges and `n` points have
+/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of 20
+/// 000 random corners takes some megabytes; an outline with the largest allowed number of corners takes a
+/// gigabyte.
 pub(super) struct Sweep<'a> {
     outline: &'a Outline,
     rule: Rule,
     line: SweepLine,
-    /// The edges that are or have been on the line.
+    /// The edges that are or were on the line.
     edges: Vec<SweptEdge>,
-    /// The edges that the sweep has yet to meet, each with the next one that begins at the same point.
+    /// The edges that the sweep has not met yet, each with the next edge that begins at the same point.
     waiting: Vec<(Edge, u32)>,
     /// For each point, the last edge that waits for it: the head of a list in `waiting`.
     heads: Vec<u32>,
@@ -100,7 +100,7 @@ pub(super) struct Sweep<'a> {
     arriving: Vec<u32>,
     /// The edges that begin at the current point.
     starting: Vec<Edge>,
-    /// The same edges before overlapping ones are merged.
+    /// The same edges before overlapping edges are merged.
     unmerged: Vec<Edge>,
     /// The edges through the current point.
     ended: Vec<u32>,
@@ -190,7 +190,7 @@ impl<'a> Sweep<'a> {
         self.waiting.push((edge, next));
     }
 
-    /// Takes the edges through a point off the line, and inserts those that begin there.
+    /// Removes the edges through a point from the line, and inserts the edges that begin there.
     fn visit(&mut self, point: u32) {
         let mut head = self.heads[point as usize];
         if self.arriving[point as usize] == 0 && head == NONE {
@@ -221,8 +221,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The place on the line of the first edge that is above a point, or that it lies on unless `above_all`
-    /// is set.
+    /// The place on the line of the first edge above a point; unless `above_all` is set, an edge through the
+    /// point counts.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -241,8 +241,8 @@ impl<'a> Sweep<'a> {
         turn(points[a as usize], points[b as usize], points[point as usize])
     }
 
-    /// Takes the edges through a point off the line, from the lowest to the highest. Their parts behind the
-    /// point begin there.
+    /// Removes the edges through a point from the line, from the lowest to the highest. Their parts behind
+    /// the point begin there.
     fn end_all(&mut self, point: u32, place: Place) {
         self.ended.clear();
         loop {
@@ -262,8 +262,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping ones.
-    /// Where the shortest of them ends, the rest begins again.
+    /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping edges.
+    /// Where the shortest of these ends, the remaining parts begin again.
     fn merge(&mut self, point: u32) {
         let points = &self.outline.points;
         let at = points[point as usize];
@@ -282,8 +282,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Merges edges that begin at a point in the same direction, given in the order of their ends, into one
-    /// edge up to the nearest end, or none if they cancel. Their further parts wait for the points where
-    /// they begin.
+    /// edge up to the nearest end. Returns `None` if they cancel. Their further parts wait for the points
+    /// where they begin.
     fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Option<Edge> {
         let (mut weight, mut from, mut kept) = (edges.iter().map(|e| e.weight).sum(), point, None);
         let mut corner = shared_corner(edges, 0, weight);
@@ -306,7 +306,7 @@ impl<'a> Sweep<'a> {
         kept
     }
 
-    /// Adds a point to the regions around it, and inserts the edges that begin there between these.
+    /// Adds a point to the regions around it, and inserts the edges that begin there between these regions.
     fn begin_all(&mut self, point: u32, below: u32) {
         let mut winding = self.edges.get(below as usize).map_or(0, |swept| swept.winding);
         // Once edges have left the line, regions are no longer known.
@@ -374,10 +374,9 @@ impl<'a> Sweep<'a> {
         swept.map_or_else(Default::default, |s| (s.winding, std::mem::take(&mut s.region)))
     }
 
-    /// A point of a region, with the corner of the first of two edges that has one there. The direction of
-    /// a region's outline decides which of the corners at one point belongs to it: with a winding number
-    /// above 0, the upper boundary runs from right to left, and leaves the point along the edge on the
-    /// left.
+    /// A point of a region, with the corner of the first of two edges that has a corner there. The direction
+    /// of a region's outline decides which corner at one point belongs to it: with a winding number above 0,
+    /// the upper boundary leads from right to left, and leaves the point along the edge on the left.
     fn vertex(&self, point: u32, mut corners: [u32; 2], winding: i32) -> Vertex {
         if winding < 0 {
             corners.reverse();
@@ -408,8 +407,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether two edges on the line, one above the other, cross before either ends: then the one that ends
-    /// first ends on the wrong side of the other.
+    /// Whether two edges on the line, one above the other, cross before either ends: then the edge that ends
+    /// first ends on the wrong side of the other edge.
     fn cross(&self, low: u32, high: u32) -> bool {
         if low == NONE || high == NONE {
             return false;
@@ -424,7 +423,7 @@ impl<'a> Sweep<'a> {
 }
 
 /// The edges on the sweep line, from the lowest to the highest, in blocks of bounded length, so that an
-/// insertion moves few of them. Blocks are split but never merged.
+/// insertion moves few edges. Blocks are split but never merged.
 struct SweepLine {
     /// No block is empty.
     blocks: Vec<Vec<u32>>,
@@ -437,7 +436,7 @@ impl SweepLine {
     /// The largest size of a block. Too small: there are many blocks. Too large: many edges are moved.
     const MOST: usize = 512;
 
-    /// The place after all edges that are below, which come first.
+    /// The place after all edges that are below; these edges are first in the list.
     fn find(&self, mut is_below: impl FnMut(u32) -> bool) -> Place {
         let block = self.blocks.partition_point(|block| is_below(block[0])).saturating_sub(1);
         let edges = self.blocks.get(block).map_or(&[][..], |block| block);

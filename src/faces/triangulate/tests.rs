@@ -34,8 +34,9 @@ fn triangles<'a>(
     found.triangles.iter().map(|triple| triple.map(|k| corners[k as usize]))
 }
 
-/// The number of times that closed lines run along each straight line between two neighbours of all points
-/// on it, minus those in reverse. Two sets of lines with equal counts have the same winding numbers.
+/// For each straight line between two neighbours of all points on it, the number of times that closed lines
+/// traverse it, minus the number of times in reverse. Two sets of lines with equal counts have the same
+/// winding numbers.
 fn chain(points: &[Point], lines: impl Iterator<Item = [Point; 2]>) -> BTreeMap<[Point; 2], i32> {
     let mut chain = BTreeMap::new();
     for [a, b] in lines {
@@ -120,7 +121,7 @@ fn a_hole_at_the_end_of_a_bridge_stays_a_hole() {
     for (corners, twice) in [(&keyhole, 144), (&two, 142), (&row, 142)] {
         assert_eq!(twice_area(corners), twice);
         in_all_ways(corners, assert_covers);
-        // Far out, where products use all of their bits.
+        // Far from the origin, where products use all their bits.
         let far = corners.iter().map(|p| p.map(|c| (c - 4) * (1 << 51) / 5)).collect::<Vec<_>>();
         in_all_ways(&far, assert_covers);
     }
@@ -296,7 +297,7 @@ fn a_loop_in_a_large_outline_is_a_small_fault() {
     assert!(count > 3, "{count} outlines cross themselves");
 }
 
-/// Of the two ways to join the ends, one would halve the square.
+/// One of the two ways to join the ends would halve the square.
 #[test]
 fn sides_that_cross_near_their_ends_are_joined_there() {
     let square = [[0, 0], [1000, 0], [1000, 1000], [-5, 995], [-5, 1005]];
@@ -342,7 +343,7 @@ fn an_outline_through_one_point_again_and_again_ends_as_fast() {
         assert_eq!(found.triangles.len(), corners.len() / 3);
         assert!(steps < 4 * corners.len() * 17, "{steps}");
     });
-    // Out and back along one line, further each time.
+    // To a point on one line and back, further each time.
     let row: Vec<Point> = (1..30_000).flat_map(|k| [[0, 0], [k, 0]]).chain([[5, 5]]).collect();
     in_all_ways(&row, |corners| {
         let (found, steps) = steps(corners);

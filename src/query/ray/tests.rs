@@ -1,4 +1,4 @@
-//! How far the floats of a ray are off its integers.
+//! The differences between the floats and the integers of a ray.
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
@@ -26,14 +26,14 @@ fn off(floats: [f64; 3], integers: [i128; 3], bits: u32, size: f64) -> f64 {
     largest.to_f64().value()
 }
 
-/// A number whose digits all are used, near a power of two.
+/// A number that uses all its digits, near a power of two.
 fn long(random: &mut SplitMix64, exponent: i32) -> f64 {
     let sign = if random.next().is_multiple_of(2) { 1.0 } else { -1.0 };
     sign * random.range(1.0, 1.00001) * 2f64.powi(exponent)
 }
 
-/// Rays and segments, those among them that are as short, beside the largest of their coordinates, as floats
-/// are trusted with; on lattices at the world's origin and far from it.
+/// Rays and segments, some as short in proportion to their largest coordinate as floats are trusted with; on
+/// lattices at the world's origin and far from it.
 #[test]
 fn floats_are_off_by_one_rounding_and_a_thousandth() {
     let mut random = SplitMix64::new(1);
@@ -52,8 +52,8 @@ fn floats_are_off_by_one_rounding_and_a_thousandth() {
         from[axis] = 2f64.powi(far);
         let mut to = from;
         for other in (0..3).filter(|&other| other != axis) {
-            // The difference is all but half a step from the next numbers, and one end has digits that no
-            // grid holds.
+            // The difference is nearly half a step from the next numbers, and one end has digits that no grid
+            // contains.
             from[other] = long(&mut random, length);
             to[other] = from[other] * ROUNDING * random.range(0.9999, 1.0);
         }
@@ -62,7 +62,7 @@ fn floats_are_off_by_one_rounding_and_a_thousandth() {
         let (origin, direction, bits) = ExactRay::new(ray, lattice).unwrap().parts();
         origins = origins.max(off(query.origin, origin, bits, query.reach));
         if query.is_precise {
-            // An endless ray has a unit of its own.
+            // An endless ray has a separate unit.
             let bits = if query.is_endless { 123 - SPEED_BITS as u32 } else { bits };
             directions = directions.max(off(query.direction, direction, bits, query.speed));
             short += usize::from(!query.is_endless && length < far - 56);

@@ -100,6 +100,10 @@ fn parse(library: &str, bytes: &[u8], report: &mut ObjReport) -> Result<Material
             (Some("Tr"), Some((_, material))) if !has_dissolve => {
                 number(words.next()).map(|tr| material.opacity = 1.0 - tr).is_some()
             }
+            (Some("map_Kd" | "map_d"), Some(_)) => {
+                report.skipped_textures += 1;
+                continue;
+            }
             _ => continue,
         };
         report.skipped_material_lines += usize::from(!understood);

@@ -1,4 +1,4 @@
-//! The points and edges of all fragments: vertices that are one point, and edges on one line.
+//! The points and edges of all fragments: vertices that are one point, and collinear edges.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};
@@ -11,8 +11,8 @@ use crate::tree::Fragment;
 use crate::tree::parts::Stored;
 use crate::union::Union;
 
-/// A vertex as one face names it: a corner, or the intersection of planes with the face. The first nodes
-/// are the corners of all faces, the others [`Survey::cuts`].
+/// A vertex as one face names it: a corner, or the intersection of planes with the face. The first nodes are
+/// the corners of all faces, the other nodes [`Survey::cuts`].
 pub(super) type Node = u32;
 
 /// An edge of a fragment. It ends where the fragment's next edge begins.
@@ -22,12 +22,12 @@ pub(super) struct FragmentEdge {
     pub(super) from: Node,
 }
 
-/// The fragments that a mesh is made of: those of a tree, or an overlay's pieces of polygons.
+/// The fragments that a mesh is made of: the fragments of a tree, or an overlay's pieces of polygons.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'t> {
     pub(crate) faces: &'t Faces,
     pub(crate) stored: Stored<'t>,
-    /// That of the tree.
+    /// The generation of the tree.
     pub(crate) generation: u64,
     /// The number of the first fragment in orders.
     pub(crate) first: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Source<'t> {
 }
 
 impl<'t> Source<'t> {
-    /// How many fragments there are, and pieces of lines and points.
+    /// The number of fragments, including pieces of lines and points.
     pub(super) fn len(&self) -> usize {
         self.stored.records.len()
     }
@@ -53,7 +53,7 @@ pub(super) struct Survey<'t> {
     pub(super) faces: &'t Faces,
     /// The numbers of all fragments, face by face.
     pub(super) fragments: Vec<u32>,
-    /// The first edge of each of `fragments`, and the end of the last.
+    /// The first edge of each of `fragments`, and the end of the last fragment's edges.
     pub(super) starts: Vec<u32>,
     pub(super) edges: Vec<FragmentEdge>,
     /// Nodes that are not corners: a face, and the vertex on it.
@@ -210,8 +210,8 @@ fn by_face(source: Source<'_>) -> Result<Vec<u32>, Error> {
     Ok(fragments)
 }
 
-/// A line that contains edges of fragments: that of an edge as given, shared by all faces, or the cut of a
-/// plane through one face.
+/// A line that contains edges of fragments: the line of an edge as given, shared by all faces, or the line in
+/// which a plane cuts one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier {
     /// An axis along which the line is not constant.
@@ -220,8 +220,8 @@ pub(super) struct Carrier {
     pub(super) face: Option<u32>,
 }
 
-/// The lines of edges, by their shortest integer direction, the first coordinate that is not zero
-/// positive, and their moment.
+/// The lines of edges, by their moment and their shortest integer direction, whose first coordinate that is
+/// not zero is positive.
 #[derive(Default)]
 pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
 
@@ -270,20 +270,20 @@ fn divisor(a: i64, b: i64) -> i64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OutlineVertex {
     pub(super) vertex: u32,
-    /// Whether the outline runs straight through it.
+    /// Whether the outline is straight at this vertex.
     pub(super) straight: bool,
 }
 
-/// Calls `triangle` with two triangles fewer than the outline has vertices. They have its orientation and
-/// fill it. None has all its vertices on one side of the outline, so each has area.
+/// Calls `triangle` n − 2 times for an outline of n vertices. The triangles have the outline's orientation
+/// and fill it. No triangle has all its vertices on one side of the outline, so each has area.
 ///
-/// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has none.
+/// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has no triangles.
 pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u32; 3])) {
     let n = outline.len();
     let at = |k: usize| outline[k % n];
     let mut emit = |a: usize, b: usize, c: usize| triangle([a, b, c].map(|k| at(k).vertex));
-    // A fan from any true corner would have flat triangles on the sides next to it, if these have vertices
-    // inside. A fan from a vertex inside a side has flat triangles only on that side.
+    // A fan from any true corner would have flat triangles on the adjacent sides, if these contain vertices.
+    // A fan from a vertex inside a side has flat triangles only on that side.
     let first = (0..n).find(|&k| at(k).straight && !at(k + n - 1).straight);
     let apex = first.unwrap_or(0);
     // The number of edges to the end of the apex's side.
@@ -297,16 +297,16 @@ pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u
     (next + 1..apex + n).for_each(|k| emit(apex, k - 1, k));
 }
 
-/// Rounded coordinates that differ by more than this share of the larger, and by [`POSITION_OFF`] for both,
-/// are in their true order: each is off by three roundings of its own size at most, and the difference by
-/// one. Too small: wrong orders. Too large: more work for the integers.
+/// Rounded coordinates that differ by more than this share of the larger one, plus [`POSITION_OFF`] for each,
+/// are in their true order: each coordinate is off by at most three roundings of its own size, and the
+/// difference by one. Too small: wrong orders. Too large: integers decide more cases.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The points of all lines.
 pub(super) struct Points {
     /// The nodes that are the same point.
     same: Union,
-    /// A node of each point, line after line, in order along each.
+    /// A node of each point, line after line, in order along each line.
     pub(super) on_lines: Vec<Node>,
     /// For each edge, the places of its two ends in `on_lines`.
     pub(super) ends: Vec<[u32; 2]>,
@@ -360,13 +360,13 @@ impl Points {
         Ok(())
     }
 
-    /// Sorts the ends on one line, unites those in one place, and stores the places.
+    /// Sorts the ends on one line, unites ends in one place, and stores the places.
     fn order(&mut self, survey: &Survey<'_>, line: usize, ends: &mut [End]) -> Result<(), Error> {
         ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
         reserve(&mut self.on_lines, ends.len())?;
         let mut last: Option<End> = None;
-        // A point that is one by the edges as given may have two places on a line of a face whose corners
-        // were moved.
+        // Two ends may be one point by the edges as given, and yet have two places on a line of a face whose
+        // corners were moved.
         let is_one = |same: &Union, a: &End, b: &End| {
             same.root(a.node) == same.root(b.node) || compare(survey, line, a, b).is_eq()
         };
@@ -400,8 +400,7 @@ fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
     a.compare(&b)
 }
 
-/// Whether two ends on a line shared by faces are corners given in one place there, or cuts by the same
-/// plane.
+/// Whether two ends on a line shared by faces are corners given in one place, or cuts by the same plane.
 fn is_same_place(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> bool {
     let plane = |(face, vertex_id): (u32, VertexId)| match vertex_id.kind() {
         VertexKind::OnEdge(_, plane) if !is_moved(survey, face) => Some(plane),
@@ -421,9 +420,9 @@ fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
 
 /// The coordinate of a node on a line, along the line's axis.
 ///
-/// On the line of an edge as given, it is that of a corner as given, or of the place where the plane cuts
-/// the edge as given, so that all faces agree. On a line inside a face, it is that of the vertex on the
-/// face's plane.
+/// On the line of an edge as given, it is the coordinate of a corner as given, or of the point where the
+/// plane cuts the edge as given, so that all faces agree. On a line inside a face, it is the coordinate of
+/// the vertex on the face's plane.
 pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fraction {
     let (faces, carrier) = (survey.faces, survey.carriers[line]);
     match (survey.cut(node), carrier.face) {
@@ -437,7 +436,7 @@ pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fracti
                 VertexKind::OnEdge(k, plane) => faces.cut_of_segment(ends(faces, face, k), plane),
                 _ => None,
             };
-            // The plane may cut the edge as moved and not as given; then the former decides.
+            // The plane may cut the moved edge and not the given edge; then the moved edge decides.
             given.map_or_else(
                 || faces.along(face, vertex_id, carrier.axis),
                 |cut| cut.along(carrier.axis),
@@ -518,7 +517,7 @@ mod tests {
             names.vertex_ids.insert(VertexId::crossing(EdgeLine::edge(0), plane), k);
             names.planes.insert(plane, k);
         }
-        // The first face after it is still slowed by the entries.
+        // The entries still slow the first face after it.
         (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
         let room = names.vertex_ids.capacity() + names.planes.capacity();
         assert!(room < 1000, "room for {room} names is emptied for each face");
@@ -554,7 +553,7 @@ mod outline_tests {
     use super::{OutlineVertex, triangulate};
     use std::collections::HashSet;
 
-    /// Outlines of integer points on the sides of polygons, with every number of points inside each.
+    /// Outlines of integer points on the sides of polygons, with every number of points inside each side.
     #[test]
     fn triangles_have_area_and_each_edge_of_the_outline_once() {
         let shapes: [&[[i64; 2]]; 3] = [

@@ -11,19 +11,19 @@ use crate::viewpoint::Viewpoint;
 /// fragment one range of indices.
 ///
 /// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments,
-/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) those of some polygons, such as the translucent
-/// ones.
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) the triangles of some polygons, such as the
+/// translucent polygons.
 #[derive(Clone, Debug)]
 pub struct Triangles {
     /// The generation of the tree.
     generation: u64,
-    /// The number of the first fragment in orders: 0, or that of an overlay's first piece.
+    /// The number of the first fragment in orders: 0, or the number of an overlay's first piece.
     first: usize,
     /// The number of the mesh's vertices.
     pub(super) vertices: u32,
-    /// The first index of each fragment, and the end of the last.
+    /// The first index of each fragment, and the end of the last fragment's indices.
     starts: Vec<u32>,
-    /// [`CHUNK`] more than are used.
+    /// [`CHUNK`] more indices than are used.
     indices: Vec<u32>,
     /// The number of triangles of each fragment, if it is the same for all.
     each: Option<u32>,
@@ -81,12 +81,12 @@ impl Triangles {
         Ok(some)
     }
 
-    /// All indices in the order of the fragments' numbers, for drawing without an order.
+    /// Returns all indices in the order of the fragments' numbers, for drawing without an order.
     pub fn indices(&self) -> &[u32] {
         &self.indices[..self.indices.len() - CHUNK]
     }
 
-    /// The range of a fragment's indices in [`indices`](Self::indices).
+    /// Returns the range of a fragment's indices in [`indices`](Self::indices).
     ///
     /// # Panics
     ///
@@ -106,19 +106,19 @@ impl Triangles {
     /// Writes the indices back to front and returns their number: always the length of
     /// [`indices`](Self::indices).
     ///
-    /// `tree` must be the one that the mesh was made of, or a clone of it. The triangles of one fragment
+    /// `tree` must be the tree that the mesh was made of, or a clone of it. The triangles of one fragment
     /// keep their order.
     ///
-    /// `indices` may be mapped device memory: each place is written once, in increasing order, and none is
-    /// read. Places beyond the end are not changed. `order` is working space and finally holds the order of
-    /// the fragments; as in [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once
+    /// `indices` may be mapped device memory: each place is written once, in increasing order, and never
+    /// read. Places beyond the end are not changed. `order` is working space and finally contains the order
+    /// of the fragments. As in [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once
     /// it is large enough.
     ///
     /// O(n).
     ///
     /// # Errors
     ///
-    /// If `indices` is too short, or the mesh was made of another tree. Then nothing is written.
+    /// If `indices` is too short, or the mesh was made of another tree. After an error nothing is written.
     pub fn write_back_to_front(
         &self,
         tree: &BspTree,
@@ -138,17 +138,17 @@ impl Triangles {
         Ok(count)
     }
 
-    /// Writes the indices of some fragments in a given order, such as that of
-    /// [`Order::write_into`](crate::Order::write_into), and returns their number. Otherwise like
+    /// Writes the indices of some fragments in a given order, such as a list from
+    /// [`Order::write_into`](crate::Order::write_into), and returns their number. It writes memory like
     /// [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
-    /// If `indices` is too short. Then nothing is written.
+    /// If `indices` is too short. After an error nothing is written.
     ///
     /// # Panics
     ///
-    /// If a number in the list is not that of a fragment.
+    /// If a number in the list belongs to no fragment.
     pub fn write_order(&self, order: &[u32], indices: &mut [u32]) -> Result<usize, Error> {
         let count = match self.each {
             Some(each) => 3 * each as usize * order.len(),
@@ -161,21 +161,21 @@ impl Triangles {
         Ok(count)
     }
 
-    /// Writes the indices of a tree's fragments and of an overlay's pieces in an order of both, as of
-    /// [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns how many. `pieces`
-    /// are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
+    /// Writes the indices of a tree's fragments and of an overlay's pieces in one common order, such as a
+    /// list from [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns their
+    /// number. `pieces` are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
-    /// The vertices of the pieces are numbered after those of the tree's mesh: put both into one vertex
-    /// buffer, the pieces' after the tree's. Lines and points in the order have no triangles. After each
-    /// [`replace`](crate::overlay::Overlay::replace) of the overlay, make its mesh again: triangles of an
-    /// earlier one do not fit the new order.
+    /// The vertices of the pieces are numbered after the vertices of the tree's mesh: put both into one
+    /// vertex buffer, the pieces' vertices after the tree's. Lines and points in the order have no triangles.
+    /// After each [`replace`](crate::overlay::Overlay::replace) of the overlay, make its mesh again: the
+    /// triangles of an earlier mesh do not fit the new order.
     ///
     /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
-    /// If `indices` is too short, if `pieces` are not those of an overlay of the same tree, or if there are
-    /// more than 2³² vertices. Then nothing is written.
+    /// If `indices` is too short, if `pieces` are not triangles of an overlay of the same tree, or if there
+    /// are more than 2³² vertices. After an error nothing is written.
     ///
     /// # Panics
     ///
@@ -228,9 +228,9 @@ impl Triangles {
         }
     }
 
-    /// If each fragment has N indices, their place follows from the fragment's number.
+    /// Writes the indices if each fragment has N of them: their place is computed from the fragment's number.
     fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
-        // Without the room after the last fragment's indices: a number beyond it panics.
+        // Exclude the spare indices after the last fragment's, so that a number too large panics.
         let all = &self.indices.as_chunks::<N>().0[..self.starts.len() - 1];
         let places = places.as_chunks_mut::<N>().0;
         for (&fragment, place) in order.iter().zip(places) {
@@ -238,9 +238,9 @@ impl Triangles {
         }
     }
 
-    /// Copies each fragment's indices into a small buffer, always [`CHUNK`] of them; the next fragment
-    /// overwrites the excess. That is faster than a branch on their number, which no processor can predict,
-    /// but would write the caller's memory more than once.
+    /// Copies each fragment's indices into a small buffer, always [`CHUNK`] indices; the next fragment
+    /// overwrites the excess. That is faster than a branch on their number, which no processor can predict.
+    /// The caller's memory may be written only once, hence the buffer.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;

@@ -17,10 +17,10 @@ use crate::{Error, parallel_map};
 /// are the eye's homogeneous coordinates, scaled so that the largest of the four is 1, and |p| is the
 /// sum of the magnitudes of the first three.
 ///
-/// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p, which for a wrong sign is
-/// ow up to rounding. Normal, eye and their products are off by 3uT, offset, w and their product by 3u|N|,
-/// the sums by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by almost nothing; less 2u of the product
-/// with the coordinate that is 1, because neither it nor the product is rounded.
+/// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p. For a wrong sign, N is ow
+/// up to rounding. Normal, eye and their products are off by 3uT. Offset, w and their product are off by
+/// 3u|N|. The sums are off by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by almost nothing. The
+/// coordinate that is 1 and its product are not rounded, so 2u of that product is subtracted.
 ///
 /// - If w is 1: 4T + 2|N| ≤ 6T ≤ 6 √|p| ≤ 3(|p| + 1).
 /// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w, it is
@@ -82,8 +82,8 @@ impl View {
         faces.eye_side(plane, &self.eye) == Ordering::Greater
     }
 
-    /// For up to 16 planes from a given number on: a bit for each that certainly has the eye in front, and
-    /// a bit for each that certainly has it behind.
+    /// For up to 16 planes from a given number on: a bit for each plane that certainly has the eye in front,
+    /// and a bit for each that certainly has it behind.
     #[inline]
     pub(in crate::tree) fn sure_sides(&self, planes: &Planes, run: Range<u32>) -> [u32; 2] {
         let groups = run.start as usize / GROUP..(run.end as usize).div_ceil(GROUP);
@@ -104,8 +104,8 @@ impl View {
         }
     }
 
-    /// Whether another viewpoint is on the same side of every plane. Stops at the first that lies
-    /// between the two.
+    /// Whether another viewpoint is on the same side of every plane. Stops at the first plane between the two
+    /// viewpoints.
     pub(super) fn agrees_with(&self, other: &Self, tree: &BspTree) -> bool {
         let mut groups = tree.planes.0.chunks(WORD / GROUP).enumerate();
         groups.all(|(w, groups)| self.signs(tree, w, groups) == other.signs(tree, w, groups))
@@ -132,7 +132,7 @@ impl View {
         front
     }
 
-    /// Decides the nodes exactly that have a bit in `unsure`; bit 0 stands for node `first`.
+    /// Decides exactly for the nodes that have a bit in `unsure`; bit 0 stands for node `first`.
     #[cold]
     fn decide_rest(&self, tree: &BspTree, first: usize, unsure: u32) -> u32 {
         bits(unsure.into())
@@ -147,14 +147,16 @@ impl View {
 }
 
 impl BspTree {
-    /// Whether no partition plane lies between two viewpoints. Then the orders of all fragments are the same,
-    /// and need not be sorted or uploaded again. (Orders may be the same even if a plane lies between.)
+    /// Returns whether no partition plane lies between two viewpoints. If so, both orders of all fragments
+    /// are the same and need not be written or uploaded again. (The orders may be the same even if a plane
+    /// lies between.)
     ///
-    /// This holds neither for [culled](crate::Order::culled) orders, which change with the facing of polygons
-    /// and with the frustum, nor for the orders of an [`Overlay`](crate::overlay::Overlay). Compare their
-    /// lists instead.
+    /// This is not true of [culled](crate::Order::culled) orders, which change with the facing of polygons
+    /// and with the frustum: compare their lists instead. For an overlay use
+    /// [`Overlay::same_order`](crate::overlay::Overlay::same_order).
     ///
-    /// Stops at the first plane between the two; O(nodes) if there is none. Allocates nothing.
+    /// Stops at the first plane between the two viewpoints; O(nodes) if no plane lies between them. Allocates
+    /// nothing.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
@@ -206,7 +208,7 @@ impl Planes {
         self.0.clear();
     }
 
-    /// Replaces the planes by those of a tree's nodes.
+    /// Replaces the planes by the planes of a tree's nodes.
     pub(in crate::tree) fn fill(
         &mut self,
         faces: &Faces,
@@ -233,12 +235,12 @@ impl Planes {
         Self(groups.map(|_| group(planes.by_ref().take(GROUP))).collect())
     }
 
-    /// The number of words for the signs of all planes, and one more to read past the end.
+    /// The number of words for the signs of all planes, and one more word to read past the end.
     pub(in crate::tree) fn words(&self) -> usize {
         self.0.len().div_ceil(WORD / GROUP) + 1
     }
 
-    /// The size of its heap memory in bytes.
+    /// The size of the heap memory in bytes.
     pub(in crate::tree) fn bytes(&self) -> usize {
         size_of_val(&*self.0)
     }
@@ -247,7 +249,7 @@ impl Planes {
 /// A plane, rounded: its unit normal, and its distance from the lattice's origin in 2⁵¹ lattice units.
 pub(crate) fn rounded(faces: &Faces, id: PlaneId) -> Vec4 {
     let plane = match id.kind() {
-        // The same numbers as below, without integers and a square root.
+        // The same numbers as in the other case, without integers and a square root.
         PlaneKind::Axis(axis, corner) => {
             DVec3::AXES[axis].extend(faces.corner(corner)[axis] / LATTICE_LIMIT)
         }

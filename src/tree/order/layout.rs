@@ -7,8 +7,8 @@ use crate::Error;
 use crate::memory::push;
 use crate::tree::node::NodeRecord;
 
-/// Shorter chains are stored as ordinary inner nodes: a branch on a chain costs more than a short one
-/// saves.
+/// Shorter chains are stored as ordinary inner nodes. Too small: branches on chains take longer than short
+/// chains save. Too large: long chains are ordered node by node.
 const SHORTEST_CHAIN: usize = 8;
 
 impl OrderLayout {
@@ -157,7 +157,8 @@ impl LayoutBuilder<'_> {
         self.nodes[subtree.node..]
             .iter()
             .take_while(|node| {
-                // Stops where the side changes: the rest would no longer lie between the two ends.
+                // Stops where the side changes: after it, the remaining fragments would no longer lie between
+                // the two ends.
                 let same = first.is_some() && side(node, fragments) == first;
                 fragments -= u32::from(same);
                 same
@@ -182,7 +183,7 @@ impl LayoutBuilder<'_> {
 
     /// Makes a block; blocks of one shape share a row of the table.
     fn block(&mut self, node: usize, shape: BlockShape, fragments: u32) -> Result<u32, Error> {
-        // The table has a row for each shape, of which there is a fixed number.
+        // The table has a row for each shape, and the number of shapes is fixed.
         let permutations = &mut self.layout.permutations;
         let row = *self.rows.entry(shape).or_insert_with(|| {
             permutations.push(shape.permutations());
@@ -193,7 +194,7 @@ impl LayoutBuilder<'_> {
         Ok(BLOCK | (self.layout.blocks.len() as u32 - 1))
     }
 
-    /// Assigns the next fragments to a part, and returns the number of the first.
+    /// Assigns the next fragments to a part, and returns the number of the first fragment.
     fn take(&mut self, fragments: u32) -> u32 {
         let first = self.next;
         self.next += fragments;
@@ -210,18 +211,18 @@ pub(in crate::tree) const ROOT: u32 = 2;
 
 /// A tree's fragments, divided into *parts*. The fragments of a part are contiguous in every order.
 ///
-/// - An *inner node* is a node with all parts on its plane and sides.
+/// - An *inner node* is a node together with all parts on its plane and sides.
 /// - A *block* is a subtree or leaf of at most [`FRAGMENTS`](FRAGMENTS) fragments and
 ///   [`NODES`](NODES) nodes.
-/// - A *span* is a longer sequence of fragments that always come in the order of their numbers, such as
-///   many on one plane.
+/// - A *span* is a longer sequence of fragments that are always in the order of their numbers, such as many
+///   fragments on one plane.
 ///
 /// Parts are numbered from [`ROOT`]: inner nodes first, then blocks, then spans, each depth first.
 ///
 /// There are fewer than two parts per fragment. Proof: call *ends* the blocks, the spans, and the fragments
 /// that are alone on the plane of an inner node. Each end has a different fragment, so there are at most as
 /// many ends as fragments. A node has fragments on its plane or on both sides, so an inner node contains at
-/// least two ends or inner nodes, and there are fewer inner nodes than ends. The exception is an inner node
+/// least two ends or inner nodes. So there are fewer inner nodes than ends. The exception is an inner node
 /// with both sides empty; it contains one span, which has more than [`FRAGMENTS`](FRAGMENTS) fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::tree) struct OrderLayout {
@@ -247,11 +248,10 @@ pub(in crate::tree) struct Inner {
     /// The node, or the first of a chain.
     pub(in crate::tree) node: u32,
     pub(in crate::tree) own: u32,
-    /// The numbers of fragments in front and behind, at all levels below; for a chain, those of its last
-    /// node.
+    /// The numbers of fragments in front and behind, at all levels below; for a chain, of its last node.
     pub(in crate::tree) front: u32,
     pub(in crate::tree) back: u32,
-    /// Their part numbers. For a chain, one is [`NOBODY`].
+    /// The part numbers of the two sides. For a chain, one is [`NOBODY`].
     pub(in crate::tree) front_part: u32,
     pub(in crate::tree) back_part: u32,
     pub(in crate::tree) own_first: u32,
@@ -260,12 +260,13 @@ pub(in crate::tree) struct Inner {
 /// Marks an [`Inner`] that is a chain.
 pub(super) const CHAIN: u32 = 1 << 31;
 
-/// Consecutive nodes, each with one fragment on its plane and all others below a single child, always on
-/// the same side. The order is written from both ends inwards; the rest comes in between.
+/// Consecutive nodes, each with one fragment on its plane and all others below a single child, always on the
+/// same side. The order is written from both ends inwards; the fragments below the last node are in the
+/// middle.
 pub(in crate::tree) struct Chain {
     pub(in crate::tree) first_node: u32,
     pub(in crate::tree) nodes: u32,
-    /// The fragment of the first node; the others follow.
+    /// The fragment of the first node; the other nodes' fragments follow.
     pub(in crate::tree) first: u32,
     /// The number of fragments below the last node.
     pub(in crate::tree) rest: u32,
@@ -273,7 +274,7 @@ pub(in crate::tree) struct Chain {
 }
 
 impl Inner {
-    /// The chain, if it is one.
+    /// The chain, if this inner node is a chain.
     #[inline]
     pub(in crate::tree) fn chain(&self) -> Option<Chain> {
         (self.own & CHAIN != 0).then(|| Chain {
@@ -310,7 +311,7 @@ impl OrderLayout {
         ROOT as usize + self.inner.len() + self.blocks.len() + self.spans.len()
     }
 
-    /// The size of its heap memory in bytes.
+    /// The size of the heap memory in bytes.
     pub(in crate::tree) fn bytes(&self) -> usize {
         size_of_val(&*self.inner)
             + size_of_val(&*self.blocks)
@@ -326,8 +327,8 @@ pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 
 /// The places of a block's fragments for every combination of signs of its nodes.
 ///
-/// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the place
-/// of fragment k. Missing fragments share the place of the first.
+/// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the place of
+/// fragment k. Missing fragments share the place of the first fragment.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
 /// Everything except the signs that decides the places of a block's fragments. For each node: the numbers
@@ -339,11 +340,12 @@ pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in crate::tree) struct BlockShape(u32);
 
-/// The bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three, up to [`NODES`] two.
+/// The number of bits of a node in a shape. Numbers up to [`FRAGMENTS`] take three bits, and up to [`NODES`]
+/// two.
 const NODE_BITS: u32 = 3 + 3 + 2 + 1;
 /// The start of the number of fragments, after the bits of the nodes.
 const FRAGMENTS_AT: u32 = NODE_BITS * NODES as u32;
-/// The start of the number of nodes, after that.
+/// The start of the number of nodes, after the number of fragments.
 const LEN_AT: u32 = FRAGMENTS_AT + 3;
 
 /// A node of a shape.
@@ -389,7 +391,7 @@ impl BlockShape {
         }
     }
 
-    /// Its row of the table.
+    /// The shape's row of the table.
     pub(in crate::tree) fn permutations(self) -> Permutations {
         std::array::from_fn(|signs| self.places(signs))
     }

@@ -42,13 +42,13 @@ pub struct Order<'t> {
 }
 
 impl BspTree {
-    /// The order of the fragments for a viewpoint, for writing into a list, iteration or a walk.
+    /// Returns the order of the fragments for a viewpoint, for writing into a list, iteration or a walk.
     pub fn order(&self, viewpoint: Viewpoint) -> Order<'_> {
         Order { tree: self, viewpoint, is_front_to_back: false, culling: None }
     }
 
-    /// The fragments, back to front: none hides one that comes later. A shorthand for iterating over
-    /// [`order`](Self::order).
+    /// Iterates over the fragments back to front: no fragment hides a later fragment. A shorthand for
+    /// iterating over [`order`](Self::order).
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Ordered<'_> {
         self.order(viewpoint).into_iter()
     }
@@ -61,13 +61,13 @@ impl BspTree {
 }
 
 impl<'t> Order<'t> {
-    /// The same order, front to back: no fragment is hidden by one that comes later. It is the exact
-    /// reverse of back to front.
+    /// Reverses the order to front to back: no later fragment hides an earlier one. It is the exact reverse
+    /// of back to front.
     pub fn front_to_back(self) -> Self {
         Self { is_front_to_back: true, ..self }
     }
 
-    /// The same order without the fragments outside a frustum or those that show the wrong side.
+    /// Leaves out the fragments that are outside a frustum or show the wrong side.
     pub fn culled(self, culling: &'t Culling) -> Self {
         Self { culling: Some(culling), ..self }
     }
@@ -101,10 +101,10 @@ impl<'t> Order<'t> {
     /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns [`Flow::Skip`].
     /// Returns the value of [`Flow::Break`], if any.
     ///
-    /// A subtree is visited after everything before it in the order, and before anything in it. Front to
-    /// back, it is therefore visited after everything that may hide it. Takes O(parts visited) time and
-    /// O(depth) memory, and does not recurse. A culled order also takes a bit for each fragment, and first
-    /// tests the boxes against the frustum.
+    /// A subtree is visited after all parts that precede it in the order, and before its own parts. Front to
+    /// back, it is therefore visited after all fragments that may hide it. The walk takes O(parts visited)
+    /// time and O(depth) memory, and does not recurse. A culled order also takes a bit for each fragment, and
+    /// first tests the boxes against the frustum.
     ///
     /// ```
     /// use binspace::{BspTree, Flow, Part, Viewpoint};
@@ -142,7 +142,7 @@ impl<'t> Order<'t> {
                     match visit(Part::Subtree(node)) {
                         Flow::Descend => {
                             let mut parts = node.parts(view.is_in_front(tree, node.index()));
-                            // A stack: the last one is taken first.
+                            // A stack: the last part is visited first.
                             if !is_front_to_back {
                                 parts.reverse();
                             }
@@ -193,7 +193,7 @@ impl<'t> IntoIterator for Order<'t> {
 /// A subtree or fragment visited by a walk: [`Order::walk`].
 #[derive(Clone, Copy, Debug)]
 pub enum Part<'t> {
-    /// A subtree, before anything in it.
+    /// A subtree, before its own parts.
     Subtree(Node<'t>),
     /// A fragment, in its place in the order.
     Fragment(Fragment<'t>),
@@ -204,7 +204,7 @@ pub enum Part<'t> {
 pub enum Flow<B = ()> {
     /// Enter the subtree. After a fragment: continue with the next part.
     Descend,
-    /// Skip the subtree and all in it. After a fragment: continue with the next part.
+    /// Skip the subtree. After a fragment: continue with the next part.
     Skip,
     /// End the walk and return the value.
     Break(B),
@@ -212,7 +212,7 @@ pub enum Flow<B = ()> {
 
 /// The fragments of a tree in an [`Order`].
 ///
-/// Reads from either end or both: O(n) time for all n fragments, and O(depth) memory. A
+/// Iterates from either end or from both, in O(n) time for all n fragments and O(depth) memory. A
 /// [culled](Order::culled) order is written into a list before the first fragment is read.
 #[derive(Clone, Debug)]
 pub struct Ordered<'t> {
@@ -222,8 +222,8 @@ pub struct Ordered<'t> {
     is_front_to_back: bool,
     /// The furthest fragments, behind all of `parts`.
     far: Range<u32>,
-    /// The parts that neither end has reached, back to front. Each end opens subtrees only as far as it
-    /// must.
+    /// The parts that neither end has reached, back to front. Each end opens subtrees only as far as
+    /// necessary.
     parts: VecDeque<Child<'t>>,
     /// The nearest fragments, in front of all of `parts`.
     near: Range<u32>,
@@ -405,7 +405,7 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
     for (inner, next) in inner.iter().zip(ROOT as usize + 1..) {
         let &Inner { own, front, back, .. } = inner;
         let is_in_front = is_in_front(signs, inner.node);
-        // The order is: far side, own, near side. The far side is the back if the eye is in front.
+        // The order is: far side, own fragments, near side. The far side is the back if the eye is in front.
         let mut to_front = select_unpredictable(is_in_front, back + own, 0);
         let mut to_back = select_unpredictable(is_in_front, 0, front + own);
         let to_own = select_unpredictable(is_in_front, back, front);
@@ -416,15 +416,15 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
             numbers[place] = inner.own_first;
         } else if let Some(chain) = inner.chain() {
             let to_rest = write_chain(&chain, signs, begin, numbers);
-            // One of the two sides is `NOBODY`; the other is the rest of the chain.
+            // One of the two sides is `NOBODY`; the other contains the fragments below the chain.
             (to_front, to_back) = (to_rest, to_rest);
         } else {
             begins[inner.own_first as usize] = begin + to_own;
         }
         begins[inner.front_part as usize] = begin + to_front;
         begins[inner.back_part as usize] = begin + to_back;
-        // The next inner node mostly is a child of this one, and its place has just been computed. Passing
-        // it on in a register saves the loop from waiting for a store to be read back.
+        // The next inner node mostly is a child of this node, and its place has just been computed. Passing
+        // the place on in a register saves the loop from waiting for a store to be read back.
         let stored = begins[next];
         let from_back = select_unpredictable(inner.back_part == NEXT, begin + to_back, stored);
         begin = select_unpredictable(inner.front_part == NEXT, begin + to_front, from_back);
@@ -441,7 +441,8 @@ fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &m
         let places = layout.permutations[block.row as usize][signs] as usize;
         let room = numbers[begin as usize..].first_chunk_mut::<FRAGMENTS>();
         let Some(numbers) = room else { continue };
-        // Always four writes. A missing fragment shares the place of the first one, which is written last.
+        // Always four writes. A missing fragment shares the place of the first fragment, which is written
+        // last.
         numbers[places >> 6] = block.first + 3;
         numbers[places >> 4 & 3] = block.first + 2;
         numbers[places >> 2 & 3] = block.first + 1;
@@ -456,13 +457,14 @@ fn write_spans(spans: &[Span], begins: &[u32], numbers: &mut [u32]) {
     }
 }
 
-/// Writes the fragments of a chain from both ends inwards. Returns the number of fragments before the rest,
-/// which lies behind or in front of the last node.
+/// Writes the fragments of a chain from both ends inwards. Returns the number of the chain's fragments that
+/// precede the fragments below its last node.
 fn write_chain(chain: &Chain, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
     let places = &mut numbers[begin as usize..][..(chain.nodes + chain.rest) as usize];
     let (mut far, mut near) = (0, places.len() - 1);
     for (node, number) in (chain.first_node..).zip(chain.first..).take(chain.nodes as usize) {
-        // The node's fragment is further than the rest if the rest and the eye are on the same side.
+        // The node's fragment is further than the remaining fragments if these and the eye are on the same
+        // side.
         let is_far = is_in_front(signs, node) == chain.rest_is_front;
         places[select_unpredictable(is_far, far, near)] = number;
         far += usize::from(is_far);

@@ -36,7 +36,7 @@ impl Tree {
         self.own + self.sides.iter().map(Side::fragments).sum::<u32>()
     }
 
-    /// Appends its nodes, depth first, the front before the back.
+    /// Appends the nodes of the tree, depth first, the front before the back.
     fn lay(&self, nodes: &mut Vec<RawNode>) {
         let [front, back] = self.sides.each_ref().map(|side| match side {
             Leaf(fragments) => RawChild::Leaf(*fragments),
@@ -58,8 +58,8 @@ impl Tree {
         finished
     }
 
-    /// The order, from the first node and fragment not counted yet: the far side, the plane, the near side.
-    /// Leaves are numbered before subtrees.
+    /// The order from the first node and fragment that are not counted yet: the far side, the plane, the near
+    /// side. Leaves are numbered before subtrees.
     fn order(&self, signs: &[u32], node: &mut usize, next: &mut u32) -> Vec<u32> {
         let is_in_front = signs[*node / 32] >> (*node % 32) & 1 == 1;
         *node += 1;
@@ -90,7 +90,7 @@ impl Side {
     }
 }
 
-/// Compares the order for some signs with the walk, in empty and in too large buffers.
+/// Compares the order for some signs with the walk, in empty buffers and in buffers that are too large.
 struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// All trees of `fragments` fragments, at least one: each plane has some, or both sides do.
+/// All trees of `fragments` fragments, at least one: each plane has some fragments, or both sides do.
 fn trees(fragments: u32) -> Vec<Tree> {
     let mut all = Vec::new();
     for own in 0..=fragments {
@@ -179,7 +179,8 @@ fn trees_of_up_to_five_fragments_come_by_every_sign() {
     assert_eq!(counts, [1, 9, 69, 589, 5529]);
 }
 
-/// The possible rests of a list: spans on a plane, beside it, and on both sides, and blocks of every size.
+/// The possible subtrees below a list: spans on a plane, beside it, and on both sides, and blocks of every
+/// size.
 fn rests() -> Vec<Tree> {
     let run = Tree::new(7, Leaf(0), Leaf(0));
     let mut rests = vec![

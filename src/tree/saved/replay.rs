@@ -1,8 +1,8 @@
 //! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
-//! A file holds no vertices, so a forged one cannot give wrong pieces: for any planes, each piece is on its
-//! side of every plane above it, and the pieces of a face cover it. The file's numbers of fragments only
-//! limit how many there may be.
+//! A file contains no vertices, so a forged file cannot make wrong pieces: for any planes, each piece is on
+//! its side of every plane above it, and the pieces of a face cover it. The file's numbers of fragments only
+//! limit the number of pieces.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -14,17 +14,17 @@ use crate::save::invalid;
 use crate::tree::node::{NodeRecord, Ranges};
 use crate::tree::parts::{Parts, Record};
 
-/// Trees with more fragments are split by several threads. Too small: waking a thread takes longer than
-/// it saves. Too large: one thread works while others are idle.
+/// Trees with more fragments are split by several threads. Too small: waking a thread takes longer than the
+/// time that it saves. Too large: one thread works while others are idle.
 const WORTH_A_THREAD: usize = 4096;
-/// Subtrees of less than one in this many fragments are handed over. Too small: threads wait for the last.
-/// Too large: more of the tree is split before threads share the work.
+/// Subtrees of less than 1/`JOBS` of the fragments are handed over. Too small: threads wait for the last. Too
+/// large: more of the tree is split before threads share the work.
 const JOBS: usize = 32;
-/// Subtrees of less than one in this many fragments are not worth handing over.
+/// Subtrees of less than 1/`MOST_JOBS` of the fragments are not worth handing over.
 const MOST_JOBS: usize = 512;
 
 /// The number of pieces of a list that share a bounding box. Too small: more boxes are tested. Too large:
-/// more pieces near the plane.
+/// more pieces are tested near the plane.
 const BLOCK: usize = 16;
 /// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
 /// save. Too large: all pieces are tested against each plane.
@@ -43,7 +43,7 @@ fn union([low, high]: Bounds, other: Bounds) -> Bounds {
     [std::array::from_fn(least), std::array::from_fn(most)]
 }
 
-/// A piece of a face on its way down the tree.
+/// A piece of a face that has not reached its node yet.
 struct Piece {
     face: u32,
     /// Empty for a whole face.
@@ -96,11 +96,11 @@ struct Job {
     pieces: Vec<Piece>,
 }
 
-/// The fragments of a tree: the faces, split by its planes. With `keeps_positions`, also the positions of
-/// their vertices.
+/// Splits the faces of a tree by its planes into fragments. With `keeps_positions`, also computes the
+/// positions of their vertices.
 ///
-/// An error unless each node has as many fragments on its plane and in its leaves as it states, and these
-/// are of the `listed` faces.
+/// Returns an error unless each node has as many fragments on its plane and in its leaves as it states, and
+/// these belong to the `listed` faces.
 pub(super) fn replay(
     faces: &Faces,
     nodes: &[NodeRecord],
@@ -175,12 +175,12 @@ impl Replay<'_> {
     }
 
     /// Splits the pieces of a subtree. Subtrees with numbers of fragments in `jobs` are handed over, each
-    /// with the fragments before it; the fragments after the last of them are returned separately.
+    /// with the fragments before it. The fragments after the last such subtree are returned separately.
     fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), Error> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
         let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
-        // In a list each node has one node below, as for peeled layers: most pieces stay in their places,
-        // in blocks with boxes. The others leave gaps.
+        // In a list, such as peeled layers, each node has one node below: most pieces stay in their places,
+        // in blocks with boxes. The other pieces leave gaps.
         let (mut boxes, mut gaps): (Vec<Bounds>, _) = (Vec::new(), 0);
         // The sets of pieces still to be split, the next one on top, and the start of each.
         let mut pieces = job.pieces;
@@ -216,7 +216,7 @@ impl Replay<'_> {
                 if of_block == Some(stays) {
                     continue;
                 }
-                // From the end: the piece that replaces another has been classified.
+                // Backwards, because a piece that replaces another must have been classified.
                 for i in (begin..pieces.len().min(begin + BLOCK)).rev() {
                     if pieces[i].face == GONE {
                         continue;
@@ -244,8 +244,8 @@ impl Replay<'_> {
                     list.push(piece);
                 }
             }
-            // Each piece in front of a node or behind it becomes one fragment or several. So there are
-            // never more pieces than twice the fragments that the file lists.
+            // Each piece in front of a node or behind it becomes one or more fragments. So there are at most
+            // twice as many pieces as the file lists fragments.
             let Ranges { own: on_plane, front: in_front, back: behind } = node.ranges(fragments);
             let stay = pieces.len() - start - gaps;
             let counts = match stays {
@@ -259,7 +259,11 @@ impl Replay<'_> {
                 || !fits(front_node.is_none(), counts[0], &in_front)
                 || !fits(back_node.is_none(), counts[1], &behind)
             {
-                return Err(invalid("node", index, "has other fragments than its plane makes"));
+                return Err(invalid(
+                    "node",
+                    index,
+                    "does not have the fragments that its plane makes",
+                ));
             }
             // Coplanar polygons are painted in input order.
             own.sort_unstable_by_key(|piece| piece.face);

@@ -1,17 +1,17 @@
 //! Checks that the fragments of each face cover it once, by undoing the cuts from the leaves up.
 //!
-//! Each set of the builder has at most one piece of a face: at the root the face, and on each side of a
-//! plane one part of every piece that it cuts. So the parts of a face on the two sides of a node must be
-//! those of one piece: their outlines share the cut, run along it in opposite directions between the same
-//! two vertices, and are closed by lines that name the plane and the side. The piece is then known: the two
-//! outlines without the cut, and without the vertices that the plane made on a line that continues behind
-//! it. At the root, each face must be there as given.
+//! Each set of the builder has at most one piece of a face: at the root the face, and on each side of a plane
+//! one part of every piece that the plane cuts. So the parts of a face on the two sides of a node must belong
+//! to one piece. Their outlines share the cut: they traverse it in opposite directions between the same two
+//! vertices, and the lines of these edges name the plane and the side. The piece is then the two outlines
+//! without the cut, and without the vertices that the plane made on a line that continues behind it. At the
+//! root, each face must result as given.
 //!
-//! This is complete. If a convex piece is right, and two outlines with vertices on their sides of a plane
-//! glue to it, they are its two parts: every vertex is one of the piece's or the point where its line
-//! crosses the plane, and vertices of both parts lie on the plane, because they are on neither side of it.
-//! From the root down, all fragments are then the pieces that the planes make of the faces: convex, in the
-//! face's orientation, each once and none missing.
+//! This check is complete. Suppose that a convex piece is right, and that two outlines with vertices on their
+//! sides of a plane glue to it. Then they are its two parts: every vertex is a vertex of the piece or the
+//! point where its line crosses the plane, and vertices of both parts lie on the plane, because they are on
+//! neither side of it. By induction from the root, the fragments are exactly the pieces that the planes make
+//! of the faces: convex, in the face's orientation, each once.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -29,7 +29,7 @@ impl BspTree {
     /// Glues the fragments together, and compares the result with the faces, and the number of undone cuts
     /// with the builder's count.
     pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), String> {
-        // The sets of subtrees whose parent is still to come, the front's above the back's.
+        // The sets of subtrees whose parents have not been visited yet, the front's above the back's.
         let mut sets: Vec<Set> = Vec::new();
         let mut splits = 0;
         for visit in visits.iter().rev() {
@@ -62,8 +62,8 @@ impl BspTree {
         Err(fault(0, what))
     }
 
-    /// The pieces of a set from those on the two sides of a plane. The smaller set is added to the larger,
-    /// so that no piece is moved more than log n times.
+    /// Glues the pieces on the two sides of a plane to the pieces of a set. The smaller set is added to the
+    /// larger, so no piece is moved more than log n times.
     fn glue_sets(
         &self,
         plane: PlaneId,
@@ -138,21 +138,21 @@ fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
     })
 }
 
-/// The piece that a plane cut into a piece in front and one behind; `None` if they were not one convex
-/// piece that it crossed, for instance if one is the whole face.
+/// The piece that a plane cut into a piece in front and a piece behind; `None` if they were not one convex
+/// piece that the plane crossed, for instance if one of them is the whole face.
 fn glue(
     plane: PlaneId,
     [front, back]: [&[Vertex]; 2],
     side: impl Fn(&Vertex) -> Ordering,
 ) -> Option<Vec<Vertex>> {
-    // From the cut's first vertex on: the cut is then the edge from vertex 0 to vertex 1.
+    // Start at the cut's first vertex, so that the cut is the edge from vertex 0 to vertex 1.
     let front = from_cut(front, EdgeLine::cut(plane, false))?;
     let back = from_cut(back, EdgeLine::cut(plane, true))?;
     let mut outline = Vec::with_capacity(front.len() + back.len());
     for (here, there, expected) in
         [(&front, &back, Ordering::Greater), (&back, &front, Ordering::Less)]
     {
-        // The start of this side, and the end of the other one.
+        // The start of this side, and the end of the other side.
         let (begin, last) = (here[1], there[there.len() - 1]);
         let end = there[0];
         if begin.vertex_id() != end.vertex_id() || begin.position() != end.position() {
@@ -172,10 +172,10 @@ fn glue(
     Some(outline)
 }
 
-/// An outline rotated so that it begins with its edge on a line. It has one such edge: a second one would
+/// An outline rotated so that it begins with its edge on a line. It has one such edge: a second edge would
 /// remain to the end, and be found at the root.
 fn from_cut(outline: &[Vertex], cut: EdgeLine) -> Option<Vec<Vertex>> {
-    // Fragments have three vertices, but wrong glueing may give fewer.
+    // Fragments have three vertices or more, but wrong glueing may leave fewer.
     if outline.len() < 3 {
         return None;
     }

@@ -1,4 +1,4 @@
-//! Trees broken by hand, in every way that validation names and some that it does not.
+//! Trees broken by hand, in every way that validation names and in some others.
 
 mod cover;
 mod layout;
@@ -22,7 +22,7 @@ type Stored = StoredVertex;
 #[derive(Clone)]
 struct Dismantled {
     nodes: Vec<RawNode>,
-    /// The face of each fragment, and its vertices; none if it is a whole face.
+    /// The face of each fragment, and its vertices; empty for a whole face.
     pieces: Vec<(u32, Vec<Stored>)>,
     cuts: usize,
 }
@@ -58,7 +58,7 @@ impl Dismantled {
     }
 }
 
-/// The fault that validation finds; empty if there is none.
+/// The fault that validation finds; empty for a valid tree.
 fn verdict(tree: &BspTree) -> String {
     tree.validate().err().unwrap_or_default()
 }
@@ -77,7 +77,7 @@ fn build(scene: &Scene, heuristic: Heuristic) -> BspTree {
     BuildOptions::DEFAULT.with_heuristic(heuristic).build(scene.polygons()).expect("finite")
 }
 
-/// Squares that all cross in one line, the first one whole and the others cut in halves.
+/// Squares that all cross in one line, the first whole and the others cut in halves.
 fn crossing(count: u32) -> BspTree {
     build(&scene::crossing(count), Heuristic::First)
 }
@@ -112,7 +112,7 @@ fn tilted(scene: &Scene) -> Scene {
     tilted
 }
 
-/// Trees of all kinds: no node, one node, cuts, pieces in one plane, lists, large ones.
+/// Trees of all kinds: no node, one node, cuts, pieces in one plane, lists, large trees.
 fn trees() -> Vec<(String, BspTree)> {
     let mut trees = Vec::new();
     for scene in [

@@ -130,7 +130,7 @@ fn pdf_writes_a_page() {
 
 #[cfg(feature = "raster")]
 #[test]
-fn raster_paints_what_is_seen() {
+fn raster_paints_visible_polygons() {
     use binspace::verify::verify;
     use binspace::{raster, view};
 

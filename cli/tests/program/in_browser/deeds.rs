@@ -1,6 +1,6 @@
 //! The actions of people on a page.
 
-use super::page_and_tree;
+use super::{PAINTED, PAINTERS, page_and_tree};
 use crate::run::Folder;
 use testkit::browser::{browser, said};
 
@@ -18,7 +18,11 @@ const DEEDS: &str = "
         else $(id).value = value;
         $(id).dispatchEvent(new Event(kind, { bubbles: true }));
         draw(1);
-        return coarse.pixels.slice();
+        return shown();
+    };
+    const shown = () => {
+        const image = CANVAS.getContext('2d').getImageData(0, 0, CANVAS.width, CANVAS.height);
+        return new Uint32Array(image.data.buffer);
     };
     const changed = (a, b) => a.reduce((count, pixel, i) => count + (pixel !== b[i]), 0);
 
@@ -86,7 +90,8 @@ const DEEDS: &str = "
     resize();
 
     draw(2);
-    check('smooth', fine.width === 2 * coarse.width && fine.lineWidth === 2);
+    check('smooth', graphics ? graphics.canvas.width === 2 * CANVAS.width
+        : fine.width === 2 * coarse.width && fine.lineWidth === 2);
     const named = [...document.querySelectorAll('button, input, select, canvas')];
     check('named', named.length > 8 && named.every(
         one => one.ariaLabel || one.textContent && one.matches('button') || one.labels?.length > 0));
@@ -99,7 +104,10 @@ fn people_can_turn_it_by_mouse_touch_and_keys() {
     let browser = browser();
     let folder = Folder::new("page_deeds");
     let (page, _) = page_and_tree(&folder, "random:60");
-    assert_eq!(said(browser, &folder.path(""), &page, DEEDS), "");
+    for painter in PAINTERS {
+        let script = format!("graphics = {painter}; {DEEDS}");
+        assert_eq!(said(browser, &folder.path(""), &page, &script), "", "{painter}");
+    }
 }
 
 #[test]
@@ -116,11 +124,16 @@ fn translucent_polygons_show_what_is_behind_them() {
             camera = { base: [[0, 0, -z], [z, 0, 0], [0, 1, 0]], yaw: 0, pitch: 0, target: [0, 0, 0],
                 distance: 3, slope: 0.1, isParallel: true };
             style.isShaded = false;
-            const picture = pictureOf(9, 9);
-            paint(TREE, camera, picture, style, TREE.fragments);
-            const pixel = picture.pixels[40];
+            const pixel = painted(9, 9, style)[40];
             return [0, 8, 16].map(shift => (pixel >> shift) & 255);
         };
         return [...middle(1), ...middle(-1)].join(' ');";
-    assert_eq!(said(browser, &folder.path(""), &page, script), "64 0 191 0 0 255");
+    for painter in PAINTERS {
+        let script = format!("graphics = {painter}; {PAINTED} {script}");
+        assert_eq!(
+            said(browser, &folder.path(""), &page, &script),
+            "64 0 191 0 0 255",
+            "{painter}"
+        );
+    }
 }

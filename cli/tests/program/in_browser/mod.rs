@@ -2,6 +2,7 @@
 //! --ignored` runs them.
 
 mod deeds;
+mod inflated;
 mod orders;
 mod pictures;
 mod turn;
@@ -11,6 +12,23 @@ use std::fs;
 use binspace::BspTree;
 
 use crate::run::Folder;
+
+/// What the script calls to paint: nothing, so that it paints by itself, and WebGL, be it slow.
+const PAINTERS: [&str; 2] = ["null", "graphicsOf(TREE, false)"];
+
+/// A function of the script that paints with the camera, and returns the pixels.
+const PAINTED: &str = "
+    const painted = (width, height, style) => {
+        const picture = pictureOf(width, height);
+        if (!graphics) {
+            paint(TREE, camera, picture, style, TREE.fragments);
+            return picture.pixels;
+        }
+        graphics.paint(camera, picture, style, TREE.fragments);
+        const context = new OffscreenCanvas(width, height).getContext('2d');
+        context.drawImage(graphics.canvas, 0, 0);
+        return new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
+    };";
 
 /// A page, and its tree.
 pub(crate) fn page_and_tree(folder: &Folder, scene: &str) -> (String, BspTree) {

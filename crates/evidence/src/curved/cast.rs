@@ -10,7 +10,7 @@ pub enum Cast {
     Misses,
     /// It meets the patch, the first time between these depths, in world units.
     Meets([f64; 2]),
-    /// It passes too near the boundary, or meets the patch in several places, to tell.
+    /// Undecided: it passes too near the boundary, or meets the patch in several places.
     Doubtful,
 }
 
@@ -56,8 +56,7 @@ impl Cast {
     }
 }
 
-/// The least box of cells in which both functions may be 0, as its two corners; `None` if there are
-/// none.
+/// The smallest box of cells in which both functions may be 0, as its two corners; `None` if no cell is left.
 fn cells(functions: &[Net; 2]) -> Option<[[i128; 2]; 2]> {
     let mut found: Option<[[i128; 2]; 2]> = None;
     let mut parts = vec![(0, [0i128, 0])];
@@ -105,7 +104,7 @@ fn blossoms(cubic: [i128; 4], [from, to]: [i128; 2], unit: i128) -> [i128; 4] {
 
 /// Whether both functions are certainly 0 in some point of a part.
 fn surely_zero([f, g]: &[Net; 2]) -> bool {
-    // Slopes, as shares of the largest, in 2¹⁶ths: any numbers would do for a proof, these do best.
+    // Slopes, as shares of the largest, in 2¹⁶ths. Any numbers are valid for the proof; these succeed most often.
     let slope = |net: &Net| [(net[3][1] - net[0][1]) as f64, (net[1][3] - net[1][0]) as f64];
     let ([fu, fv], [gu, gv]) = (slope(f), slope(g));
     let largest = [fu, fv, gu, gv].into_iter().fold(0.0, |most: f64, s| most.max(s.abs()));

@@ -1,4 +1,4 @@
-//! Patches cut to triangles without cracks.
+//! Divides patches into triangles without cracks.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub struct Triangle {
 /// A corner's parameters and its place.
 type Vertex = ([f64; 2], DVec3);
 
-/// Cuts patches to triangles that are off by no more than `tolerance` pixels; a list for each patch.
+/// Divides patches into triangles whose error is at most `tolerance` pixels; returns a list for each patch.
 ///
 /// Each patch has its own grid. An edge has as many points as the finer of its two patches needs. These
 /// points depend on the edge's curve alone, in either direction, so patches fit together. A strip joins a

@@ -23,9 +23,9 @@ use crate::plain::PlainView;
 #[derive(Clone, Debug)]
 pub struct Shared {
     pub(crate) width: u32,
-    /// The depth in each pixel, in world units; infinite where nothing is.
+    /// The depth in each pixel, in world units; infinite in empty pixels.
     pub(crate) depths: Vec<f64>,
-    /// The surface in each pixel, [`NONE`] where there is none.
+    /// The surface in each pixel, [`NONE`] in empty pixels.
     pub(crate) shown: Vec<u32>,
 }
 
@@ -46,12 +46,12 @@ impl Shared {
         }
     }
 
-    /// The surface in each pixel, row by row from the top left; [`NONE`] where there is none.
+    /// The surface in each pixel, row by row from the top left; [`NONE`] in empty pixels.
     pub fn shown(&self) -> &[u32] {
         &self.shown
     }
 
-    /// The depth in each pixel; infinite where there is nothing.
+    /// The depth in each pixel; infinite in empty pixels.
     pub fn depths(&self) -> &[f64] {
         &self.depths
     }

@@ -26,8 +26,8 @@ impl Surfaces<'_> {
     }
 }
 
-/// The number of the surface that a pixel's ray certainly meets first, [`NONE`] if it certainly meets none;
-/// `None` if that is uncertain. The sphere against polygons is decided exactly; patches are known by
+/// The number of the surface that a pixel's ray certainly meets first; [`NONE`] if it certainly meets no
+/// surface; `None` if this is uncertain. The sphere against polygons is decided exactly; patches are known by
 /// intervals of depth.
 pub fn nearest(surfaces: &Surfaces<'_>, view: &PlainView, pixel: [u32; 2]) -> Option<u32> {
     let sphere = &surfaces.sphere;
@@ -55,5 +55,5 @@ pub fn nearest(surfaces: &Surfaces<'_>, view: &PlainView, pixel: [u32; 2]) -> Op
     Some(first.map_or(NONE, |(number, _)| number))
 }
 
-/// Far more than depths in `f64` are off.
+/// Far more than the rounding of depths in `f64`.
 const ROUNDING: f64 = 1e-9;

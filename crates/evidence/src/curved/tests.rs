@@ -90,16 +90,17 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
         }
         // Two triangles share each side, except on the boundary: six edges of the two patches.
         assert!(sides.values().all(|&count| count <= 2));
-        let rim: Vec<_> = sides.iter().filter(|(_, count)| **count == 1).collect();
+        let boundary: Vec<_> = sides.iter().filter(|(_, count)| **count == 1).collect();
         let mut ends: BTreeMap<[u64; 3], usize> = BTreeMap::new();
-        rim.iter()
+        boundary
+            .iter()
             .flat_map(|(ends, _)| ends.iter())
             .for_each(|&end| *ends.entry(end).or_default() += 1);
-        assert!(ends.values().all(|&count| count == 2), "the rim is one closed line");
+        assert!(ends.values().all(|&count| count == 2), "the boundary is one closed line");
         // Euler: one piece without holes.
         let corners: std::collections::BTreeSet<_> = sides.keys().flatten().collect();
         assert_eq!(corners.len() + triangles.len() + 1, sides.len() + 2, "{tolerance}");
-        assert_eq!(ends.len(), rim.len());
+        assert_eq!(ends.len(), boundary.len());
         // Distances of middles from the patch, in pixels.
         let pixel = 2.0 / view.ray([0, 0])[2].abs() as f64;
         let mut largest = 0.0f64;

@@ -1,4 +1,4 @@
-//! Ties, faces that all but coincide, and cycles.
+//! Ties, faces that almost coincide, and cycles.
 
 use glam::DVec3;
 

@@ -110,7 +110,7 @@ impl Family {
             Self::Offset => "forty triangles that cross in a unit cube, far from another one",
             Self::Scale => "crossing triangles, layers and bars, all multiplied by a factor",
             Self::Sliver => "sixteen narrow triangles woven through each other, seen from nearby",
-            Self::Nesting => "one triangle that others pierce: it is cut again and again",
+            Self::Nesting => "one triangle that others pierce, so that it is cut many times",
             Self::Lattice => "squares and diagonals of an integer grid: exact ties everywhere",
             Self::Boxes => "turned boxes that touch, faces coplanar except for rounding",
             Self::Cycle => "bars in a cycle: each covers the next, the last covers the first",

@@ -41,7 +41,7 @@ pub(super) fn scale(factor: f64, seed: u64) -> Trial {
 /// depths from 1 to `ratio` in even steps of a factor, each as large as it takes to be seen alike;
 /// and a triangle behind all of them.
 pub(super) fn depth_range(ratio: f64, seed: u64) -> Trial {
-    /// How steeply one triangle of a pair rises against the other.
+    /// The slope of one triangle of a pair against the other.
     const SLOPE: f64 = 2e-3;
     let mut random = SplitMix64::new(seed);
     let pose = Pose::random(&mut random);

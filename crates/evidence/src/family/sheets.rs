@@ -53,7 +53,7 @@ pub(super) fn gap(gap: f64, seed: u64) -> Trial {
 /// near as the width requires.
 pub(super) fn sliver(width: f64, seed: u64) -> Trial {
     const EACH: i32 = 8;
-    /// Where along the length the others are crossed.
+    /// The position along the length at which the others cross.
     const BEFORE: f64 = 0.25;
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);

@@ -177,7 +177,7 @@ fn bars_cover_each_other_in_a_cycle() {
         let mut covers = 0;
         for a in &lines {
             for b in &lines {
-                // Where the lines, seen along `up`, meet: their parameters and heights there.
+                // The points where the lines, seen along `up`, meet: their parameters and heights.
                 let (u, v, w) = (flat(a[1] - a[0]), flat(b[1] - b[0]), flat(b[0] - a[0]));
                 let d = u.cross(v).dot(up);
                 if d.abs() < 1e-9 * u.length() * v.length() {

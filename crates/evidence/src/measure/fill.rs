@@ -12,7 +12,7 @@ const NEAR: f64 = 4e-5;
 enum Pixel {
     Nothing,
     Polygon(usize),
-    /// An outline passes too near to tell.
+    /// Undecided: an outline passes too near.
     Unsure,
 }
 
@@ -23,14 +23,14 @@ pub struct Filled {
     pixels: Vec<Pixel>,
 }
 
-/// How a filled picture differs from another.
+/// The differences between a filled picture and another picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FillError {
     /// Pixels that show a polygon in either picture and could be compared.
     pub compared: usize,
-    /// Compared pixels that show another polygon, or one where there is none, or none where there is one.
+    /// Compared pixels that differ: another polygon, a polygon in an empty pixel, or an empty pixel.
     pub wrong: usize,
-    /// Pixels whose centre lies too near to an outline to tell.
+    /// Undecided pixels: an outline passes too near their centre.
     pub unsure: usize,
 }
 
@@ -139,7 +139,7 @@ mod tests {
             let expected = if covered(i % 5, i / 5) { Pixel::Polygon(7) } else { Pixel::Nothing };
             assert_eq!(pixel, expected, "{i}");
         }
-        // A side through centres cannot be told; a later outline covers it.
+        // Pixels on a side through their centres are undecided; a later outline covers them.
         filled.fill(8, std::iter::once(&[[0.5, 0.0], [2.0, 0.0], [2.0, 4.0], [0.5, 4.0]][..]));
         assert_eq!(filled.pixels[5], Pixel::Unsure);
         assert_eq!(filled.pixels[6], Pixel::Polygon(8));

@@ -17,9 +17,9 @@ pub struct PictureError {
     pub contested: usize,
     /// Pixels that show a polygon which another one hides.
     pub wrong_order: usize,
-    /// Pixels that show nothing where there is a polygon.
+    /// Empty pixels that a polygon should cover.
     pub holes: usize,
-    /// Pixels that show a polygon where there is none.
+    /// Pixels that show a polygon but should be empty.
     pub spills: usize,
     /// The largest distance of a painted polygon behind the nearest one, as a share of the extent.
     pub depth_max: f64,
@@ -49,7 +49,7 @@ impl PictureError {
         }
     }
 
-    /// The number of wrong pixels: all that differ, except the contested ones.
+    /// The number of wrong pixels. Contested pixels do not count.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// The same by an eye: depth is along the direction of view, not along rays.
+    /// The same for an eye: depth is measured along the direction of view, not along rays.
     #[test]
     fn depth_is_along_the_direction_of_view() {
         let (faces, _) = scene(&[(6.0, 0.0), (6.0, -2.0)], Some(0.0));

@@ -39,7 +39,7 @@ impl Bsp {
         Self { options, arithmetic: Arithmetic::Double(epsilon) }
     }
 
-    /// The same of `f32`.
+    /// A tree of `f32`; otherwise as [`double`](Self::double).
     pub fn single(options: BuildOptions, epsilon: f64) -> Self {
         Self { options, arithmetic: Arithmetic::Single(epsilon) }
     }

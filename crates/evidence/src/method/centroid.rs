@@ -12,8 +12,8 @@ use binspace::view::Camera;
 /// Paints faces in the order of the depths of their centroids, the means of their corners, the furthest
 /// first. Most programs for plots and vector graphics do this.
 ///
-/// Depth is measured along the camera's direction of view. Nothing is cut, so faces that overlap in depth may
-/// be right or wrong. Of faces at the same depth the later is painted later.
+/// Depth is measured along the camera's direction of view. Nothing is split, so faces that overlap in depth may
+/// be in the wrong order. Of faces at the same depth, the later one is painted later.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Centroid;
 

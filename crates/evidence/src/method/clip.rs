@@ -68,7 +68,7 @@ impl Clipper {
         Self { planes, kept: Vec::new(), spare: Vec::new() }
     }
 
-    /// The part inside; empty if there is none.
+    /// The part inside; it may be empty.
     pub(super) fn clip(&mut self, corners: impl IntoIterator<Item = Vertex>) -> &[Vertex] {
         self.kept.clear();
         self.kept.extend(corners);

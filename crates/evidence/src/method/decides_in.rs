@@ -1,4 +1,4 @@
-//! Where methods decide.
+//! The space in which methods decide.
 
 use std::fmt;
 

@@ -1,10 +1,10 @@
-//! Why a method gave up.
+//! The errors of methods.
 
 use std::fmt;
 
 use binspace::{Error, ErrorKind};
 
-/// Why a method cannot show a scene.
+/// The reason why a method cannot paint a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodError {
     kind: Kind,

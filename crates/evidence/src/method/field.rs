@@ -1,4 +1,4 @@
-//! The field of competitors.
+//! The standard set of methods.
 
 use super::{
     Bsp, Centroid, Clear, DepthBuffer, DepthFormat, DepthRules, DepthTest, ExactDepth, FrontFaces,
@@ -50,7 +50,7 @@ impl Default for Options {
     }
 }
 
-/// The standard field of competitors, the exact tree first and the judge last.
+/// The standard set of methods, the exact tree first and the judge last.
 pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     let build = options.build.clone();
     let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build.clone()))];

@@ -1,17 +1,16 @@
-//! Ways to decide visibility, behind one trait, so that speed and error can be measured side by
-//! side.
+//! Methods to decide visibility. They share a trait, so that their speed and errors can be compared.
 //!
 //! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another. It
 //! paints a picture of faces, to be [compared](binspace::raster::compare) with the picture of the exact depth
 //! buffer.
 //!
-//! | method | decides by | errs where |
+//! | method | decides by | is wrong where |
 //! |---|---|---|
 //! | [`Bsp::exact`] | the tree of this library | nowhere |
 //! | [`Bsp::double`], [`Bsp::single`] | a textbook tree: rounded distances and an epsilon | distances are near the epsilon or the precision |
 //! | [`InputOrder`] | nothing | wherever an earlier face hides a later one |
-//! | [`FrontFaces`] before another | the side that a face turns to the eye | backs can be seen |
-//! | [`Centroid`] | one depth a face | faces overlap in depth |
+//! | [`FrontFaces`] before another | the side that a face turns to the eye | back faces are visible |
+//! | [`Centroid`] | one depth per face | faces overlap in depth |
 //! | [`Newell`] | plane tests in `f64`, splits where nothing else helps | distances are near its epsilon |
 //! | [`DepthBuffer`] | the depth in each pixel, in limited precision | depths are nearer than its steps |
 //! | [`ExactDepth`] | the depth in each pixel, exactly | nowhere: the judge |
@@ -73,7 +72,7 @@ use binspace::internals::Faces;
 use binspace::raster::{Image, Rays};
 use binspace::view::Camera;
 
-/// A way to decide which face shows in each pixel.
+/// A method that decides which face shows in each pixel.
 pub trait Method: Send + Sync {
     /// A short name, unique among all methods and options: "newell", "bsp f64 1e-6", "z 24".
     fn name(&self) -> String;
@@ -103,7 +102,7 @@ pub trait Prepared {
     fn bytes(&self) -> usize;
 
     /// Visits each piece of a face that was made before any view: the face, and the piece's
-    /// vertices in lattice units, in the face's orientation. Methods that cut nothing before a view
+    /// vertices in lattice units, in the face's orientation. Methods that split nothing before a view
     /// visit none.
     fn for_each_piece(&self, visit: &mut dyn FnMut(u32, &[[f64; 3]])) {
         let _ = visit;

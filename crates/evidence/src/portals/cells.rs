@@ -51,7 +51,7 @@ enum Next {
 /// A convex region.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
-    /// The portals out of it: each with the side of its plane that this cell is on.
+    /// The portals of this cell, each with the side of its plane on which the cell lies.
     pub(super) portals: Vec<(usize, usize)>,
     /// The parts of polygons on its walls.
     pub(super) surfaces: Vec<Surface>,
@@ -108,7 +108,7 @@ impl Cells {
         self.portals.len()
     }
 
-    /// The cells that contain a point: one, or all that meet there.
+    /// The cells that contain a point; several if it is on their common boundary.
     pub fn at(&self, point: DVec3) -> Vec<usize> {
         let (mut pending, mut found) = (vec![self.whole], Vec::new());
         while let Some(next) = pending.pop() {

@@ -1,17 +1,17 @@
 //! Portals and potentially visible sets: the polygons that may be seen in closed interiors, by their openings
 //! alone.
 //!
-//! | file | has |
+//! | file | contains |
 //! |---|---|
 //! | `outline` | convex polygons in floats |
 //! | `cells` | the cells of a tree, and the portals between them |
-//! | `sight` | what is seen through portals, from an eye or from a cell |
+//! | `sight` | visibility through portals, from an eye or from a cell |
 //!
 //! No visible polygon is left out; polygons kept without need are counted against exact pictures.
 //!
-//! It works in floats, and errs to one side. The planes that bound a view are moved outwards by 10⁻⁷ of the
-//! scene, more than all roundings can move them (`SLACK` in `sight` has the sum). An opening so near that
-//! roundings would count for more does not narrow the view at all. Two things can be left out: polygons seen
+//! It works in floats, and its errors are conservative. The planes that bound a view are moved outwards by
+//! 10⁻⁷ of the scene, more than all roundings can move them (`SLACK` in `sight` has the sum). An opening so
+//! near that roundings would count for more does not narrow the view at all. Two things can be left out: polygons seen
 //! only through openings thinner than 10⁻⁹ of the scene, which count as closed, and parts of polygons that
 //! are thinner than that.
 

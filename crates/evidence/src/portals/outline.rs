@@ -23,7 +23,7 @@ impl Plane {
         self.normal.dot(point) - self.offset
     }
 
-    /// The same plane with its front behind.
+    /// The same plane with the opposite front.
     pub(super) fn flipped(&self) -> Self {
         Self { normal: -self.normal, offset: -self.offset }
     }
@@ -80,13 +80,13 @@ pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2]
 
 /// The planes through the edges of a polygon on a plane, perpendicular to it, each with the polygon
 /// behind it.
-fn rims(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
+fn side_planes(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
     let middle = outline.iter().sum::<DVec3>() / outline.len() as f64;
     (0..outline.len()).filter_map(move |k| {
         let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
         let normal = (to - from).cross(plane.normal).try_normalize()?;
-        let rim = Plane::new(normal, from);
-        Some(if rim.at(middle) > 0.0 { rim.flipped() } else { rim })
+        let side = Plane::new(normal, from);
+        Some(if side.at(middle) > 0.0 { side.flipped() } else { side })
     })
 }
 
@@ -94,19 +94,19 @@ fn rims(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
 /// normal or across one of its edges; no more than 0 if these give no bound.
 pub(super) fn apart(points: &[DVec3], outline: &[DVec3], plane: &Plane) -> f64 {
     let [low, high] = plane.range(points);
-    let beside = rims(outline, plane).map(|rim| rim.range(points)[0]);
+    let beside = side_planes(outline, plane).map(|side| side.range(points)[0]);
     beside.fold(low.max(-high), f64::max)
 }
 
 /// The difference of a polygon on a plane and another on the same plane, as convex pieces; pieces thinner
 /// than `thin` are left out.
 pub(super) fn without(outline: Outline, gone: &[DVec3], plane: &Plane, thin: f64) -> Vec<Outline> {
-    if rims(gone, plane).any(|rim| rim.range(&outline)[0] >= -thin) {
+    if side_planes(gone, plane).any(|side| side.range(&outline)[0] >= -thin) {
         return vec![outline];
     }
     let (mut rest, mut pieces) = (outline, Vec::new());
-    for rim in rims(gone, plane) {
-        let [outside, inside] = split(&rest, &rim, thin);
+    for side in side_planes(gone, plane) {
+        let [outside, inside] = split(&rest, &side, thin);
         if !outside.is_empty() {
             pieces.push(outside);
         }
@@ -153,5 +153,5 @@ pub(super) fn hull(mut points: Vec<DVec3>, plane: &Plane) -> Outline {
 /// Whether all of some points on a plane are in a polygon on it, or out of it by no more than
 /// `thin`.
 pub(super) fn holds(outline: &[DVec3], plane: &Plane, points: &[DVec3], thin: f64) -> bool {
-    outline.len() > 2 && rims(outline, plane).all(|rim| rim.range(points)[1] <= thin)
+    outline.len() > 2 && side_planes(outline, plane).all(|side| side.range(points)[1] <= thin)
 }

@@ -144,7 +144,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Continues through the portals out of a cell, as far as they are within some planes.
+    /// Continues through the parts of a cell's portals that are within some planes.
     fn pass(&mut self, cell: usize, planes: &[Plane]) {
         let noise = NOISE * self.cells.extent;
         for &(number, side) in &self.cells.cells[cell].portals {
@@ -156,7 +156,7 @@ impl<'a> Sight<'a> {
             }
             let part = within(outline, planes);
             let (known, growths) = &mut self.parts[number][side];
-            // The whole portal holds every part of it, though rounding may deny that for a thin one.
+            // The whole portal contains every part of it, although rounding may deny this for a thin part.
             let is_whole = *growths > GROWTHS;
             if part.is_empty() || is_whole || holds(known, plane, &part, noise) {
                 continue;

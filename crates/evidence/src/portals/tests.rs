@@ -20,7 +20,7 @@ fn owners(tree: &BspTree, camera: &Camera) -> Vec<usize> {
 }
 
 #[test]
-fn nothing_that_owns_a_pixel_is_left_out() {
+fn no_polygon_that_owns_a_pixel_is_left_out() {
     let level = interior::rooms(5);
     let tree = BspTree::build(&level).unwrap();
     let cells = Cells::new(&tree, level.len());
@@ -52,7 +52,7 @@ fn nothing_that_owns_a_pixel_is_left_out() {
     assert!(kept_by_cell < all / 2, "{kept_by_cell} of {all}");
 }
 
-/// Eyes all but in the planes of doors, where roundings are carried furthest.
+/// Eyes almost in the planes of doors, where roundings have the largest effect.
 #[test]
 fn nothing_is_left_out_from_the_threshold_of_a_door() {
     let level = interior::rooms(4);
@@ -119,20 +119,20 @@ fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
     let mut random = SplitMix64::new(9);
     let (mut shown, mut lost) = (0, 0);
     for _ in 0..300 {
-        // A wall along `along` with an opening that begins at `rim`, and an eye before it.
+        // A wall along `along` with an opening that begins at `start`, and an eye before it.
         let angle = random.range(0.0, std::f64::consts::TAU);
         let along = dvec3(angle.cos(), angle.sin(), 0.0);
-        let rim = random.point(-5.0, 5.0).with_z(0.0);
+        let start = random.point(-5.0, 5.0).with_z(0.0);
         let across = dvec3(-along.y, along.x, 0.0);
         let size = 10f64.powf(random.range(-10.0, -8.0));
-        let eye = rim - (across + along * random.range(-0.5, 0.5)) * size;
+        let eye = start - (across + along * random.range(-0.5, 0.5)) * size;
         // The line of sight along the boundary, and a target that reaches a little past it.
-        let sight = (rim - eye).normalize();
+        let sight = (start - eye).normalize();
         let left = dvec3(sight.y, -sight.x, 0.0);
         let end = eye + sight * 30.0 + left * 1e-5;
         let scene = [
-            upright(rim - along * 20.0, rim),
-            upright(rim + along * 3.0, rim + along * 20.0),
+            upright(start - along * 20.0, start),
+            upright(start + along * 3.0, start + along * 20.0),
             upright(end - left * 5.0, end),
             upright(eye - across * 20.0 - along * 20.0, eye - across * 20.0 + along * 20.0),
             upright(eye + across * 40.0 - along * 20.0, eye + across * 40.0 + along * 20.0),

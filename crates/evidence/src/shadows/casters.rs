@@ -1,4 +1,4 @@
-//! Which faces may throw a shadow on a face.
+//! The faces that may throw a shadow on a face.
 
 use binspace::glam::DVec3;
 use binspace::{BspTree, Frustum};

@@ -35,12 +35,12 @@ impl Shade {
         let mut planes = vec![Rc::new(beyond)];
         for k in 0..count {
             let ends = [k, (k + 1) % count].map(|k| places[k].homogeneous());
-            let rim = Plane::joining([eye, &ends[0], &ends[1]]);
+            let border = Plane::joining([eye, &ends[0], &ends[1]]);
             // The face is convex: all of its other corners are on the same side, or in line.
-            let sides = places.iter().map(|place| side(&rim, place));
+            let sides = places.iter().map(|place| side(&border, place));
             match sides.into_iter().find(|&side| side != Ordering::Equal) {
-                Some(Ordering::Less) => planes.push(Rc::new(rim.flipped())),
-                Some(_) => planes.push(Rc::new(rim)),
+                Some(Ordering::Less) => planes.push(Rc::new(border.flipped())),
+                Some(_) => planes.push(Rc::new(border)),
                 None => {}
             }
         }

@@ -11,7 +11,7 @@ use super::{
 use crate::Hiding;
 use crate::method::{Centroid, DepthBuffer, DepthFormat, InputOrder, Method, Newell};
 
-/// Where a point of the floor is against the line of a wall.
+/// The side of the line of a wall on which a point of the floor lies.
 fn side(wall: char, [x, y]: [f64; 2]) -> f64 {
     let (_, [[a, b], [c, d]]) = EIGHT.into_iter().find(|&(letter, _)| letter == wall).unwrap();
     ((c - a) * (y - b) - (d - b) * (x - a)).signum()
@@ -80,7 +80,7 @@ fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
     let (faces, _) = Faces::new(both, Some(0.0)).unwrap();
     let rays = Rays::new(&camera, &faces).unwrap();
     let truth = zbuffer(&rays, &faces);
-    // Depths are told from the middle of the scene.
+    // Depths are measured from the middle of the scene.
     let middle = 0.5 * (1.0 + 12.0);
     let cells = |depths: Vec<f64>, row: usize| {
         let text = |d: &f64| if d.is_finite() { (d + middle).to_string() } else { "·".to_owned() };

@@ -25,7 +25,7 @@ fn nothing_is_rounded_and_all_is_flat() {
         for count in [2, 6, 14, 50] {
             let scene = worst.scene(count);
             let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
-            // A polygon that is off its plane by anything would be two triangles.
+            // A polygon that is not exactly planar would be two triangles.
             assert_eq!((scene.len(), faces.len()), (count as usize, count as usize), "{worst}");
             for face in 0..faces.len() as u32 {
                 for (corner, given) in faces.corners(face).iter().zip(scene.polygon(face as usize))

@@ -235,7 +235,7 @@ fn scenes() -> Vec<(String, Vec<Vec<DVec3>>)> {
 }
 
 #[test]
-fn exact_trees_of_large_scenes_misplace_nothing_by_rationals() {
+fn exact_trees_of_large_scenes_misplace_nothing_according_to_rationals() {
     let mut trees = 0;
     for (name, polygons) in scenes() {
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
@@ -259,7 +259,7 @@ fn a_corner_behind_a_plane_is_misplaced_if_it_is_further_than_the_tolerance() {
 }
 
 #[test]
-fn the_errors_of_rounded_trees_of_large_scenes_are_those_that_rationals_count() {
+fn rationals_count_the_same_errors_of_rounded_trees_of_large_scenes() {
     let mut tally = Tally::default();
     for (name, polygons) in scenes() {
         let options = BuildOptions::DEFAULT.with_tolerance(0.0);
@@ -271,7 +271,7 @@ fn the_errors_of_rounded_trees_of_large_scenes_are_those_that_rationals_count() 
 }
 
 #[test]
-fn the_errors_of_rounded_trees_of_hard_scenes_are_those_that_rationals_count() {
+fn rationals_count_the_same_errors_of_rounded_trees_of_hard_scenes() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let mut tally = Tally::default();
     for _ in 0..times(200) {

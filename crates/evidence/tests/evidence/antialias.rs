@@ -74,7 +74,7 @@ fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn areas_in_pixels_are_those_of_rationals() {
+fn areas_in_pixels_agree_with_rationals() {
     let (mut dice, mut parts) = (Dice(5), 0);
     for _ in 0..times(40) {
         let triangles: [[[i64; 2]; 3]; 3] = from_fn(|_| triangle(&mut dice));
@@ -109,7 +109,7 @@ fn colour(polygon: usize) -> [f32; 3] {
 }
 
 #[test]
-fn areas_sum_to_the_picture_and_samples_come_near() {
+fn areas_sum_to_the_picture_and_samples_approximate_them() {
     for scene in [scene::crossing(7), scene::random_triangles(60, 2), scene::newell_bars()] {
         let tree = BspTree::build(scene.polygons()).unwrap();
         let (low, high) = scene.bounds().unwrap();

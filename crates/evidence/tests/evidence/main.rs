@@ -1,4 +1,4 @@
-//! The components of the evidence, judged: methods, measures, shadows, portals.
+//! Tests of the evidence: methods, measures, shadows, portals.
 
 mod accuracy;
 mod antialias;

@@ -29,7 +29,7 @@ fn judged(order: &[u32], pieces: Outline<'_>) -> PictureError {
 }
 
 #[test]
-fn pictures_with_known_faults_are_found_out() {
+fn known_faults_of_pictures_are_found() {
     let right = judged(&[0, 1, 2], Outline::Whole);
     assert_eq!((right.covered, right.wrong(), right.depth_max), (1600, 0, 0.0));
 
@@ -128,7 +128,7 @@ fn the_exact_tree_misplaces_and_tears_nothing_in_any_family() {
 }
 
 #[test]
-fn crossing_triangles_within_the_epsilon_are_put_on_planes_that_they_are_off() {
+fn crossing_triangles_within_the_epsilon_are_put_on_wrong_planes() {
     let scene = Family::Angle.scene(1e-9, 1);
     let found = accuracy_with(1e-6, &scene);
     // Six triangles on one plane: all corners of all triangles except the plane's own, without the corners

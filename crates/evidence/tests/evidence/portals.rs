@@ -38,7 +38,7 @@ fn owners(tree: &BspTree, camera: &Camera) -> BTreeSet<usize> {
 
 #[test]
 #[ignore = "needs the real scenes: BINSPACE_SCENES"]
-fn nothing_that_owns_a_pixel_of_levels_among_the_real_scenes_is_left_out() {
+fn no_polygon_that_owns_a_pixel_of_a_real_level_is_left_out() {
     let folder = testkit::real_scenes::folder();
     // Sets of cells take seconds each in the larger level.
     for (name, step, eyes_a_set) in

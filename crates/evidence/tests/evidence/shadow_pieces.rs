@@ -26,7 +26,7 @@ fn side(plane: &Plane<IBig>, [point @ .., factor]: &[IBig; 4]) -> Ordering {
 struct Screen {
     plane: Plane<IBig>,
     lamp: Ordering,
-    rims: Vec<Plane<IBig>>,
+    side_planes: Vec<Plane<IBig>>,
 }
 
 /// The faces that may hide a point of the lamp.
@@ -41,9 +41,9 @@ impl Judge {
             let plane = Plane::through([&corners[0], &corners[1], &corners[2]]);
             let next = corners.iter().cycle().skip(1);
             let edges = corners.iter().zip(next);
-            let rims = edges.map(|(a, b)| Plane::through([&lamp, a, b])).collect();
+            let side_planes = edges.map(|(a, b)| Plane::through([&lamp, a, b])).collect();
             let lamp = plane.at(&lamp).cmp(&IBig::ZERO);
-            Screen { plane, lamp, rims }
+            Screen { plane, lamp, side_planes }
         };
         Self((0..faces.len() as u32).map(screen).collect())
     }
@@ -54,11 +54,11 @@ impl Judge {
 
     /// Whether a face has a point between this one and the lamp.
     fn hides(&self, point: &[IBig; 4]) -> bool {
-        self.0.iter().any(|Screen { plane, lamp, rims }| {
+        self.0.iter().any(|Screen { plane, lamp, side_planes }| {
             if *lamp == Ordering::Equal || side(plane, point) != lamp.reverse() {
                 return false;
             }
-            let sides: Vec<Ordering> = rims.iter().map(|rim| side(rim, point)).collect();
+            let sides: Vec<Ordering> = side_planes.iter().map(|plane| side(plane, point)).collect();
             !(sides.contains(&Ordering::Greater) && sides.contains(&Ordering::Less))
         })
     }
@@ -137,7 +137,7 @@ fn edge_on() -> Scene {
 }
 
 #[test]
-fn every_point_within_a_piece_sees_what_the_piece_says() {
+fn every_point_within_a_piece_has_the_zone_of_the_piece() {
     check(&courtyard(), &lamp(2), 90_000);
     check(&courtyard(), &lamp(2)[..1], 5000);
     check(&edge_on(), &lamp(2), 5000);
@@ -147,7 +147,7 @@ fn every_point_within_a_piece_sees_what_the_piece_says() {
 
 #[test]
 #[ignore = "takes half a minute; with fewer above"]
-fn a_million_points_see_what_their_pieces_say() {
+fn a_million_points_have_the_zones_of_their_pieces() {
     check(&courtyard(), &lamp(2), 800_000);
     let (scene, lamp) = triangles();
     check(&scene, &lamp, 200_000);

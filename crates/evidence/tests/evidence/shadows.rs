@@ -32,7 +32,7 @@ fn blocks(Wall { corners, plane }: &Wall, a: Point, b: Point) -> bool {
     if at_a.signum() * at_b.signum() >= 0 {
         return false;
     }
-    // Where they meet is met / by.
+    // They meet at the point met / by.
     let (by, sign) = (at_a - at_b, (at_a - at_b).signum());
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
     (0..corners.len()).all(|k| {
@@ -66,13 +66,13 @@ fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
 }
 
 #[test]
-fn sight_lines_are_those_of_whole_numbers() {
+fn sight_lines_agree_with_integers() {
     compare_sight_lines(100_000);
 }
 
 #[test]
 #[ignore = "takes seconds; with fewer above"]
-fn a_million_sight_lines_are_those_of_whole_numbers() {
+fn a_million_sight_lines_agree_with_integers() {
     compare_sight_lines(1_000_000);
 }
 
@@ -92,25 +92,25 @@ fn compare_sight_lines(count: usize) {
 }
 
 #[test]
-fn a_shadow_that_breaks_the_rule_is_noticed() {
+fn a_wrong_shadow_is_noticed() {
     let wall = Wall::new(vec![[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]]);
     assert!(blocks(&wall, [1, -2, 1], [1, 2, 1]));
-    assert!(blocks(&wall, [4, -2, 1], [4, 2, 1]), "along a rim");
+    assert!(blocks(&wall, [4, -2, 1], [4, 2, 1]), "along an edge");
     assert!(!blocks(&wall, [5, -2, 1], [5, 2, 1]));
     assert!(!blocks(&wall, [1, 0, 1], [1, 2, 1]), "its own");
 }
 
 #[test]
-fn zones_are_those_of_many_more_points_but_for_a_rim() {
+fn zones_agree_with_many_more_points_except_near_a_boundary() {
     let (scene, tree, polygons) = setting();
     let mut dice = Dice(4);
     let (corners, some, many) = (lamp(2), lamp(5), lamp(25));
-    let (mut counts, mut certain, mut rim) = ([0; 3], 0, [0; 2]);
+    let (mut counts, mut certain, mut differing) = ([0; 3], 0, [0; 2]);
     for _ in 0..times(1500) {
         let point = point(&scene, &mut dice);
         let from = whole(point);
         let is_hidden = |at: &DVec3| polygons.iter().any(|wall| blocks(wall, from, whole(*at)));
-        // The rest of the lamp is tested as long as it is all hidden, or all seen.
+        // More points of the lamp are tested until one is hidden and another is seen.
         let first = is_hidden(&many[0]);
         let truth = match many.iter().all(|at| is_hidden(at) == first) {
             true if first => Zone::Umbra,
@@ -122,16 +122,16 @@ fn zones_are_those_of_many_more_points_but_for_a_rim() {
             assert_eq!(truth, Zone::Umbra, "{point}");
             certain += 1;
         }
-        for (rim, lamp) in rim.iter_mut().zip([&corners, &some]) {
+        for (differing, lamp) in differing.iter_mut().zip([&corners, &some]) {
             let found = zone(&tree, point, lamp);
             // Fewer points of the lamp see less of it, never anything else.
             assert!(found == truth || truth == Zone::Penumbra, "{point}");
-            *rim += usize::from(found != truth);
+            *differing += usize::from(found != truth);
         }
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
     assert!(certain > 100 && certain <= counts[2], "{certain} of {counts:?}");
-    assert!(rim[1] <= rim[0] && rim[0] < 30, "{rim:?}");
+    assert!(differing[1] <= differing[0] && differing[0] < 30, "{differing:?}");
     assert_eq!(point_lamp(&tree), [Zone::Lit, Zone::Umbra]);
 }
 

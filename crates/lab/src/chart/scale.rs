@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 
-/// A logarithmic axis: its ends, and where its ticks are, as powers of ten.
+/// A logarithmic axis: the exponents (base ten) of its ends and ticks.
 #[derive(Debug, PartialEq)]
 pub(super) struct Scale {
     pub(super) low: f64,
@@ -15,11 +15,11 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// An axis for these positive values. It ends at decades, and has at most nine ticks. If two decades or
-    /// less contain all values, it ends at steps of 1, 2 and 5.
+    /// An axis for these positive values, with at most nine ticks. It ends at decades. If at most two decades
+    /// contain all values, it ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
-        // A value that exceeds a decade by rounding does not open another one.
+        // A value that exceeds a decade only by rounding does not add another decade.
         let (first, mut last) = ((low + 0.01).floor(), (high - 0.01).ceil());
         if last <= first {
             last = first + 1.0;
@@ -46,7 +46,7 @@ impl Scale {
         Self { low, high, ticks, falls: false }
     }
 
-    /// An axis with ticks at these values, and a little room around them.
+    /// An axis with ticks at these values, and a small margin.
     pub(super) fn at(values: &[f64]) -> Self {
         let ticks: Vec<f64> = values.iter().map(|value| value.log10()).collect();
         let (low, high) = bounds(ticks.iter().copied()).unwrap_or((0.0, 1.0));
@@ -81,7 +81,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// The value of an exponent, in common notation: from 0.01 to 5000 in full, others with a power of ten.
+/// Formats the power of ten of an exponent: from 0.01 to 5000 in decimals, others in scientific notation.
 pub(super) fn label(exponent: f64) -> String {
     let decade = (exponent + 1e-6).floor();
     let digit = 10f64.powf(exponent - decade);

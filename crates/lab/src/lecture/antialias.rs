@@ -13,21 +13,21 @@ use super::chapter::{Chapter, Picture, percent};
 use crate::chart::{Chart, Marker, Series, Style};
 use binspace_cli::failure::Failure;
 
-/// Pictures are computed small and shown enlarged, so that pixels are seen.
+/// Pictures are computed small and shown enlarged, so that pixels are visible.
 const SIZE: [u32; 2] = [80, 60];
 const ENLARGED: u32 = 4;
 const PAPER: Colour = [1.0; 3];
-/// Rays in a pixel, along each side.
+/// Rays along each side of a pixel.
 const SIDES: [u32; 4] = [1, 2, 4, 8];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A pixel is a square, not a point: its colour should be the mean of what shows in it. One ray a \
-         pixel gives steps along edges and loses what is thinner than a pixel. The visibility map \
-         of the tree has convex cells between exact lines; clipped to the pixels, their areas are \
-         the weights of the mean (Catmull, A hidden-surface algorithm with anti-aliasing, 1978). More \
-         rays a pixel come near to it; Carpenter's A-buffer (1984) keeps a mask of such \
-         samples for each piece.",
+        "A pixel is a square, not a point. Its colour should be the mean of the surfaces that are \
+         visible in it. One ray per pixel gives steps along edges, and misses details thinner than a \
+         pixel. The visibility map of the tree consists of convex cells between exact lines. Clipped to \
+         a pixel, the areas of these cells are the weights of the mean (Catmull, A hidden-surface \
+         algorithm with anti-aliasing, 1978). Several rays per pixel approximate the mean. Carpenter's \
+         A-buffer (1984) stores a mask of such samples for each piece.",
     );
     let scene = scene::crossing(9);
     let tree = tree_of(&scene)?;
@@ -68,7 +68,7 @@ fn enlarged(pixels: &[Colour], caption: impl Into<String>) -> Picture {
     Picture::new(size, large, caption)
 }
 
-/// More and more rays a pixel beside the areas.
+/// Compares increasing numbers of rays per pixel with the areas.
 fn samples(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(), Failure> {
     let (areas, whole) = areas(tree, camera)?;
     let exact = areas.picture(colour, PAPER);
@@ -79,16 +79,16 @@ fn samples(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(),
         rows.push([(side * side).to_string(), format!("{largest:.3}"), format!("{mean:.4}")]);
         points.push((f64::from(side * side), mean));
         if side < 8 {
-            pictures.push(enlarged(&found, format!("Rays in a pixel: {}", side * side)));
+            pictures.push(enlarged(&found, format!("Rays per pixel: {}", side * side)));
         }
     }
     pictures.push(enlarged(&exact, "By areas"));
     chapter.pictures(pictures);
-    chapter.table(["rays in a pixel", "largest error", "root of the mean square"], rows);
+    chapter.table(["rays per pixel", "largest error", "root mean square error"], rows);
     chapter.graph(&Chart {
         title: "Error of samples against exact areas",
-        x_label: "rays in a pixel",
-        y_label: "root of the mean square",
+        x_label: "rays per pixel",
+        y_label: "root mean square error",
         ticks: Some(SIDES.map(|side| f64::from(side * side)).to_vec()),
         falls: false,
         zero: false,
@@ -103,29 +103,31 @@ fn samples(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(),
         shares.len() > 1 || shares.first().is_some_and(|share| share.1 < 1.0 - 1e-9)
     });
     chapter.text(format!(
-        "{} of {} pixels have an edge in them. The areas in the pixels sum to {sum:.6}, those of the \
-         visible polygons to {whole:.6} pixels. Channels are from 0 to 1, blended as they stand. Each \
-         doubling of the rays along a side about halves the error, at four times the work. The tests hold the areas to rational numbers: they agree to 1e-9 of a pixel.",
+        "{} of {} pixels contain an edge. The areas in all pixels sum to {sum:.6} pixels, and the areas \
+         of the visible polygons to {whole:.6}. Channels range from 0 to 1, and are blended without a \
+         gamma correction. If the number of rays along each side of a pixel is doubled, the error is \
+         about halved, at four times the work. The tests compare the areas with rational numbers: they \
+         agree to 1e-9 of a pixel.",
         parted.count(),
         SIZE[0] * SIZE[1],
     ));
     Ok(())
 }
 
-/// Coverages blended in paint order.
+/// Blends coverages in paint order, which shows seams.
 fn seams(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(), Failure> {
     chapter.heading("Seams");
     let mut fan = Scene::new("fan", DVec3::Y);
     let (middle, count) = (dvec3(0.1, 0.1, 0.0), 9);
     let corners = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
-    let rim = (0..4 * count).map(|k| {
+    let boundary = (0..4 * count).map(|k| {
         let ([a, b], t) = ([corners[k / count], corners[(k / count + 1) % 4]], (k % count) as f64);
         let at = |axis: usize| a[axis] + (b[axis] - a[axis]) * t / count as f64;
         dvec3(at(0), at(1), 0.0)
     });
-    let rim: Vec<DVec3> = rim.collect();
-    for k in 0..rim.len() {
-        fan.push([middle, rim[k], rim[(k + 1) % rim.len()]], 0);
+    let boundary: Vec<DVec3> = boundary.collect();
+    for k in 0..boundary.len() {
+        fan.push([middle, boundary[k], boundary[(k + 1) % boundary.len()]], 0);
     }
     let flat = tree_of(&fan)?;
     let front = Camera::parallel(-DVec3::Z, DVec3::Y, DVec3::ZERO, 2.0, SIZE).map_err(view)?;
@@ -143,15 +145,15 @@ fn seams(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(), F
     let [seamed, steady] = [&joined, &constant].map(|p| count(p, &vec![blue; p.len()]));
     let crossed = count(&wrong, &exact);
     chapter.text(format!(
-        "Painting programs blend each piece with its share of the pixel as opacity. Where two pieces \
-         of one surface share an edge and each covers half of a pixel, the first leaves half of the \
-         background and the second half of that: a quarter shines through, for the share says how \
-         much is covered, not which part. A fan of {} triangles of one colour, all of the \
-         picture: {seamed} pixels ({}) are not of that colour, by up to {flat_most:.2}; by areas {steady}. \
-         In the scene above, where also what is hidden shines through along edges, {crossed} pixels \
-         ({}) differ from the areas, by up to {most:.2}, with a root of the mean square of {mean:.4}. The \
-         cuts of a tree add such edges, so a painter must not smooth them: paint by samples, or fill \
-         what is visible by areas.",
+        "Painting programs use the covered share of a pixel as opacity. Suppose that two pieces of one \
+         surface meet in an edge, and each covers half of a pixel. The first piece leaves half of the \
+         background, and the second leaves half of that. A quarter of the background shines through, \
+         because a share does not say which part of the pixel is covered. The first picture is a fan of \
+         {} triangles of one colour that fills the picture. {seamed} pixels ({}) have another colour, by \
+         up to {flat_most:.2}; by areas, {steady} have. In the scene above, hidden surfaces also shine \
+         through along edges. {crossed} pixels ({}) differ from the areas, by up to {most:.2}, with a \
+         root mean square error of {mean:.4}. The splits of a tree add such edges, so a painter must not \
+         antialias them. It can paint by samples, or fill the visible parts by their areas.",
         fan.len(),
         percent(seamed as f64, all),
         percent(crossed as f64, all),

@@ -23,7 +23,7 @@ pub(super) enum Part {
     Pictures(Vec<Picture>),
     /// A graph, as SVG.
     Graph(String),
-    /// A table: its head and its rows. Columns of numbers are set to the right.
+    /// A table: its head and its rows. Columns of numbers are aligned to the right.
     Table(Vec<String>, Vec<Vec<String>>),
 }
 
@@ -43,7 +43,7 @@ impl Picture {
 }
 
 impl Chapter {
-    /// An empty one.
+    /// An empty chapter.
     pub(super) fn new(title: &'static str) -> Self {
         Self { title, parts: vec![] }
     }
@@ -86,12 +86,12 @@ impl Chapter {
     }
 }
 
-/// Any error, as one of a chapter.
+/// Converts any error to a failure of the lecture.
 pub(super) fn failure(error: impl Display) -> Failure {
     Failure::about("the lecture", error)
 }
 
-/// A share, as people read it: 0, or three digits of a percentage.
+/// Formats a share in percent: without decimals from 10 % and for 0, otherwise with two.
 pub(super) fn percent(part: impl Into<f64>, whole: impl Into<f64>) -> impl Display {
     let share = 100.0 * part.into() / whole.into();
     format!("{share:.*} %", if share == 0.0 || share >= 10.0 { 0 } else { 2 })

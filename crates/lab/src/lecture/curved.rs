@@ -29,7 +29,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let wrong = differing(&truth, picture.shown());
     let mut pictures = vec![Picture::new(SIZE, shaded(&picture), "one depth buffer")];
     let mut rows = vec![["own routines".into(), "-".into(), "-".into(), wrong.to_string()]];
-    // Trees do without the sphere: one of radius 0 is met by no ray.
+    // The trees do not contain the sphere: no ray meets a sphere of radius 0.
     let no_sphere = Sphere { radius: 0, ..sphere };
     let truth = certain(&Surfaces { sphere: no_sphere, ..surfaces }, &view);
     for tolerance in [4.0, 0.5, 0.05] {
@@ -43,21 +43,25 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     }
     chapter.heading("Curved surfaces");
     chapter.text(
-        "A depth buffer takes whatever has a depth in each pixel. Here polygons, a sphere and two Bézier \
-         patches share one, each drawn by a routine of its own: the sphere by the lesser root of a quadratic \
-         equation, the patches by halving until parts are smaller than a pixel (Catmull 1974). A tree takes \
-         planes alone, so patches are cut to triangles first, as many as the picture needs (Filip, Magedson & \
-         Markot 1986). An edge is cut as the finer of its two patches needs, and by its own curve alone: both get \
-         the same points along the one that they share, and no crack opens.",
+        "A depth buffer accepts any surface that has a depth in each pixel. Here polygons, a sphere and \
+         two Bézier patches share one buffer. A separate routine draws each kind. The depth of the \
+         sphere is the smaller root of a quadratic equation. The patches are halved until the parts are \
+         smaller than a pixel (Catmull 1974). A tree accepts only planar polygons, so patches are first \
+         divided into triangles, as many as the picture needs (Filip, Magedson & Markot 1986). The \
+         division of a shared edge depends only on the curve of the edge, and on the patch that needs \
+         the finer division. Both patches therefore get the same points along the edge, and no crack \
+         opens.",
     );
     chapter.pictures(pictures);
     chapter.table(["patches by", "triangles", "fragments of the tree", "wrong pixels"], rows);
     chapter.text(format!(
-        "Judged in integers: the sphere by the sign of a discriminant and by squares, the patches by parts in \
-         which one of two functions cannot be 0, and a theorem of Poincaré and Miranda that both are 0 in what \
-         is left. {judged} of {} pixels are certain so; near rims, and where a patch and another surface are \
-         at nearly the same depth, nothing is claimed. Triangles are wrong where they are off by more than \
-         that, at the outline and where patches cross polygons.",
+        "The pictures are judged in integers. The sphere is decided by the sign of a discriminant and by \
+         comparing squares. For a patch, two functions must both be 0. Parts of the patch in which one \
+         of them cannot be 0 are discarded, and the Poincaré–Miranda theorem proves that both are 0 in a \
+         remaining part. {judged} of {} pixels are certain in this way. Other pixels are not judged: \
+         they are near outlines, or a patch and another surface have nearly the same depth there. \
+         Triangles are wrong where their error exceeds this margin, at outlines and where patches cross \
+         polygons.",
         SIZE[0] * SIZE[1]
     ));
     Ok(())
@@ -69,7 +73,7 @@ fn certain(surfaces: &Surfaces<'_>, view: &PlainView) -> Vec<Option<u32>> {
     pixels.map(|pixel| nearest(surfaces, view, pixel)).collect()
 }
 
-/// Certain pixels that show another surface.
+/// The number of certain pixels that show another surface.
 fn differing(truth: &[Option<u32>], shown: &[u32]) -> usize {
     truth.iter().zip(shown).filter(|(truth, shown)| truth.is_some_and(|t| t != **shown)).count()
 }

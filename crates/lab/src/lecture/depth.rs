@@ -17,14 +17,15 @@ use binspace_cli::pictures::Bright;
 
 const SIZE: [u32; 2] = [240, 180];
 const WHITE: [u8; 3] = [255; 3];
-/// How opaque translucent polygons are.
+/// The opacity of translucent polygons.
 const OPACITY: f64 = 0.5;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A depth buffer (Catmull 1974) keeps in each pixel the depth of the nearest surface so far, and \
-         shows a new one where it is nearer. Polygons may come in any order; what it needs is memory for a \
-         number a pixel, and that this number can tell depths apart, which is the next chapter's subject.",
+        "A depth buffer (Catmull 1974) stores in each pixel the depth of the nearest surface so far. A \
+         new surface replaces it if the new one is nearer. Polygons may come in any order. The method \
+         needs memory for one number per pixel, and these numbers must be precise enough to compare \
+         depths. The next chapter is about this precision.",
     );
     let room = Room::new()?;
     conventions(chapter, &room)?;
@@ -35,7 +36,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     curved::fill(chapter)
 }
 
-/// Parallelograms that cross, seen by a view of integers.
+/// Parallelograms that cross, in a view with integer coordinates.
 struct Room {
     view: PlainView,
     camera: Camera,
@@ -64,7 +65,7 @@ impl Room {
     }
 }
 
-/// Rules by their names: which end is nearer, the test, the clear value, whether depths are written.
+/// Sets of rules, with names for the nearer end, the test, the clear value, and whether depths are written.
 fn sets_of_rules() -> [(&'static str, &'static str, &'static str, &'static str, DepthRules); 7] {
     let smaller = DepthRules::DEFAULT.with_clear(Clear::Largest);
     let larger = DepthRules {
@@ -114,10 +115,11 @@ fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let head = ["nearer is", "test", "cleared to", "writes", "wrong pixels"];
     chapter.table(head, rows);
     chapter.text(format!(
-        "Either end may be near, as long as the test and the clear value go with it. A test from the wrong \
-         end shows what is furthest; with writes off the last polygon shows; cleared to the near end, the \
-         buffer lets nothing through. LESS and LEQUAL differ where depths are equal: of two polygons in one \
-         place the first shows, or the last. {} pixels show a polygon.",
+        "Small numbers may be near, or large numbers, if the test and the clear value agree with the \
+         choice. If the test is reversed, the furthest surface shows. If writes are off, the last \
+         polygon shows. If the buffer is cleared to the near end, no polygon passes the test. LESS and \
+         LEQUAL differ only where depths are equal: of two coincident polygons, LESS shows the first and \
+         LEQUAL the last. {} pixels show a polygon.",
         truth.covered()
     ));
     Ok(())
@@ -129,9 +131,9 @@ fn depth_maps(chapter: &mut Chapter, room: &Room) {
         |bright: Bright, caption| Picture::new(SIZE, depth_map(&depth, bright.greys()), caption);
     chapter.heading("The buffer as a picture");
     chapter.text(
-        "Depths drawn as grey. Textbooks draw what is further lighter, as the numbers are larger there; \
-         `binspace render --depth` draws the nearer brighter, as if there were a lamp at the eye, and \
-         --depth=far the other way. Black is nothing.",
+        "The depths are drawn as grey levels. Textbooks draw far surfaces lighter, because their numbers \
+         are larger. `binspace render --depth` draws near surfaces brighter, as if a lamp were at the \
+         eye; `--depth=far` does the opposite. In black pixels there is no surface.",
     );
     chapter
         .pictures([map(Bright::Far, "lighter is further"), map(Bright::Near, "lighter is nearer")]);
@@ -174,10 +176,11 @@ fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     }
     chapter.heading("Translucent polygons");
     chapter.text(
-        "A pixel keeps one depth, but light comes through all translucent surfaces in front of the nearest \
-         opaque one. So opaque polygons are drawn by depth first; then the translucent ones from back to \
-         front, tested against these depths but leaving none. Where polygons cross there is no such order \
-         of whole polygons; there is one of the tree's fragments.",
+        "A pixel stores one depth. But light comes through every translucent surface in front of the \
+         nearest opaque one. So opaque polygons are drawn first, with depth test and depth writes. Then \
+         translucent polygons are drawn from back to front, with depth test and without depth writes. If \
+         polygons cross, no order of whole polygons is right. The fragments of the tree always have a \
+         right order.",
     );
     chapter.pictures(pictures);
     chapter.table(
@@ -185,9 +188,10 @@ fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         rows.into_iter().map(|row| <[String; 5]>::try_from(row).expect("five cells")),
     );
     chapter.text(
-        "Judged by lists: which polygons a pixel must show, and in which order, comes from crossings of its \
-         ray with each polygon in integers, compared as fractions. (Rays through a rim are left out.) Without \
-         the order layers are blended the wrong way round; with writes on some are lost as well.",
+        "The judge computes for each pixel the list of polygons that it must show, in order. It \
+         intersects the ray of the pixel with each polygon in integers, and compares the crossings as \
+         fractions. (It leaves out rays that meet the boundary of a polygon.) Without the order, layers \
+         are blended in a wrong sequence. With writes on, some layers are also lost.",
     );
     Ok(())
 }
@@ -217,13 +221,15 @@ fn blended(room: &Room, layers: &Layers) -> Vec<u8> {
     layers.iter().flat_map(|layers| colour(layers).map(|c| c.round() as u8)).collect()
 }
 
-/// Texture coordinates through cuts.
+/// Texture coordinates on split polygons.
 fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let corners = [[0, 0], [6, 0], [6, 6], [0, 6]];
     let all = vec![corners.map(|uv| uv.map(f64::from)).to_vec(); room.integers.len()];
     let (mut pictures, mut rows) = (Vec::new(), Vec::new());
-    let cases =
-        [(Across::Polygon, "attribute / w and 1 / w"), (Across::Picture, "linear on the picture")];
+    let cases = [
+        (Across::Polygon, "attribute / w and 1 / w"),
+        (Across::Picture, "linear on the projection"),
+    ];
     for (across, name) in cases {
         let shown = paint_attributes(&room.tree, &room.camera, &room.rays, &all, across);
         let (mut judged, mut wrong, mut largest) = (0, 0, 0.0f64);
@@ -246,10 +252,12 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     }
     chapter.heading("Textures in perspective");
     chapter.text(
-        "Colours and texture coordinates are linear on a polygon, not on its picture. What is linear there \
-         is attribute / w and 1 / w, whose quotient is taken in each pixel (Heckbert & Moreton 1991). A painter \
-         needs it too: the tree's cuts make new vertices, which get their attributes from the corners by exact \
-         weights. Interpolated on the picture, squares bend, and bend differently on each side of a cut.",
+        "Colours and texture coordinates are linear on a polygon, but not on its projection. The \
+         quotients attribute / w and 1 / w are linear on the projection. Dividing one by the other gives \
+         the attribute in each pixel (Heckbert & Moreton 1991). A painter needs this too. The splits of \
+         the tree create vertices, whose attributes are weighted sums of the attributes of the corners. \
+         The weights are exact. If the attributes themselves are interpolated on the projection, squares \
+         bend, and they bend differently on each side of a split.",
     );
     chapter.pictures(pictures);
     chapter.table(
@@ -257,8 +265,8 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "Each polygon is covered by squares of side 1. Judged at the centres of pixels, by fractions of \
-         integers; the largest error is in sides of a square.",
+        "Squares of side 1 cover each polygon. The centre of each pixel is judged by fractions of \
+         integers. The largest error is measured in sides of a square.",
     );
     Ok(())
 }

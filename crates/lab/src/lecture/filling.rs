@@ -1,4 +1,4 @@
-//! How a depth buffer is filled: scan conversion, and a section of the picture at a time.
+//! Filling a depth buffer: scan conversion, and one section of the picture at a time.
 
 use binspace::glam::DVec3;
 use binspace::raster::{
@@ -43,7 +43,7 @@ impl Body {
     }
 }
 
-/// Ways to find a face's pixels and their depths.
+/// Methods that find a face's pixels and their depths.
 fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     let names = ["edge functions", "edge table, sums", "trapezoids", "integer edges"];
     let shown = picture(&body.rays, &body.faces, &body.truth, colour_of, WHITE);
@@ -64,7 +64,9 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
                 pictures.push(Picture::new(
                     SIZE,
                     marked,
-                    format!("{name}, {format}: what differs, each pixel marked by three by three"),
+                    format!(
+                        "{name}, {format}: each wrong pixel is marked by a block of three by three"
+                    ),
                 ));
             }
         }
@@ -72,25 +74,27 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     let covered = body.truth.covered();
     chapter.heading("Scan conversion");
     chapter.text(
-        "Which pixels a polygon covers, and its depth there. Edge functions decide each pixel by itself. The \
-         others walk: along an edge x grows by 1/m from one scanline to the next, and from pixel to pixel z \
-         grows by -A/C. Trapezoids, between the heights of two vertices, have one edge on the left, along \
-         which z grows by (A/m + B)/C, or by B/C if it is vertical. Integer edges keep x as pixels and a \
-         remainder, as Bresenham (1965) walks along lines, from vertices rounded to 1/256 of a pixel.",
+        "Scan conversion finds the pixels that a polygon covers, and its depth in each of them. Edge \
+         functions decide each pixel separately. The other methods walk. Along an edge, x grows by 1/m \
+         from one scanline to the next. From one pixel to the next, z grows by -A/C. A trapezoid lies \
+         between the heights of two vertices. Along its left edge, z grows by (A/m + B)/C, or by B/C if \
+         the edge is vertical. Integer edges store x as a number of pixels and a remainder, as Bresenham \
+         (1965) does for lines. Their vertices are rounded to 1/256 of a pixel.",
     );
     chapter.pictures(pictures);
     chapter.table(["walk", "stored", "wrong order", "holes", "spills"], rows);
     chapter.text(format!(
-        "Against the exact picture of a teapot that covers {covered} pixels. Sums of rounded steps are off by \
-         a hundred-thousandth of a pixel or so: only a centre that is as near to an edge goes to the wrong \
-         triangle (red), is left out (black) or spills over the outline (blue). Vertices rounded to 1/256 \
-         are off by more, so more pixels differ; but each edge is then walked exactly, so that triangles which \
-         share one still meet without a gap.",
+        "The table compares each method with the exact picture of a teapot, which covers {covered} \
+         pixels. Sums of rounded steps have errors of about a hundred-thousandth of a pixel. A pixel is \
+         wrong only if its centre is that near to an edge. Then it shows the wrong triangle (red), shows \
+         none (black), or shows a triangle beyond the outline (blue). Vertices rounded to 1/256 have \
+         larger errors, so more pixels are wrong. But each edge is then walked exactly, so triangles \
+         that share an edge meet without a gap.",
     ));
     Ok(())
 }
 
-/// A pale copy of a picture, on which pixels that are wrong are easy to find.
+/// A pale copy of a picture on which wrong pixels are marked.
 fn marked(found: &Comparison, shown: &[u8]) -> Vec<u8> {
     let mut marked: Vec<u8> = shown.iter().map(|&c| 204 + c / 5).collect();
     let [width, height] = SIZE.map(|side| side as usize);
@@ -128,12 +132,13 @@ fn sections(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     }
     chapter.heading("A section of the picture at a time");
     chapter.text(
-        "Where memory is short, the buffer holds some rows only, and the polygons are drawn once for each \
-         section. As no section knows of another, threads can share them. Depths come from each plane's \
-         equation, not from sums that begin elsewhere, so the picture is the same, bit for bit.",
+        "If memory is short, the buffer holds only a section of the picture, and all polygons are drawn \
+         again for each section. The sections are independent, so threads can share them. Each depth \
+         comes from the equation of a plane, not from a sum that starts at the border of a section. So \
+         the picture is the same, bit for bit.",
     );
     chapter.table(
-        ["rows a section", "threads", "bytes of depths and faces", "pixels that differ"],
+        ["rows per section", "threads", "bytes of depths and faces", "pixels that differ"],
         rows,
     );
     Ok(())

@@ -11,13 +11,14 @@ use binspace_cli::failure::Failure;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "M. E. Newell, R. G. Newell and T. L. Sancha (\"A solution to the hidden surface problem\", 1972) sort \
-         polygons by their furthest vertex and then make sure. The furthest, P, may be painted if it hides no \
-         Q that overlaps it in depth. Five tests are tried in turn, the cheap ones first: 1. P and Q do not \
-         overlap from left to right; 2. nor from top to bottom; 3. P is behind Q's plane; 4. Q is in front of \
-         P's plane; 5. their projections do not overlap. If none holds, Q takes P's place in the list, \
-         unless it has done so before or the two go through each other: then one is cut by the plane of the \
-         other.",
+        "The algorithm of M. E. Newell, R. G. Newell and T. L. Sancha (\"A solution to the hidden \
+         surface problem\", 1972) sorts polygons by their furthest vertex, and then checks this order. \
+         Let P be the furthest polygon in the list. P may be painted if it hides no polygon Q that \
+         overlaps it in depth. Five tests can show this for a pair, the cheapest first: 1. P and Q do \
+         not overlap from left to right; 2. they do not overlap from top to bottom; 3. P is behind the \
+         plane of Q; 4. Q is in front of the plane of P; 5. the projections of P and Q do not overlap. \
+         If all tests fail, Q takes the place of P in the list. But if Q has been moved before, or if P \
+         and Q penetrate each other, one of them is split by the plane of the other.",
     );
     let towards = DVec3::new(0.7, -1.0, 0.5);
     let scenes = [
@@ -26,12 +27,12 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         ("terrain of 2000", Builtin::Terrain.build(Some(2000), 1)),
         ("random triangles, 300", Builtin::Random.build(Some(300), 1)),
         ("three bars", newell_bars()),
-        ("triangles through each other, 60", Family::Penetration.scene(60.0, 1)),
+        ("penetrating triangles, 60", Family::Penetration.scene(60.0, 1)),
     ];
     let (mut pictures, mut shares, mut outcomes) = (Vec::new(), Vec::new(), Vec::new());
     for (name, scene) in &scenes {
         let shot = Shot::around(scene, towards)?;
-        if ["city of 600", "teapot", "triangles through each other, 60"].contains(name) {
+        if ["city of 600", "teapot", "penetrating triangles, 60"].contains(name) {
             pictures.push(shot.by(&Newell::DEFAULT, name)?);
         }
         let decisions = Newell::DEFAULT.decisions(&shot.faces, &shot.camera);
@@ -41,9 +42,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     }
     chapter.pictures(pictures);
     chapter.text(
-        "How often each test decides, of the pairs that it could have: those that overlap in depth and that no \
-         test before it decided. The first two take two comparisons of numbers each and settle most pairs; what is left \
-         for the expensive fifth is little.",
+        "The table gives the share of pairs that each test settles. All compared pairs overlap in depth, \
+         and a test gets only the pairs that no earlier test has settled. The first two tests need two \
+         comparisons of numbers each, and they settle most pairs. Few pairs reach the expensive fifth \
+         test.",
     );
     let head = [
         "scene",
@@ -51,21 +53,21 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         "1 left, right",
         "2 top, bottom",
         "3 P behind Q",
-        "4 Q before P",
+        "4 Q in front of P",
         "5 projections",
         "none",
     ];
     chapter.table(head, shares);
     chapter.text(
-        "What became of the pairs that no test decided. Pieces of one polygon never hide each other and are \
-         not tested.",
+        "The next table shows the outcome for the pairs that no test settled. Pieces of one polygon \
+         never hide each other and are not tested.",
     );
     let head = [
         "scene",
         "polygons in view",
         "Q moved before P",
-        "cuts",
-        "within the rounding",
+        "splits",
+        "within the epsilon",
         "pieces painted",
     ];
     chapter.table(head, outcomes);

@@ -18,8 +18,8 @@ pub(crate) fn write(out: &mut dyn Write, chapters: &[Chapter]) -> io::Result<()>
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>Visible surfaces</title>\n<style>\n{STYLE}</style>\n\
          <header>\n<h1>Visible surfaces</h1>\n\
-         <p>What a course on visibility teaches. Every picture and every figure on this page was made by \
-         one run of <code>binspace-lab lecture</code>, and judged against exact arithmetic.</p>\n<nav><ol>\n",
+         <p>The subjects of a course on visibility. One run of <code>binspace-lab lecture</code> made all \
+         pictures and figures on this page, and judged them by exact arithmetic.</p>\n<nav><ol>\n",
     )?;
     for (number, chapter) in (1..).zip(chapters) {
         writeln!(out, "<li><a href=\"#c{number}\">{}</a>", escaped(chapter.title))?;
@@ -38,7 +38,7 @@ fn write_part(out: &mut dyn Write, part: &Part) -> io::Result<()> {
         Part::Heading(text) => writeln!(out, "<h3>{}</h3>", readable(text)),
         Part::Text(text) => writeln!(out, "<p>{}</p>", readable(text)),
         Part::Pictures(pictures) => {
-            // Three large ones stand side by side, so a fourth would stand alone.
+            // Three large pictures fill a row, so a fourth would be alone.
             let is_large = pictures.iter().all(|picture| picture.size[0] > 240);
             let is_pairs = pictures.len() == 4 && is_large;
             let class = if is_pairs { "pictures pairs" } else { "pictures" };
@@ -88,8 +88,8 @@ fn write_table(out: &mut dyn Write, head: &[String], rows: &[Vec<String>]) -> io
     writeln!(out, "</table></div>")
 }
 
-/// A text in HTML: whole numbers of five digits and more in groups of three, commands, which are between
-/// backticks, as they are typed.
+/// Converts a text to HTML: groups the digits of whole numbers of five digits or more, and marks text between
+/// backticks as code.
 fn readable(text: &str) -> String {
     let parts = escaped(text);
     let parts = parts.split('`').zip([false, true].into_iter().cycle());
@@ -108,7 +108,7 @@ fn grouped(text: &str) -> String {
         let end = from.find(|c: char| !c.is_ascii_digit()).unwrap_or(from.len());
         let (digits, after) = from.split_at(end);
         result.push_str(before);
-        // Digits behind a point are no whole number, and digits in names no number.
+        // Digits after a decimal point, and digits in names, are not grouped.
         let is_whole = digits.len() > 4
             && !result.ends_with(|c: char| c == '.' || c == ':' || c.is_alphabetic());
         for (k, digit) in digits.chars().enumerate() {
@@ -122,7 +122,7 @@ fn grouped(text: &str) -> String {
     result + rest
 }
 
-/// A text in HTML, in its contents or in quotes.
+/// Escapes a text for HTML contents and quoted attributes.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -12,10 +12,10 @@ use binspace_cli::failure::Failure;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "Paint what is far first, and what is near over it: then no pixel has to know what is hidden. The \
-         question is what \"far\" means for a whole polygon. Most programs sort by one depth, that of the \
-         centroid. That is right as long as polygons do not overlap in depth, and a matter of luck where they \
-         do.",
+        "Paint far polygons first, and near polygons over them. Then a pixel needs to store nothing but \
+         its colour. But how far is a whole polygon? Most programs use one depth, the depth of the \
+         centroid. This order is right if no polygons overlap in depth. If some overlap, it is right \
+         only by chance.",
     );
     let city = Builtin::City.build(Some(600), 1);
     let bars = newell_bars();
@@ -24,8 +24,8 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.pictures([
         Shot::around(&city, DVec3::new(0.6, -1.0, 0.4))?.by(&Centroid, "A city by centroids")?,
         Shot::around(&bars, towards)?.by(&Centroid, "Three bars by centroids")?,
-        Shot::around(&bars, towards)?.by(&Newell::DEFAULT, "Three bars, cut where needed")?,
-        Shot::around(&crowd, towards)?.by(&Centroid, "Triangles through each other")?,
+        Shot::around(&bars, towards)?.by(&Newell::DEFAULT, "Three bars by Newell's algorithm")?,
+        Shot::around(&crowd, towards)?.by(&Centroid, "Penetrating triangles by centroids")?,
     ]);
     partial_order(chapter)
 }
@@ -33,18 +33,20 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
 fn partial_order(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Who hides whom");
     chapter.text(
-        "A polygon has to be painted after all that it hides parts of: that some ray from the eye meets it \
-         first and then the other. For each eye this is a relation between pairs, and any order that keeps to \
-         it gives the right picture; that of the sort by depth is only one try. Two polygons whose extents in \
-         depth overlap are ambiguous for the sort, though few of them hide one another at all. Where the \
-         relation runs in a cycle, as in the three bars, or where two polygons go through each other, no order \
-         of whole polygons is right, and one of them has to be cut.",
+        "A polygon P hides a polygon Q if some ray from the eye meets P first and Q later. Then P must \
+         be painted after Q. For each eye this is a relation between pairs of polygons. Every order that \
+         respects the relation gives the right picture; a sort by depth is one attempt to find such an \
+         order. The sort cannot decide a pair whose extents in depth overlap, although few of these \
+         pairs hide each other at all. If the relation contains a cycle, as it does for the three bars, \
+         no order of whole polygons is right. The same is true if two polygons penetrate each other. \
+         Then one of the polygons must be split.",
     );
     chapter.text(
-        "The table decides every pair in exact arithmetic: the one polygon is clipped to the cone of rays \
-         through the other, and what is left is compared with the other's plane. \"At least to cut\" is the \
-         smallest number of polygons with which all cycles are broken, by trying all subsets; finding it is \
-         expensive, so Newell's algorithm and the tree cut more. The tree's cuts hold for all eyes at once.",
+        "The table decides every pair in exact arithmetic. One polygon is clipped to the cone of rays \
+         through the other, and the rest is compared with the plane of the other. \"Fewest to split\" is \
+         the smallest number of polygons whose removal breaks all cycles. It is found by trying all \
+         subsets, which is expensive. Newell's algorithm and the tree therefore split more polygons. The \
+         splits of the tree serve all eyes.",
     );
     let few = Family::Penetration.scene(8.0, 1);
     let crowd = Family::Penetration.scene(14.0, 1);
@@ -62,19 +64,19 @@ fn partial_order(chapter: &mut Chapter) -> Result<(), Failure> {
             &newell_bars(),
             &Shot::around(&newell_bars(), towards)?,
         )?,
-        row("triangles through each other, 8", &few, &Shot::around(&few, towards)?)?,
-        row("triangles through each other, 14", &crowd, &Shot::around(&crowd, towards)?)?,
+        row("penetrating triangles, 8", &few, &Shot::around(&few, towards)?)?,
+        row("penetrating triangles, 14", &crowd, &Shot::around(&crowd, towards)?)?,
     ];
     let head = [
         "scene",
         "pairs",
         "overlap in depth",
         "one hides another",
-        "go through each other",
+        "penetrate each other",
         "on cycles",
-        "at least to cut",
-        "cuts by Newell",
-        "cuts by the tree",
+        "fewest to split",
+        "splits by Newell",
+        "splits by the tree",
     ];
     chapter.table(head, rows);
     Ok(())

@@ -1,4 +1,4 @@
-//! The precision of depths, and pictures where it does not suffice.
+//! The precision of depths, and pictures in which it is insufficient.
 
 use binspace::BuildOptions;
 use binspace::raster::{Faces, NONE, Rays, picture};
@@ -16,10 +16,11 @@ const SIZE: [u32; 2] = [240, 180];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A depth buffer stores one number a pixel, and only so many bits of it. Which number is stored \
-         decides where these bits go. Graphics libraries store z = f (w - n) / (w (f - n)) of the depth w, \
-         with the near and the far plane at n and f: it is linear on the picture, so it can be summed up \
-         along scanlines, but not in depth. The graphs below are those of glFrustum(..., 1, 200).",
+        "A depth buffer stores one number per pixel, with a limited number of bits. The choice of this \
+         number decides which depths get most of the bits. Graphics libraries store z = f (w - n) / (w \
+         (f - n)). Here w is the depth, and n and f are the depths of the near and the far plane. z is \
+         linear on the picture, so it can be summed along scanlines. But z is not linear in depth. The \
+         graphs below are for glFrustum(..., 1, 200).",
     );
     values(chapter)?;
     errors(chapter)?;
@@ -55,7 +56,7 @@ fn values(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("The stored number against the depth");
     chapter.svg(
         Graph {
-            title: "What the buffer stores",
+            title: "Stored number against depth",
             x_label: "depth w",
             y_label: "stored number",
             x: [0.0, far],
@@ -65,9 +66,9 @@ fn values(chapter: &mut Chapter) -> Result<(), Failure> {
         .draw()?,
     );
     chapter.text(format!(
-        "Read from our own buffers. At twice the near plane, depth {}, z is already {half:.3}: half of all \
-         numbers are spent on the first {} of the range. At depth 50 z is {:.3}. A buffer of w spends \
-         its numbers evenly.",
+        "These values are read from our own buffers. At twice the near plane, depth {}, z is already \
+         {half:.3}: half of all numbers are spent on the first {} of the range. At depth 50, z is {:.3}. \
+         A w-buffer spends its numbers evenly.",
         2.0 * near,
         percent(near, far - near),
         Integer(24).store(PLANES, 50.0).value,
@@ -87,7 +88,7 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
     };
     chapter.heading("The error against the depth");
     chapter.graph(&Chart {
-        title: "Largest difference between a depth and what its stored number stands for",
+        title: "Largest error of a stored depth, against depth",
         x_label: "depth w",
         y_label: "error",
         ticks: None,
@@ -106,11 +107,12 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
         formats.map(row),
     );
     chapter.text(
-        "The error of z grows with the square of the depth: half a step is w² (f - n) / (2 f n) / (2^bits - 1). \
-         An f32 that holds z gains nothing over 24 bits, as most of its numbers lie near 0, where z has no \
-         need of them; and as the pipeline before it rounds as well, it errs by more than half a step. Stored \
-         as 1 - z, the two unevennesses all but cancel (Lapidous & Jiao 1999). A buffer of w errs by the same \
-         length everywhere: little far away, much near the eye.",
+        "The error of z grows with the square of the depth: half a step is w² (f - n) / (2 f n) / \
+         (2^bits - 1). An f32 that holds z is no better than 24 bits, because most f32 numbers lie near \
+         0, where z does not need them. The earlier stages of the pipeline also round, so the error of \
+         the f32 exceeds half a step. If 1 - z is stored, the uneven steps of z and of f32 almost cancel \
+         (Lapidous & Jiao 1999). The error of a w-buffer is the same length everywhere. Relative to the \
+         depth, it is small far away and large near the eye.",
     );
     Ok(())
 }
@@ -119,12 +121,13 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
 fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Z-fighting");
     chapter.text(
-        "Two sheets fill the picture and recede from depth 20 (below) to 190 (above). Along each ray the \
-         orange one is further away than the blue one, by a fixed share of the depth, so no orange should be \
-         seen. But where a buffer stores the same number for both, the one that was drawn first stays, and \
-         that is the orange one. It happens only where the sheets are less than one step of the buffer apart; \
-         where they are a share s of a step apart, it happens in 1 − s of the pixels. So both the depths of \
-         the fight and the number of wrong pixels can be predicted.",
+        "Two sheets fill the picture and recede from depth 20 (bottom) to 190 (top). Along each ray, the \
+         orange sheet is further away than the blue one, by a fixed share of the depth. So no orange \
+         should be visible. But where a buffer stores the same number for both sheets, the sheet that \
+         was drawn first stays, and that is the orange one. This happens only where the distance of the \
+         sheets is less than one step of the buffer. Where the distance is a share s of a step, it \
+         happens in 1 − s of the pixels. So both the depths of the fight and the number of wrong pixels \
+         can be predicted.",
     );
     let (coarse, fine) = (Sheets::new(6e-4, SIZE), Sheets::new(2.4e-6, SIZE));
     let nearest = Sheets::new(5e-5, SIZE);
@@ -165,7 +168,7 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
             "stored",
             "apart by",
             "predicted at depths",
-            "with roundings",
+            "predicted with rounding",
             "seen at depths",
             "predicted wrong pixels",
             "wrong pixels",
@@ -173,13 +176,14 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "For z the fight begins at depth f n (2^bits - 1) / (f - n) times the share, and everything beyond is \
-         lost; a buffer of w fights in front of a distance instead. Integers \
-         fight where their steps predict it. What is computed before an f32 is stored is rounded as much as \
-         the f32 itself, so there it begins earlier. The column \"with roundings\" takes that into account: \
-         it takes the planes as the buffer computes them, and bounds what is rounded in each pixel. The tests \
-         check, in each format, that nothing is wrong at other depths. The tree compares no depths: it decides once on which side of a sheet the other \
-         lies, exactly, and no pixel is wrong however near they are.",
+        "For z, the fight begins at depth f n (2^bits - 1) / (f - n) times the share, and continues at \
+         all greater depths. In a w-buffer, the fight ends at some depth instead. Integer formats fight \
+         at the depths that their steps predict. For an f32, the computation before the number is stored \
+         rounds as much as the f32 itself, so the fight begins earlier. The column \"predicted with \
+         rounding\" includes this: it uses the planes that the buffer computes, and bounds the rounding \
+         in each pixel. For each format, the tests check that no pixel is wrong at other depths. The \
+         tree compares no depths. It decides once, exactly, on which side of one sheet the other lies. \
+         So no pixel is wrong, however small the distance.",
     );
     Ok(())
 }

@@ -21,15 +21,15 @@ const WHITE: f64 = 0.035;
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Light between surfaces");
     chapter.text(
-        "A diffuse surface lights all that it sees. Cut into patches, a scene is a system of linear \
-         equations: the form factor from one patch to another is the share of its light that arrives \
-         there (Goral, Torrance, Greenberg & Battaile, Modeling the Interaction of Light Between Diffuse \
-         Surfaces, 1984). What a point sees of a patch has a closed form (Lambert, 1760); how much of \
-         it is free is asked of the tree, by exact sight lines between pairs of points, each weighted by the \
-         light that it carries. They end a millionth of their length before the surfaces, as points on \
-         these are rounded. In a closed room, \
-         the factors of a patch sum to 1: here the open side is closed by a black wall, so that what \
-         escapes is counted too.",
+        "A diffuse surface lights every surface that it sees. A scene divided into patches gives a system \
+         of linear equations. The form factor from one patch to another is the share of its light that \
+         arrives there (Goral, Torrance, Greenberg & Battaile, Modeling the Interaction of Light Between \
+         Diffuse Surfaces, 1984). The form factor from a point to a whole patch has a closed form \
+         (Lambert, 1760). The tree finds the visible share of the patch, by exact sight lines between \
+         pairs of points. Each sight line is weighted by the light that it carries. Points on surfaces \
+         are rounded, so each sight line ends a millionth of its length before the surface. In a closed \
+         room, the form factors of a patch sum to 1. Here a black wall closes the open side, so that \
+         escaping light is counted too.",
     );
     published(chapter)?;
     let mut rows = Vec::new();
@@ -46,34 +46,35 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         ]);
     }
     chapter.text(
-        "The same in the Cornell box, where blocks are in the way: of the lamp's light, what arrives at the \
-         surfaces and what escapes is all there is. The last column is of one draw of random \
-         points; the tests take the mean of six.",
+        "The next test is the Cornell box, where blocks hide some sight lines. All light of the lamp \
+         must arrive at the surfaces or escape. The last column is the difference for one set of random \
+         points; the tests take the mean of six sets.",
     );
     chapter.table(
         [
-            "sight lines a pair",
+            "sight lines per pair",
             "sight lines",
             "light that arrives",
             "light that escapes",
-            "lost or won",
+            "lost or gained",
         ],
         rows,
     );
     let room = Room::new(FINE, 1).map_err(failure)?;
     let [direct, once] = [0, 1].map(|bounces| room.leaving(bounces));
     chapter.text(format!(
-        "The pictures have {} patches and {} sight lines, one a pair that may see one another. Each patch \
-         has one colour. The ceiling gets no light straight from the lamp, which lies in it; one bounce \
-         lights it, and the red and the green wall colour what is beside them. Cornell University built \
-         and measured this box. Its measurements are used here: the surfaces, the camera, and what the \
-         paints reflect at 620, 540 and 460 nm, shown as red, green and blue; the lamp is taken as white. \
-         The published pictures are not ours to copy. They are at https://www.graphics.cornell.edu/online/box \
-         under \"Comparison\", a photograph beside a computed one, and the measurements under \"Data\". \
-         What should be the same: where the outlines of the walls and blocks are, where the blocks throw \
-         their shadows, and which sides of the blocks and parts of the floor turn red or green. What differs: \
-         theirs has all bounces, so its shadows are lighter, and the lamp's own colour, which is warmer; and \
-         its shading is smooth.",
+        "The pictures have {} patches and {} sight lines, one for each pair of patches that may see each \
+         other. Each patch has one colour. The lamp lies in the ceiling, so the ceiling gets no direct \
+         light. One bounce lights it, and the red and the green wall colour the surfaces beside them. \
+         Cornell University built and measured this box. This page uses their measurements: the \
+         surfaces, the camera, and the reflectances of the paints at 620, 540 and 460 nm, shown as red, \
+         green and blue. The lamp is taken as white. We may not copy the published pictures. They are at \
+         https://www.graphics.cornell.edu/online/box under \"Comparison\", a photograph beside a \
+         computed picture. The measurements are under \"Data\". Three things should agree: the outlines \
+         of the walls and blocks, the shadows of the blocks, and the sides of the blocks and parts of \
+         the floor that turn red or green. Three things differ. The published pictures contain all \
+         bounces, so their shadows are lighter. They show the colour of the real lamp, which is warmer. \
+         Their shading is smooth.",
         room.patches.len(),
         room.factors.sight_lines,
     ));
@@ -84,7 +85,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Form factors of two rectangles by sight lines, beside published formulas.
+/// Compares form factors by sight lines with published formulas.
 fn published(chapter: &mut Chapter) -> Result<(), Failure> {
     let level = |[x, y]: [f64; 2], z: f64| {
         [[0.0, 0.0], [x, 0.0], [x, y], [0.0, y]].map(|[x, y]| DVec3::new(x, y, z))
@@ -95,13 +96,13 @@ fn published(chapter: &mut Chapter) -> Result<(), Failure> {
     };
     let cases = [
         (
-            "squares that face, a side apart",
+            "facing squares, one side apart",
             [1.0, 1.0],
             turned(level([1.0, 1.0], 1.0)),
             facing([1.0, 1.0], 1.0),
         ),
         (
-            "rectangles 2 by 3 that face, 1.5 apart",
+            "facing rectangles 2 by 3, 1.5 apart",
             [2.0, 3.0],
             turned(level([2.0, 3.0], 1.5)),
             facing([2.0, 3.0], 1.5),
@@ -125,9 +126,10 @@ fn published(chapter: &mut Chapter) -> Result<(), Failure> {
         rows.push([name.to_owned(), few, more, most, format!("{truth:.5}")]);
     }
     chapter.text(
-        "Of two rectangles that face each other, and of two that share an edge at a right angle, there are \
-         published formulas (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11 and \
-         C-14). The share of light from the first to the second, by sight lines and by the formulas:",
+        "Published formulas exist for two rectangles that face each other, and for two rectangles that \
+         share an edge at a right angle (Howell, A Catalog of Radiation Heat Transfer Configuration \
+         Factors, C-11 and C-14). The table gives the share of light from the first rectangle to the \
+         second, by sight lines and by the formulas:",
     );
     chapter.table(["rectangles", "16 lines", "256 lines", "4096 lines", "published formula"], rows);
     Ok(())
@@ -143,7 +145,7 @@ fn shown(room: &Room, leaving: &[[f64; 3]]) -> Result<Vec<u8>, Failure> {
     let tree = BspTree::build(surfaces.iter().map(|patch| patch.corners)).map_err(failure)?;
     let (eye, target) = cornell_box().suggested_view().unwrap_or((DVec3::ZERO, DVec3::Z));
     let view = |error| Failure::about("a view", error);
-    // Published: a picture of 0.025 at a focal length of 0.035.
+    // The published camera: film size 0.025, focal length 0.035.
     let camera = Camera::perspective_by_slope(eye, target, DVec3::Y, 0.0125 / 0.035, SIZE);
     let camera = camera.map_err(view)?;
     let rays = Rays::new(&camera, tree.faces()).map_err(view)?;

@@ -10,8 +10,8 @@ use super::chapter::{Chapter, Picture, failure, percent};
 use super::shadows::{SIZE, colour};
 use binspace_cli::failure::Failure;
 
-/// The part of the chapter on pieces. `by_lines` holds the zones of the pixels by sight lines to the corners
-/// of the lamp.
+/// Writes the part of the chapter on pieces. `by_lines` contains the zones of the pixels, found by sight lines
+/// to the corners of the lamp.
 pub(super) fn fill(
     chapter: &mut Chapter,
     tree: &BspTree,
@@ -21,13 +21,14 @@ pub(super) fn fill(
 ) -> Result<(), Failure> {
     chapter.heading("Shadows as pieces of polygons");
     chapter.text(
-        "A point lamp and a convex polygon span a cone; what is in the cone behind the polygon is in its shadow \
-         (F. Crow, \"Shadow algorithms for computer graphics\", 1977). Each polygon is cut by the planes of \
-         these cones into convex pieces, each of them lit or not as a whole. Of a rectangle it is done for its \
-         four corners. Which polygons may throw a shadow on another is asked of the tree: those that go through \
-         the pyramid between it and the lamp. The pieces have nothing to do with pixels or with an eye: they are made once (P. \
-         Atherton, K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). Corners of pieces are kept \
-         exactly, as points where three planes meet.",
+        "A point lamp and a convex polygon span a cone. The part of the cone behind the polygon is in \
+         its shadow (F. Crow, \"Shadow algorithms for computer graphics\", 1977). The planes of these \
+         cones cut each polygon into convex pieces. For one point of light, each piece is lit as a whole or dark as a whole. A \
+         rectangular lamp is treated as its four corners. Only some polygons can throw a shadow on a \
+         given polygon: they intersect the pyramid between it and the lamp. A query to the tree finds \
+         them. The pieces do not depend on pixels or on an eye, so they are computed once (P. Atherton, \
+         K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). The corners of pieces are \
+         stored exactly, as points where three planes meet.",
     );
     let faces = tree.faces();
     let lamps = [("a point", middle.to_vec()), ("a rectangle, by its corners", lamp(2))];
@@ -38,7 +39,7 @@ pub(super) fn fill(
         let (rgb, zones) = painted(camera, faces, &pieces)?;
         let pairs = zones.iter().zip(by_lines).filter(|(zone, _)| zone.is_some());
         differ = (pairs.clone().filter(|(a, b)| a != b).count(), pairs.count());
-        let caption = format!("{name}: {} pieces, each in a shade of its own", pieces.len());
+        let caption = format!("{name}: {} pieces, in alternating shades", pieces.len());
         pictures.push(Picture::new(SIZE, rgb, caption));
     }
     chapter.pictures(pictures);
@@ -46,18 +47,19 @@ pub(super) fn fill(
         "lamp",
         "polygons",
         "pieces",
-        "shadows tried, of all pairs",
+        "shadows tested, of all pairs",
         "lit",
         "penumbra",
         "umbra",
-        "umbra for certain",
+        "certain umbra",
     ];
     chapter.table(head, rows);
     chapter.text(format!(
-        "Shares are of the area of all polygons; the pieces of each polygon have its area, in rational numbers. \
-         In the tests, a million sight lines from points within the pieces to the corners of the lamp are \
-         decided by rational numbers: none is other than its piece says. Here, {} of {} pixels show another \
-         zone than by sight lines above, as those start from points that are rounded to whole numbers.",
+        "The shares are of the area of all polygons. The areas of the pieces of each polygon sum to its \
+         area, in rational numbers. In the tests, rational numbers decide a million sight lines from \
+         points in pieces to the corners of the lamp: all agree with the zone of the piece. Here, {} of \
+         {} pixels show another zone than the sight lines above. The reason is that those sight lines \
+         start from points that are rounded to whole numbers.",
         differ.0, differ.1,
     ));
     Ok(())

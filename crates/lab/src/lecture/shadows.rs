@@ -11,20 +11,21 @@ use super::{radiosity, shadow_pieces};
 use binspace_cli::failure::Failure;
 
 pub(super) const SIZE: [u32; 2] = [240, 180];
-/// Points along a side of the lamp: its corners alone, and more and more between them.
+/// Points along a side of the lamp: first only its corners, then more between them.
 const SIDES: [u32; 4] = [2, 3, 5, 7];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "Shadow is what the lamp does not see: visible surfaces from another eye. A point lamp makes two \
-         zones, lit and umbra. A lamp with an extent adds the penumbra, from which a part of it is seen. \
-         Each sight line is a question to the tree, answered exactly: does a polygon have a point of the \
-         segment that is neither end? A tree of the scene serves all lamps and all points.",
+        "A point is in shadow if the lamp does not see it. So shadows are hidden surfaces, seen from \
+         another eye. A point lamp makes two zones, lit and umbra. A lamp with an extent adds the \
+         penumbra, from which a part of the lamp is visible. The tree decides each sight line exactly: \
+         does any polygon contain a point of the segment that is not one of its ends? One tree of the \
+         scene serves all lamps and all points.",
     );
     chapter.text(
-        "Here the points are those that the pixels show, in whole numbers on level or upright surfaces, so \
-         that they are in their planes exactly. In the tests, a million such sight lines, many along \
-         rims, are compared with whole numbers of 128 bits: none is wrong.",
+        "The tested points are the surface points in the pixels, in whole numbers. All surfaces are \
+         level or upright, so these points lie in their planes exactly. The tests compare a million such \
+         sight lines, many along boundaries of polygons, with integers of 128 bits: none is wrong.",
     );
     let scene = courtyard();
     let build = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons());
@@ -43,17 +44,18 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let umbra = seen.clone().filter(|(_, zone)| **zone == Some(Zone::Umbra));
     let certain = umbra.filter(|(p, _)| p.is_some_and(|p| is_umbra(&tree, p, &corners)));
     chapter.text(format!(
-        "What lies between the points of the lamp is not noticed, so lit and umbra of a rectangle are right \
-         but for a rim, which becomes narrower with more points; what is found to be penumbra is. Of the {} \
-         points in the umbra, {} are there for certain: one convex polygon is between them and all four \
-         corners of the lamp, so it hides all of the lamp.",
+        "Only the given points of the lamp are tested. A polygon that hides only other parts of the lamp \
+         is missed, so lit and umbra of a rectangular lamp are wrong in a border, which becomes narrower \
+         with more points. A point found in the penumbra is always right. Of the {} points in the umbra, \
+         {} are certain: one convex polygon is between them and all four corners of the lamp, so it \
+         hides the whole lamp.",
         count(&all[3], Zone::Umbra),
         certain.count(),
     ));
     chapter.pictures([
         Picture::new(SIZE, shown(&by_point), "A point lamp: lit and umbra"),
         Picture::new(SIZE, shown(&all[0]), "A rectangle by its corners"),
-        Picture::new(SIZE, shown(&all[3]), "The same by 49 points"),
+        Picture::new(SIZE, shown(&all[3]), "The rectangle by 49 points"),
     ]);
     shadow_pieces::fill(chapter, &tree, &camera, &middle, &all[0])?;
     radiosity::fill(chapter)
@@ -83,7 +85,7 @@ fn table(chapter: &mut Chapter, all: &[Vec<Option<Zone>>; 4]) {
         ]
     });
     chapter.table(
-        ["points of the lamp", "sight lines", "lit", "penumbra", "umbra", "other than by 49"],
+        ["points of the lamp", "sight lines", "lit", "penumbra", "umbra", "different by 49 points"],
         rows,
     );
 }

@@ -1,4 +1,4 @@
-//! A scene as a camera sees it, drawn by one method after another.
+//! A view of a scene, drawn by one method after another.
 
 use binspace::Error;
 use binspace::glam::DVec3;
@@ -33,7 +33,7 @@ pub(super) struct Painted {
 }
 
 impl<'a> Shot<'a> {
-    /// From `direction`, with all of the scene in the picture.
+    /// Views the whole scene from `direction`.
     pub(super) fn around(scene: &'a Scene, direction: DVec3) -> Result<Self, Failure> {
         let (low, high) = scene.bounds().unwrap_or_default();
         let (centre, reach) = ((low + high) * 0.5, (high - low).length() * 0.5);
@@ -51,7 +51,7 @@ impl<'a> Shot<'a> {
         Ok(Self { faces, camera, rays, truth, colours: Colours::new(scene, Colouring::Material) })
     }
 
-    /// With a colour for each polygon, where the scene has few materials.
+    /// Gives each polygon its own colour, for scenes with few materials.
     pub(super) fn coloured_by_polygon(self, scene: &'a Scene) -> Self {
         Self { colours: Colours::new(scene, Colouring::Polygon), ..self }
     }
@@ -64,13 +64,13 @@ impl<'a> Shot<'a> {
         Ok(Painted { image: painted.image, error })
     }
 
-    /// A picture, with the share of its wrong pixels behind the caption.
+    /// A picture whose caption ends with the share of wrong pixels.
     pub(super) fn picture(&self, painted: &Painted, caption: &str) -> Picture {
         let share = percent(painted.error.wrong() as f64, painted.error.covered as f64);
         self.image(&painted.image, format!("{caption}: {share} wrong"))
     }
 
-    /// A picture that may not be whole.
+    /// A picture that may be incomplete.
     pub(super) fn image(&self, image: &Image, caption: impl Into<String>) -> Picture {
         let colour = |polygon| self.colours.rgb(polygon);
         let rgb = picture(&self.rays, &self.faces, image, colour, BACKGROUND);

@@ -19,17 +19,19 @@ const VIEWS: usize = 6;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A translucent surface shows some of what is behind it: the colour of a pixel is the old one \
-         times 1 − α, plus the new one times α (\"over\": Porter & Duff, Compositing Digital Images, \
-         1984). This does not commute, so it is not enough to know which surface is nearest: all of \
-         them are needed, from back to front. A depth buffer keeps one and cannot tell. The order of \
-         a tree is right in every pixel at once, because what overlaps has been cut.",
+        "A translucent surface lets some light through. The new colour of a pixel is the old colour \
+         times 1 − α, plus the colour of the surface times α (\"over\": Porter & Duff, Compositing \
+         Digital Images, 1984). This operation does not commute. So it is not enough to know the nearest \
+         surface: all surfaces are needed, from back to front. A depth buffer stores only one depth and \
+         cannot give this order. The order of a tree is right in every pixel at once, because planes \
+         separate the pieces.",
     );
     chapter.text(
-        "The judge shares nothing with the tree: in each pixel it intersects the ray with the planes of \
-         all polygons that cover it, as fractions of large integers, sorts these, and blends in the \
-         same arithmetic. Two pictures are the same if every bit of every channel is. Sorting by \
-         centroids, as most programs do, is compared with it in the same way.",
+        "The judge shares no code with the tree. In each pixel it intersects the ray with the planes of \
+         all polygons that cover the pixel, and gets fractions of large integers. It sorts these \
+         fractions, and blends the colours in this order with the same operations as the painters. Two \
+         pictures are equal only if every bit of every channel is equal. Most programs sort by \
+         centroids; the judge compares this order in the same way.",
     );
     let mut rows = Vec::new();
     let scenes = [scene::random_triangles(200, 3), scene::crossing(9), scene::newell_bars()];
@@ -51,8 +53,8 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         [
             "scene",
             "fragments",
-            "pixels of two layers or more",
-            "most layers",
+            "pixels with two or more layers",
+            "most layers in a pixel",
             "wrong in the tree's order",
             "wrong by centroids",
             "share",
@@ -60,9 +62,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         rows,
     );
     chapter.text(format!(
-        "{VIEWS} views of each scene, {} by {} pixels. The tree's order is the exact one, bit for bit. \
-         Centroids err wherever polygons cross, and also where a long one passes a short one; no \
-         order of whole polygons is right for those that cross or hide one another in a circle.",
+        "The figures are sums over {VIEWS} views of each scene, {} by {} pixels. The tree's order is the \
+         exact one, bit for bit. Centroids are wrong where polygons cross, and also where a long polygon \
+         passes a short one. If polygons cross, or hide one another in a cycle, no order of whole \
+         polygons is right.",
         SIZE[0], SIZE[1],
     ));
     glass(chapter)
@@ -84,8 +87,8 @@ fn glass(chapter: &mut Chapter) -> Result<(), Failure> {
     let found = blend(&tree, &camera)?;
     chapter.heading("Panes that cross");
     chapter.text(format!(
-        "Three panes, each crossing both others. The tree cuts them into {} pieces. Of {} pixels with \
-         two layers or more, the order by centroids blends {} wrongly ({}); the tree {}.",
+        "Each of three panes crosses both others. The tree splits them into {} pieces. Of {} pixels with \
+         two or more layers, the order by centroids blends {} wrongly ({}); the tree blends {} wrongly.",
         tree.len(),
         found.deep,
         found.centroid_wrong,
@@ -147,7 +150,7 @@ fn pictures(chapter: &mut Chapter, found: &Blended) {
             rgb(&found.by_centroid),
             format!("By centroids: {} wrong", found.centroid_wrong),
         ),
-        Picture::new(SIZE, rgb(&marked), "Red: where centroids err"),
+        Picture::new(SIZE, rgb(&marked), "Red: wrong by centroids"),
     ]);
 }
 

@@ -18,11 +18,12 @@ use binspace_cli::failure::Failure;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "H. Fuchs, Z. M. Kedem and B. F. Naylor (\"On visible surface generation by a priori tree structures\", \
-         1980) decide ahead of any view. A polygon's plane divides space. Nothing on the eye's side of it can \
-         be hidden by what is on the other side; so, for any eye: paint what is on the other side, then the \
-         polygons in the plane, then what is on the eye's side. Each side is divided again in the same way. \
-         What a plane cuts becomes two pieces.",
+        "The method of H. Fuchs, Z. M. Kedem and B. F. Naylor (\"On visible surface generation by a \
+         priori tree structures\", 1980) prepares the order before any view is known. The plane of a \
+         polygon divides space in two. No polygon on the eye's side of the plane is hidden by a polygon \
+         on the far side. So, for any eye, paint the polygons on the far side first, then the polygons \
+         in the plane, then the polygons on the eye's side. Each side is divided again in the same way. \
+         A polygon that crosses a plane is split into two pieces.",
     );
     eight_walls(chapter)?;
     grid(chapter)?;
@@ -38,9 +39,10 @@ fn eight_walls(chapter: &mut Chapter) -> Result<(), Failure> {
     let order: Vec<u32> = tree.back_to_front(camera.viewpoint()).map(|f| f.index()).collect();
     let found = letters(&tree, &order);
     chapter.text(format!(
-        "Eight walls, seen from above, with their planes taken in the order of their letters. A's line divides \
-         all: C, F and G are beyond it, B, D, E and H on the eye's side. B's line cuts D. Worked by hand, the \
-         eye's order is {EIGHT_ORDER}; the library's tree of {} pieces gives {found}.",
+        "Eight walls are seen from above. Their planes are taken in alphabetical order. The line of A \
+         divides all other walls: C, F and G are beyond it; B, D, E and H are on the eye's side. The \
+         line of B splits D. Worked by hand, the order for this eye is {EIGHT_ORDER}; the library's tree \
+         of {} pieces gives {found}.",
         tree.len(),
     ));
     chapter.parts.push(Part::Graph(plan::of_eight()));
@@ -60,7 +62,7 @@ fn eight_walls(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Polygons in colours that can be told apart.
+/// A scene of polygons in distinguishable colours.
 fn coloured(name: &str, polygons: impl IntoIterator<Item = Vec<DVec3>>) -> Scene {
     let mut scene = Scene::new(name, DVec3::Z);
     let materials: Vec<u32> = Material::palette().map(|m| scene.add_material(m)).collect();
@@ -73,13 +75,14 @@ fn coloured(name: &str, polygons: impl IntoIterator<Item = Vec<DVec3>>) -> Scene
 fn grid(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("A grid of six by six");
     chapter.text(
-        "Two triangles on six by six pixels, with whole numbers for depths: A is 5 deep everywhere, B is 2 deep \
-         in the first column and 2 deeper in each further one. B goes through A between the second and the \
-         third column, so no order of the two is right. The depth buffer keeps the smaller number; the tree \
-         cuts one by the plane of the other. Worked by hand:",
+        "Two triangles cover six by six pixels. All depths are whole numbers. A has depth 5 everywhere. \
+         B has depth 2 in the first column, and its depth grows by 2 in each further column. B passes \
+         through A between the second and the third column, so no order of the two triangles is right. \
+         The depth buffer keeps the smaller number. The tree splits one triangle by the plane of the \
+         other. Worked by hand:",
     );
-    let head = ["row", "depths of B", "depths that show", "triangles that show"];
-    // Figures as wide as two digits, so that columns align.
+    let head = ["row", "depths of B", "visible depths", "visible triangles"];
+    // Pads figures to two digits, so that columns align.
     let wide = |cells: &str| {
         cells.split(' ').map(|cell| format!("{cell:\u{2007}>2}")).collect::<Vec<_>>().join("\u{a0}")
     };
@@ -94,14 +97,14 @@ fn grid(chapter: &mut Chapter) -> Result<(), Failure> {
     let agreeing = small.truth.faces().iter().zip(by_hand).filter(agree).count();
     let by_tree = small.paint(&Bsp::exact(BuildOptions::DEFAULT))?;
     chapter.text(format!(
-        "In this run, {agreeing} of the 36 pixels of the exact depth buffer are as worked by hand, and the tree's \
-         picture has {} wrong pixels.",
+        "In this run, {agreeing} of the 36 pixels of the exact depth buffer agree with this table, and \
+         the tree's picture has {} wrong pixels.",
         by_tree.error.wrong(),
     ));
     let fine = Shot::new(&scene, six_by_six_camera().and_then(|c| c.with_size([180, 180])))?;
     chapter.pictures([
-        fine.by(&Bsp::exact(BuildOptions::DEFAULT), "By the tree, finer")?,
-        fine.by(&Centroid, "By centroids")?,
+        fine.by(&Bsp::exact(BuildOptions::DEFAULT), "By the tree, at a higher resolution")?,
+        fine.by(&Centroid, "By centroids, at a higher resolution")?,
     ]);
     Ok(())
 }
@@ -184,17 +187,19 @@ const LINES: [Line; 9] = [
 fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("How large a tree can be");
     chapter.text(
-        "A plane cuts what it has to, so n polygons may have many more pieces. Sheets that all cross one \
-         another, each three in a point of their own, have 1 + n + C(n, 2) + C(n, 3) cells between them: a \
-         tree of their own planes has n + C(n, 2) + C(n, 3) pieces, whatever the order, so n³/6. Without any \
-         crossing it can still be n²: walls along the lines of a saddle (B. Chazelle, 1984), which M. S. \
-         Paterson and F. F. Yao (\"Efficient binary space partitions for hidden-surface removal and solid \
-         modeling\", 1990) show to be the worst for polygons that do not cross. Walls along x above walls \
-         along y cut each other (n/2)² times, as long as only their own planes may be used; one plane between \
-         them saves every cut. Surfaces of things are far from that: their polygons are small, and most of \
-         the others are nowhere near their planes. No scan of a thing can be shown here, for the sake of \
-         licences; in its place stands a noisy sphere: a closed surface with bulges, of small triangles whose \
-         corners are moved at random, so that hardly two are in one plane.",
+        "A plane splits every polygon that crosses it, so n polygons can become many more pieces. Take n \
+         sheets that all cross one another, each three in a different point. They divide space into 1 + \
+         n + C(n, 2) + C(n, 3) cells. A tree of their own planes has n + C(n, 2) + C(n, 3) pieces in any \
+         order of the planes, about n³/6. Without any crossings, n² pieces are still possible. An \
+         example is a set of walls along the lines of a saddle (B. Chazelle, 1984). M. S. Paterson and \
+         F. F. Yao (\"Efficient binary space partitions for hidden-surface removal and solid modeling\", \
+         1990) prove that this is the worst case for polygons that do not cross. Walls along x above \
+         walls along y split each other (n/2)² times if only their own planes are used. One plane \
+         between the two layers avoids every split. Surfaces of real objects are far from these cases: \
+         their polygons are small, and few of them lie near the plane of another one. Licences do not \
+         permit a scanned object on this page. A noisy sphere takes its place. It is a closed surface \
+         with bulges, made of small triangles. Their corners are moved at random, so that hardly any two \
+         triangles lie in one plane.",
     );
     let (mut series, mut rows) = (Vec::new(), Vec::new());
     for line in LINES {
@@ -220,7 +225,7 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
         series.push(Series::new(line.name, line.style, points));
     }
     chapter.graph(&Chart {
-        title: "Pieces of a tree against polygons",
+        title: "Pieces of a tree against number of polygons",
         x_label: "polygons n",
         y_label: "pieces",
         ticks: None,
@@ -229,9 +234,10 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
         series,
     })?;
     chapter.text(
-        "The last column is the slope at the end of each line: the power of n with which the pieces grow.",
+        "The last column is the slope at the end of each line. If it is p, the number of pieces grows as \
+         the p-th power of n.",
     );
-    let head = ["scene", "polygons", "pieces", "pieces / polygon", "power of n"];
+    let head = ["scene", "polygons", "pieces", "pieces / polygon", "slope p"];
     chapter.table(head, rows);
     let towards = DVec3::new(0.8, -1.0, 0.9);
     let mut pictures = Vec::new();

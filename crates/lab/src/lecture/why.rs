@@ -1,4 +1,4 @@
-//! Why surfaces have to be ordered: a picture without an order, and the effect of back-face detection alone.
+//! The need for an order: a picture without one, and the effect of back-face detection alone.
 
 use binspace::glam::DVec3;
 use binspace::scene::{Builtin, Scene};
@@ -20,17 +20,17 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
 
 fn no_removal(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A picture shows, in each pixel, the surface that is nearest along the ray through it. Drawn in the \
-         order in which a file happens to list them, polygons cover one another at random: what is listed \
-         later is on top, wherever it is. A pixel counts as wrong if it shows another polygon than the \
-         nearest, by a depth buffer in exact arithmetic.",
+        "In each pixel, a picture shows the surface that is nearest along the ray through the pixel. If \
+         polygons are drawn in the order of their file, each one covers all earlier ones in its area, \
+         even nearer ones. A pixel counts as wrong if it shows a polygon other than the nearest one. A \
+         depth buffer in exact arithmetic finds the nearest polygon.",
     );
     let mut pictures = Vec::new();
     for (scene, name) in [(Builtin::City, "A city"), (Builtin::Teapot, "The teapot")] {
         let scene = scene.build(Some(if scene == Builtin::City { 600 } else { 6 }), 1);
         let shot = Shot::around(&scene, DIRECTION)?;
         pictures.push(shot.by(&InputOrder, &format!("{name} in input order"))?);
-        pictures.push(shot.by(&ExactDepth, &format!("{name} as it is"))?);
+        pictures.push(shot.by(&ExactDepth, &format!("{name} by an exact depth buffer"))?);
     }
     chapter.pictures(pictures);
     Ok(())
@@ -39,20 +39,20 @@ fn no_removal(chapter: &mut Chapter) -> Result<(), Failure> {
 fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Back faces");
     chapter.text(
-        "The plane of a polygon is Ax + By + Cz + D = 0, with the normal (A, B, C) pointing out of the body. \
-         If Ax + By + Cz + D < 0 at the eye, the eye is behind the polygon and sees its back: the body itself \
-         is in the way, and the polygon can be left out. For parallel rays along the z axis only the sign of C \
-         counts; C = 0 is a polygon seen edge-on, which covers no pixel.",
+        "The plane of a polygon is Ax + By + Cz + D = 0. Its normal (A, B, C) points out of the body. If \
+         Ax + By + Cz + D < 0 at the eye, the eye is behind the polygon and sees its back. The body \
+         itself then hides the polygon, so the polygon can be left out. For parallel rays along the z \
+         axis, only the sign of C matters. If C = 0, the polygon is seen edge-on and covers no pixel.",
     );
     chapter.text(
-        "For a convex body this step is all that is needed: what is left is visible, and no two of the \
-         polygons overlap in the picture. Other closed bodies keep hidden fronts, and still have to be \
-         ordered, with fewer polygons to order. A surface that is not closed, such as a terrain seen from \
-         below, loses what can be seen of its backs.",
+        "For a convex body, this step is sufficient: all remaining polygons are visible, and no two of \
+         them overlap in the picture. Other closed bodies also have hidden front faces. These still need \
+         an order, but there are fewer of them. A surface that is not closed, such as a terrain seen \
+         from below, loses back faces that are visible.",
     );
     let scenes = [
         (Builtin::Sphere, 500, "sphere, convex"),
-        (Builtin::City, 600, "city, closed boxes on a ground"),
+        (Builtin::City, 600, "city, closed boxes on the ground"),
         (Builtin::Newell, 1, "three bars, closed"),
         (Builtin::Teapot, 6, "teapot, several parts"),
         (Builtin::Random, 300, "random triangles, open"),
@@ -66,7 +66,7 @@ fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
         }
         let (all, fronts) = (shot.paint(&InputOrder)?, shot.paint(&FrontFaces(InputOrder))?);
         if matches!(builtin, Builtin::Sphere | Builtin::City | Builtin::Newell) {
-            pictures.push(shot.picture(&fronts, &format!("{name}: fronts in input order")));
+            pictures.push(shot.picture(&fronts, &format!("{name}: front faces in input order")));
         }
         let facing = Facing::of(&shot.faces, shot.camera.viewpoint());
         let count = shot.faces.len();
@@ -83,8 +83,13 @@ fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
         ]);
     }
     chapter.pictures(pictures);
-    let head =
-        ["scene", "polygons", "removed", "wrong pixels, all polygons", "wrong pixels, fronts"];
+    let head = [
+        "scene",
+        "polygons",
+        "removed",
+        "wrong pixels, all polygons",
+        "wrong pixels, front faces only",
+    ];
     chapter.table(head, rows);
     Ok(())
 }
@@ -92,15 +97,16 @@ fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
 fn spaces(chapter: &mut Chapter) {
     chapter.heading("Object space or image space");
     chapter.text(
-        "Methods differ in where they decide (I. E. Sutherland, R. F. Sproull and R. A. Schumacker, \"A \
-         characterization of ten hidden-surface algorithms\", 1974): among the polygons of the scene, at \
-         whatever resolution it is drawn (object space), in each pixel (image space), or with priorities \
-         among polygons that are found partly in the one and partly in the other. These are the methods that \
-         are compared here and in the report. In their names, bsp is the tree: exact, or decided in numbers \
-         of 64 or 32 bits with the tolerance that follows. z is a depth buffer of so many bits, or of \
-         floating-point numbers (f32); w is one that stores the depth itself instead of the usual z; what \
-         follows says how pixels are found and which depths count as nearer. The chapters below explain \
-         them.",
+        "Methods differ in the space in which they decide (I. E. Sutherland, R. F. Sproull and R. A. \
+         Schumacker, \"A characterization of ten hidden-surface algorithms\", 1974). Object-space \
+         methods compare polygons of the scene, at any resolution. Image-space methods decide in each \
+         pixel. A third kind assigns priorities to polygons, partly in object space and partly in image \
+         space. The table lists the methods that this page and the report compare. In their names, bsp \
+         is a tree. It decides exactly, or in floating-point numbers of 64 or 32 bits (f64, f32) with \
+         the given tolerance. z is a depth buffer with the given number of bits, or with floating-point \
+         numbers (f32). w is a depth buffer that stores the depth itself instead of the usual z. The \
+         rest of the name says how pixels are found, and which depths count as nearer. The chapters \
+         below explain the methods.",
     );
     let methods = all(&Options::DEFAULT);
     let row = |space: Space| {

@@ -1,4 +1,4 @@
-//! The figures that are measured of a method on a scene.
+//! The figures of a method on a scene.
 
 use std::fmt;
 use std::ops::Add;
@@ -27,7 +27,7 @@ impl Subject {
     }
 }
 
-/// The rows of one family or scene, step by step, of each step method by method.
+/// The rows of one family or scene, by step, and within a step by method.
 #[derive(Debug)]
 pub(super) struct Section {
     pub(super) subject: Subject,
@@ -48,17 +48,17 @@ pub(super) struct Row {
     pub(super) found: Result<Figures, String>,
 }
 
-/// Errors, which are the same for the same seed, and costs, which are not.
+/// Errors, which depend only on the seed, and costs, which depend on the machine.
 #[derive(Clone, Debug)]
 pub(super) struct Figures {
     pub(super) picture: PictureError,
-    /// For methods that keep their vertices' definitions.
+    /// For methods that store the definitions of their vertices.
     pub(super) accuracy: Option<Accuracy>,
-    /// For methods that cut ahead of any view.
+    /// For methods that split before any view is known.
     pub(super) area: Option<AreaError>,
     /// The mean share of faces that a step before the method leaves out.
     pub(super) removed: f64,
-    /// The share of the extent that a unit of the scene's grid is.
+    /// A unit of the scene's grid, as a share of the extent.
     pub(super) grid: f64,
     /// The most pieces drawn in a view.
     pub(super) pieces: usize,

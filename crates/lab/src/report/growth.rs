@@ -1,4 +1,4 @@
-//! How trees grow with the number of polygons.
+//! The growth of trees with the number of polygons.
 
 use std::time::Instant;
 
@@ -12,12 +12,12 @@ use crate::args::ReportArgs;
 use binspace_cli::failure::Failure;
 use binspace_cli::progress::Progress;
 
-/// The rounded tree to compare with.
+/// The rounded tree for comparison.
 const ROUNDED: &str = "bsp f64 1e-6";
 const EPSILON: f64 = 1e-6;
-/// The most fragments; more take minutes.
+/// The largest number of fragments. Too large: a build takes minutes. Too small: curves end early.
 const MAX_FRAGMENTS: usize = 1 << 22;
-/// Builds that take less are repeated once, and the faster one counts.
+/// Builds that take less time are repeated once, and the faster one counts.
 const SHORT: f64 = 1.0;
 
 /// A tree of one size.
@@ -40,7 +40,7 @@ pub(super) struct Size {
     pub(super) order: f64,
 }
 
-/// Measures growth, of the named scenes one size each, and hands over one tree after another.
+/// Measures growth and passes on one tree after another. Each named scene has a single size.
 pub(super) fn run(
     args: &ReportArgs,
     scenes: &[Scene],
@@ -73,12 +73,12 @@ struct Case {
     size: u32,
 }
 
-/// The growing quantity.
+/// The scene that grows.
 #[derive(Clone, Copy, PartialEq)]
 enum Subject {
     Builtin(Builtin),
     Worst(Worst),
-    /// In place of a scan.
+    /// Replaces a scanned object.
     NoisySphere,
 }
 
@@ -102,12 +102,12 @@ impl Subject {
         }
     }
 
-    /// One plane that is no wall's own would divide the walls.
+    /// Uses the planes of the walls alone; any plane between the two layers would avoid all splits.
     fn heuristic(self) -> Heuristic {
         if self == Self::Worst(Worst::Walls) { Heuristic::First } else { Heuristic::Auto }
     }
 
-    /// The largest scene. Too large: the fragments, which grow as n² or n³ in the end, take minutes.
+    /// The largest scene. Too large: fragments grow as n² or n³, and a build takes minutes.
     fn most(self) -> u32 {
         match self {
             Self::Builtin(Builtin::Random) => 3000,

@@ -1,4 +1,4 @@
-//! The report itself.
+//! Writes the report as Markdown.
 
 use binspace_evidence::Family;
 
@@ -9,7 +9,7 @@ use super::tables::{Table, details, escaped, grouped, share, steps};
 use super::{Report, machine, summary};
 use binspace_cli::units::{bytes, time};
 
-/// All of the report.
+/// The whole report.
 pub(super) fn report(report: &Report<'_>) -> String {
     let mut text = head(report);
     text += &format!(
@@ -21,16 +21,15 @@ pub(super) fn report(report: &Report<'_>) -> String {
     if let Some(table) = summary::in_common(&report.sections) {
         text += &format!(
             "\nA method that gave up is compared above over easier trials than the others. This table \
-             compares all methods over the trials that every method ended:\n\n{}",
+             compares all methods over the trials that every method finished:\n\n{}",
             table.markdown()
         );
     }
     text += METHODS;
     text += "\n### All methods, all families\n\n";
     text += &summary::everything(&report.sections).markdown();
-    text += "\n## The families, one by one\n\n\
-             `f64` and `f32` trees are those with an epsilon; the exact depth buffer, which judges \
-             all methods, is not counted among depth buffers here.\n";
+    text += "\n## The families, one by one\n\n`f64` and `f32` trees are the trees with an epsilon. The \
+             exact depth buffer judges all methods and is not counted among the depth buffers here.\n";
     for section in &report.sections {
         match section.subject {
             Subject::Family(family) => text += &of_family(section, family),
@@ -67,40 +66,40 @@ fn head(report: &Report<'_>) -> String {
 }
 
 const LEGEND: &str = "
-*Wrong pixels* is the share of covered pixels, over all steps of all families, that show another
-polygon than the nearest, or none, or a polygon where there is none. *Families wrong* counts
-families with any such pixel. *Deepest error* and *largest drift* are shares of the extent.
-*Vertices misplaced* are those that, by their exact definition, lie on another side of a partition
-plane than their piece. *Build* and *picture* (order and drawing) are geometric means.
-*Ended* counts the trials that did not run out of a budget; a method's other figures are of these
-alone, though those that it gave up are the hardest. – means that a method has no such figure.
+*Wrong pixels* is the share of covered pixels, over all steps of all families, that show a polygon other
+than the nearest, no polygon, or a polygon where none exists. *Families wrong* is the number of families
+with at least one such pixel. *Deepest error* and *largest drift* are shares of the extent. *Vertices
+misplaced* counts vertices that, by their exact definition, lie on another side of a partition plane than
+their piece. *Build* and *picture* (order and drawing) are geometric means. *Ended* counts the trials that
+did not exhaust a budget. The other figures of a method include only these trials, although the trials that
+it gave up are the hardest. – means that a method has no such figure.
 ";
 
 const METHODS: &str = "
 ### The methods
 
-- *bsp exact*: the library's tree. *bsp f64 1e-9*, *bsp f32 1e-4*: a textbook tree of rounded numbers
-  with an epsilon, in units of half the extent, which tries 16 planes a node.
-- *input order*: nothing is removed; *fronts, input order*: only faces whose fronts are seen, which is
-  exact for a convex body and wrong where backs can be seen. *Removed by back faces* is the mean share of faces
-  that this step leaves out. *Decides in* follows Sutherland, Sproull and Schumacker (1974): among the polygons (object space), in each pixel (image space), or both.
-- *centroid*: painted by the depth of the faces' centroids. *newell*: the algorithm of Newell, Newell
-  and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and
-  comparisons.
-- *z 16*, *z 24*: depth buffers of 16 and 24 bits after the perspective divide; *f32*: of floats,
-  *reversed*: with 1 at the near plane; *w*: of depths before the divide; *incremental*: scanlines on
-  which depth grows by steps, *trapezoids*: by steps that begin anew at each vertex, *integer edges*:
-  between edges walked in integers, others by edge functions. *or equal*: of equal depths the later shows;
-  *larger nearer cleared*: 1 at the near plane, and cleared to the far one. *z f64* judges, with exact arithmetic where
-  two depths are closer than its rounding.
-- Near and far planes are fitted to each view, the near one no closer than 2⁻⁴⁴ of the far one. An
-  eye that touches a face, as in one view of `lattice`, leaves a buffer of depths after the divide
-  hardly any precision.
-- What is painted by edge functions, by an exact tree, or by centroids is covered as the judge
-  covers it: holes and spills are measured for the others.
-- All differences count, however shallow: in `boxes` there are doubled walls, within some roundings
-  of each other. The plots show twelve methods, the tables all.
-- Times to build are of faces that are prepared already, by all threads; pictures are drawn by one.
+- *bsp exact*: the library's tree. *bsp f64 1e-9*, *bsp f32 1e-4*: a textbook tree of rounded numbers. It
+  uses an epsilon, in units of half the extent, and tries 16 planes per node.
+- *input order*: no hidden surfaces are removed. *fronts, input order*: only front faces are painted. This
+  is exact for a convex body, and wrong where back faces are visible. *Removed by back faces* is the mean
+  share of faces that this step leaves out. *Decides in* follows Sutherland, Sproull and Schumacker (1974):
+  among the polygons (object space), in each pixel (image space), or both.
+- *centroid*: faces are painted by the depth of their centroids. *newell*: the algorithm of Newell, Newell
+  and Sancha in f64, with an epsilon of 1e-10 of half the extent and budgets for pieces and comparisons.
+- *z 16*, *z 24*: depth buffers of 16 and 24 bits after the perspective divide. *f32*: floating-point
+  numbers. *reversed*: 1 at the near plane. *w*: depths before the divide. *incremental*: on each scanline,
+  depth grows by steps. *trapezoids*: the steps start again at each vertex. *integer edges*: edges are walked
+  in integers. The others use edge functions. *or equal*: of equal depths, the later one shows. *larger
+  nearer cleared*: 1 at the near plane, and cleared to the far plane. *z f64* judges all methods; it uses
+  exact arithmetic where two depths are closer than its rounding.
+- Near and far planes are fitted to each view. The near plane is no closer than 2⁻⁴⁴ of the far one. If an
+  eye touches a face, as in one view of `lattice`, a buffer of depths after the divide has almost no
+  precision.
+- Edge functions, exact trees and centroids cover the same pixels as the judge. Holes and spills are
+  therefore measured for the other methods only.
+- All differences count, however small. In `boxes` there are doubled walls whose distance is a few
+  roundings. The plots show twelve methods, the tables all.
+- Build times are for prepared faces, with all threads. Pictures are drawn by one thread.
 ";
 
 fn of_family(section: &Section, family: Family) -> String {
@@ -147,9 +146,9 @@ fn culling(city: &City) -> String {
         ]);
     }
     format!(
-        "\n## Culling\n\nA city of {} polygons, seen from above its roofs; its tree has {} fragments and was \
-         built in {}. Each step leaves out what those before it do, and more; its time is that of \
-         all of them together.\n\n{}",
+        "\n## Culling\n\nA city of {} polygons is seen from above its roofs. Its tree has {} fragments \
+         and was built in {}. Each step leaves out everything that the steps before it leave out, and \
+         more. Its time includes those steps.\n\n{}",
         grouped(city.polygons),
         grouped(city.fragments),
         time(city.build),
@@ -197,34 +196,35 @@ fn growth(rows: &[Growth]) -> String {
 }
 
 const MEASURES: &str = "
-## What is measured
+## Measures
 
-- **Truth** is a depth buffer that decides every pixel in exact arithmetic. A pixel is *contested*,
-  and not wrong, where the painted and the nearest polygon are equally far along its ray, exactly,
-  or the tolerance allows for either in front.
-- **Wrong order**: a polygon shows that another one hides; **hole**: nothing shows where there is a
-  polygon; **spill**: a polygon shows where there is none. The *deepest error* is the largest
-  difference between the depths of the painted and the nearest polygon in a wrong pixel.
-- **Misplaced vertices** are those of fragments whose definition (corners and planes of the input),
-  evaluated exactly, lies on another side of a plane above them than the fragment was put, or off a
-  plane that it was put on, by more than the tolerance.
-- **Drift** is how far a fragment's vertex is from its exact place, the largest difference of a
-  coordinate: in units of the scene's grid (ulp; 2⁻⁵² to 2⁻⁵⁰ of the extent), and as a share of the
-  extent. The exact tree's is the one rounding of positions that are handed out; no decision uses
-  them.
-- **Torn** polygons are not the sum of their pieces: the areas by the vertices' exact definitions,
-  compared exactly, differ.
-- **Area error** is the largest relative difference between a polygon's area and the sum of its
-  pieces', computed in `f64` from rounded vertices: of a polygon that is hardly wider than a unit of
-  the grid, rounding alone is much.
-- All methods get the same polygons on the scene's grid, centred and scaled to it: offset and scale
-  of the whole scene are taken off before any of them begins.
-- Depth buffers and Newell's algorithm show nothing nearer than 2⁻⁴⁴ of the furthest depth. The
-  judge, `z f64`, has no such limit; its own rows are 0 because all others are compared with it.
-- **Times** are wall-clock: of a build, and of each view, the fastest of up to five where that is
-  short; of the views the median. Painters draw by exact coverage, so drawing is not what a graphics
-  card takes; *order* is the time until it is known what to draw when, which depth buffers need not.
-- Figures of errors depend on the seed alone (`errors.csv`); times and memory are in `times.csv`.
+- **Truth** is a depth buffer that decides every pixel in exact arithmetic. A pixel is *contested*, and not
+  wrong, if the painted and the nearest polygon have exactly the same depth in it, or if the tolerance
+  allows either in front.
+- **Wrong order**: a hidden polygon shows. **Hole**: no polygon shows, although one covers the pixel.
+  **Spill**: a polygon shows, although none covers the pixel. The *deepest error* is the largest difference
+  between the depths of the painted and the nearest polygon in a wrong pixel.
+- **Misplaced vertices** are vertices of fragments that are on a wrong side of a plane. The definition of
+  the vertex (corners and planes of the input) is evaluated exactly. The vertex is misplaced if it lies on
+  another side of a plane above its fragment than the fragment, or off the plane that contains the fragment,
+  by more than the tolerance.
+- **Drift** is the distance of a fragment's vertex from its exact position: the largest difference of a
+  coordinate, in units of the scene's grid (ulp; 2⁻⁵² to 2⁻⁵⁰ of the extent) and as a share of the extent.
+  The drift of the exact tree is the single rounding of positions that it returns; no decision uses them.
+- **Torn** polygons differ from the sum of their pieces: the areas, by the exact definitions of the vertices,
+  are compared exactly.
+- **Area error** is the largest relative difference between a polygon's area and the sum of the areas of its
+  pieces, computed in `f64` from rounded vertices. For a polygon that is hardly wider than a unit of the grid,
+  rounding alone causes a large error.
+- All methods get the same polygons on the scene's grid. The grid is centred and scaled to the scene, so
+  offset and scale of the whole scene are removed before any method starts.
+- Depth buffers and Newell's algorithm show nothing nearer than 2⁻⁴⁴ of the furthest depth. The judge,
+  `z f64`, has no such limit. Its own rows are 0 because all other methods are compared with it.
+- **Times** are wall-clock times. Short builds and views are repeated up to five times, and the fastest
+  counts. The time of a method is the median of its views. Painters draw by exact coverage, so the time to
+  draw is not the time of a graphics card. *order* is the time until the paint order is known; depth buffers
+  need none.
+- Errors depend only on the seed (`errors.csv`). Times and memory are in `times.csv`.
 ";
 
 fn capital(text: &str) -> String {

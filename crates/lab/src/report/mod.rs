@@ -1,4 +1,4 @@
-//! `binspace-lab report`: every way to decide visibility, its speed against its error.
+//! `binspace-lab report`: the speed and the errors of methods to decide visibility.
 
 mod csv;
 mod culling;
@@ -41,14 +41,15 @@ use binspace_cli::units::count;
 const MAX_PIECES: usize = 1 << 19;
 /// The budget per corner of a scene from a file.
 const PIECES_PER_CORNER: usize = 8;
-/// The most pairs that Newell's algorithm may compare for a picture: seconds, and less if `quick`.
+/// The most pairs that Newell's algorithm may compare for a picture; the second limit is for `quick`. Too
+/// large: a picture takes minutes. Too small: the algorithm is stopped although it would finish.
 const MAX_COMPARISONS: [u64; 2] = [1 << 27, 1 << 25];
-/// The time between two writes of the results. Too small: time for writing. Too large: an interruption loses
-/// more.
+/// The time between two writes of the results. Too small: writing takes a noticeable share of the time. Too
+/// large: an interruption loses more results.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// Build times, fragments and the figures of both.
+/// Plots of build times and of fragments, and their figures.
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
-/// The common part of every report.
+/// The files of every report.
 const FILES: [&str; 4] = ["report.md", "speed.svg", "errors.csv", "times.csv"];
 /// Views of scenes that are files.
 const VIEWS: usize = 6;
@@ -71,7 +72,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     if args.scenes.iter().filter(|&name| name == STANDARD).count() > 1 {
         return Err(Failure::about("standard input", "it can be read only once"));
     }
-    // Files first: an unreadable file should not cost minutes.
+    // Files are read first, so that an unreadable one is reported at once.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;
     try_to_write(&args.output)?;
@@ -96,7 +97,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
         let methods = methods_of(MAX_PIECES.max(PIECES_PER_CORNER * corners));
         match report.run_scene(scene, &methods) {
             Err(Failure::Message(problem)) => {
-                note(&format!("{problem}; the report goes on without it"));
+                note(&format!("{problem}; the report continues without it"));
                 report.failed.push(scene.name().to_owned());
             }
             result => result?,
@@ -118,7 +119,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     }
 }
 
-/// Reads a scene, of which a face is left at least.
+/// Reads a scene; an error if no face is left.
 fn load(args: &ReportArgs, name: &OsStr) -> Result<Scene, Failure> {
     let scene = scene_arg::load(name, args.seed)?.scene;
     match Faces::new(scene.polygons(), None) {
@@ -126,12 +127,12 @@ fn load(args: &ReportArgs, name: &OsStr) -> Result<Scene, Failure> {
             job::note_preparation(&scene, &faces, &found);
             Err(Failure::about(scene.name(), job::NOTHING_LEFT))
         }
-        // Other errors appear when it is measured, and do not affect other scenes.
+        // Other errors are reported when the scene is measured, and do not stop the report.
         _ => Ok(scene),
     }
 }
 
-/// All competitors, with budgets that end.
+/// All methods, with budgets.
 fn methods(max_comparisons: u64, max_pieces: usize) -> Vec<Box<dyn Method>> {
     let newell = Newell { max_pieces, max_comparisons, ..Newell::DEFAULT };
     let build = BuildOptions::DEFAULT.with_max_fragments(max_pieces);
@@ -236,12 +237,12 @@ impl Report<'_> {
     }
 }
 
-/// Makes sure that all files of a report can be written, and does not change existing ones: a write error
-/// should not cost minutes.
+/// Checks that all files of a report can be written, before anything is measured. Existing files are not
+/// changed.
 fn try_to_write(folder: &Path) -> Result<(), Failure> {
     let plots = Family::ALL.map(error_plot);
     let names = FILES.into_iter().chain(GROWTH_FILES).chain(plots.iter().map(String::as_str));
-    // A file that is not written to is removed again.
+    // Dropping a `NewFile` without writing removes it.
     names.into_iter().try_for_each(|name| NewFile::create(&folder.join(name)).map(drop))
 }
 

@@ -8,9 +8,9 @@ use super::summary::{Summary, label};
 use crate::chart::{Chart, Marker, Series, Style};
 use binspace_cli::failure::Failure;
 
-/// The methods in the plots, with their looks: trees round and blue, depth buffers with corners and warm.
-/// With more methods, none can be told from another. Methods further up are drawn later, and smaller than the
-/// marks that they may hide.
+/// The methods in the plots, with their styles: trees are round and blue, depth buffers have corners and warm
+/// colours. More methods would not be distinguishable. Earlier methods are drawn later, and smaller than the
+/// markers that they may hide.
 const SHOWN: [(&str, Style); 12] = [
     (EXACT, Style::new([0, 0, 0], Marker::Ring, 8)),
     ("bsp f64 1e-12", Style::new([0, 60, 160], Marker::Circle, 3)),
@@ -18,7 +18,7 @@ const SHOWN: [(&str, Style); 12] = [
     ("bsp f64 1e-6", Style::new([90, 190, 240], Marker::Circle, 5)),
     ("bsp f32 1e-4", Style::new([120, 70, 200], Marker::Circle, 6)),
     ("newell", Style::new([0, 140, 90], Marker::Diamond, 7)),
-    // Its arms are seen, even if its middle is hidden.
+    // The arms of the cross remain visible if its middle is hidden.
     ("centroid", Style::new([130, 130, 130], Marker::Cross, 8)),
     ("z 16", Style::new([150, 80, 20], Marker::Square, 3)),
     ("z 24", Style::new([215, 60, 20], Marker::Square, 5)),
@@ -27,7 +27,7 @@ const SHOWN: [(&str, Style); 12] = [
     ("w f32", Style::new([215, 80, 150], Marker::Triangle, 6)),
 ];
 
-/// Wrong pixels against the time for a picture, one point a method; none without families.
+/// Wrong pixels against the time for a picture, one point per method; `None` without families.
 pub(super) fn speed(sections: &[Section]) -> Result<Option<String>, Failure> {
     let summaries = Summary::of_families(sections);
     let series: Vec<Series> = SHOWN
@@ -73,7 +73,7 @@ pub(super) fn against_difficulty(section: &Section, family: Family) -> Result<St
         title: &title,
         x_label: family.parameter(),
         y_label: "wrong pixels / covered pixels",
-        // Few and small numbers are best read as they are.
+        // A short axis of small numbers shows every value.
         falls: sweep.first() > sweep.last(),
         ticks: sweep.iter().all(|&d| (1.0..1000.0).contains(&d)).then_some(sweep),
         zero: true,
@@ -87,16 +87,16 @@ pub(super) fn growth_build(rows: &[Growth]) -> Result<String, Failure> {
     growth(rows, "Time to build a tree", "build [s]", false, |size, _| size.build)
 }
 
-/// Fragments for each polygon, less the one that a polygon is if nothing cuts it, against the
-/// number of polygons.
+/// Fragments per polygon minus 1, against the number of polygons. An unsplit polygon is one fragment, so this
+/// counts the fragments that splits add.
 pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
-    let title = "Fragments that cuts add, for each polygon";
+    let title = "Fragments per polygon that splits add";
     growth(rows, title, "fragments / polygons − 1", true, |size, polygons| {
         size.fragments as f64 / polygons as f64 - 1.0
     })
 }
 
-/// The colours of scenes, from the first; as many as are distinguishable.
+/// The colours of scenes, in order; more would not be distinguishable.
 const COLOURS: [[u8; 3]; 9] = [
     [0, 140, 90],
     [30, 110, 220],
@@ -130,7 +130,7 @@ fn growth(
     let mut series = Vec::new();
     for (number, scene) in scenes(rows).into_iter().enumerate() {
         let colour = COLOURS[number % COLOURS.len()];
-        // One within the other where both are the same.
+        // A small marker within a large one where both values are equal.
         for (is_exact, marker, reach) in [(true, Marker::Ring, 7), (false, Marker::Cross, 3)] {
             let of_it = |row: &&Growth| row.scene == scene && (row.method == EXACT) == is_exact;
             let points: Vec<(f64, f64)> = rows

@@ -1,4 +1,4 @@
-//! All families together: one line a method.
+//! All families together: one row per method.
 
 use binspace_evidence::method::Space;
 
@@ -20,7 +20,7 @@ pub(super) struct Summary<'a> {
     misplaced: Option<usize>,
     drift: Option<f64>,
     pieces: usize,
-    /// The sum of the shares that a step before the method leaves out.
+    /// The sum of the shares of faces that a step before the method leaves out.
     removed: f64,
     faces: usize,
     pub(super) ended: usize,
@@ -39,7 +39,7 @@ impl<'a> Summary<'a> {
         Self::of_trials(sections, |_, _| true)
     }
 
-    /// The same over the trials that every method ended.
+    /// The same, over the trials that every method finished.
     fn of_common_trials(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |family, row| {
             let mut same = family.rows.iter().filter(|other| other.difficulty == row.difficulty);
@@ -108,7 +108,7 @@ impl<'a> Summary<'a> {
         self.pieces += figures.pieces;
         self.removed += figures.removed;
         self.faces += row.faces;
-        // A clock that does not advance still proves that it was quick.
+        // The clock may not have advanced; the logarithm needs a positive time.
         self.build += figures.build.max(1e-9).ln();
         self.picture += (figures.order + figures.draw).max(1e-9).ln();
         self.bytes = self.bytes.max(figures.bytes);
@@ -133,7 +133,7 @@ impl<'a> Summary<'a> {
         (self.build / self.ended.max(1) as f64).exp()
     }
 
-    /// The mean share of faces left out as they show no front; a dash where none is left out.
+    /// The mean share of faces that are left out as back faces; a dash if none is.
     fn removed_share(&self) -> String {
         match self.removed / self.ended.max(1) as f64 {
             0.0 => "–".to_owned(),
@@ -176,12 +176,12 @@ const COLUMNS: [&str; 10] = [
     "ended",
 ];
 
-/// The table of six lines.
+/// The table of six methods.
 pub(super) fn headline(sections: &[Section]) -> Table {
     six(Summary::of_families(sections))
 }
 
-/// The same over the trials that every method finished; none if every method finished all.
+/// The same, over the trials that every method finished; `None` if every method finished all.
 pub(super) fn in_common(sections: &[Section]) -> Option<Table> {
     let all = Summary::of_families(sections);
     all.iter().any(|summary| summary.failed > 0).then(|| six(Summary::of_common_trials(sections)))

@@ -26,7 +26,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Names to the left, figures to the right.
+    /// Aligns names to the left and figures to the right.
     fn aligned(&self, titles: Vec<String>, cell: impl Fn(&String) -> String) -> tabled::Table {
         let rows = self.rows.iter().map(|row| row.iter().map(&cell).collect::<Vec<_>>());
         let mut builder = Builder::from_iter(rows);
@@ -45,9 +45,9 @@ impl Table {
         format!("{table}\n")
     }
 
-    /// In columns, for a terminal: the words of a title stand above each other.
+    /// As columns for a terminal, with one word of a title per line.
     pub(super) fn plain(&self) -> String {
-        // A stroke stays with the word before it.
+        // A slash stays with the word before it.
         let title = |title: &String| title.replace(" / ", "/ ").replace(' ', "\n");
         let mut table = self.aligned(self.columns.iter().map(title).collect(), String::clone);
         table
@@ -60,7 +60,7 @@ impl Table {
     }
 }
 
-/// A text in one line of Markdown, with nothing in it that means anything there.
+/// Escapes a text for one line of Markdown.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
@@ -72,7 +72,7 @@ pub(super) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// Wrong pixels, step by step: a line a method, a column a step.
+/// Wrong pixels at each step: a row per method, a column per step.
 pub(super) fn steps(section: &Section, methods: &[&str]) -> Table {
     let first = methods.first().copied().unwrap_or_default();
     let mut columns = vec!["wrong pixels".to_owned()];
@@ -90,7 +90,7 @@ pub(super) fn steps(section: &Section, methods: &[&str]) -> Table {
     table
 }
 
-/// All figures of the last row of each method: of a sweep, the hardest step.
+/// All figures of each method's last row, which is the hardest step of a sweep.
 pub(super) fn details(section: &Section, methods: &[&str]) -> Table {
     let mut table = Table::new(&[
         "method",
@@ -146,12 +146,12 @@ fn detail(figures: &Figures) -> Vec<String> {
     cells
 }
 
-/// A difficulty: small counts in full, others as a power.
+/// Formats a difficulty: counts below 100 000 in full, others in scientific notation.
 pub(super) fn difficulty(value: f64) -> String {
     if (1.0..100_000.0).contains(&value) { grouped(value as usize) } else { format!("{value:e}") }
 }
 
-/// A part of a whole in percent; 0 only if it is 0.
+/// Formats a share in percent; "0" only if it is 0.
 pub(super) fn share(part: usize, whole: usize) -> String {
     let percent = 100.0 * part as f64 / whole.max(1) as f64;
     match percent {
@@ -162,7 +162,7 @@ pub(super) fn share(part: usize, whole: usize) -> String {
     }
 }
 
-/// A number with two digits and a power of ten; 0 only if it is 0.
+/// Formats a number with one or two digits and a power of ten; "0" only if it is 0.
 pub(super) fn exponent(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -172,7 +172,7 @@ pub(super) fn exponent(value: f64) -> String {
     }
 }
 
-/// A count, in groups of three digits.
+/// Formats a count in groups of three digits.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     if digits.len() < 5 {
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(table.plain(), plain);
     }
 
-    /// A file name is one cell, and text, in Markdown; a terminal gets it unchanged.
+    /// A file name is plain text in one cell of Markdown; a terminal gets it unchanged.
     #[test]
     fn cells_are_text() {
         let mut table = Table::new(&["scene", "polygons"]);

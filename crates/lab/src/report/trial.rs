@@ -19,7 +19,7 @@ use binspace_cli::camera;
 use binspace_cli::failure::Failure;
 use binspace_cli::job;
 
-/// Builds and paints that take less are repeated, so that the clock's steps and a cold cache do not count.
+/// Builds and paints that take less time are repeated, to reduce the effect of clock steps and cold caches.
 const LONG_ENOUGH: Duration = Duration::from_millis(5);
 /// The most repetitions.
 const REPEATS: usize = 5;
@@ -106,7 +106,7 @@ impl Trial {
             removed += painted.removed;
             images.push(painted.image);
         }
-        // Only now: nothing else runs while a method is timed.
+        // Judges start only now, so that no other work runs while a method is timed.
         let (picture, (accuracy, area)) = self.judge(&images, || {
             let area = area_error(&self.faces, |visit| prepared.for_each_piece(visit));
             (prepared.accuracy(), area)
@@ -127,7 +127,7 @@ impl Trial {
         })
     }
 
-    /// Judges a picture of each view on a separate thread, and does something else meanwhile.
+    /// Judges a picture of each view on separate threads while this thread does other work.
     fn judge<T>(&self, images: &[Image], meanwhile: impl FnOnce() -> T) -> (PictureError, T) {
         let error = &|(view, image): (&View, &Image)| {
             PictureError::of(&view.rays, &self.faces, image, &view.truth)
@@ -141,7 +141,7 @@ impl Trial {
             for (pair, thread) in started {
                 sum += match thread {
                     Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-                    // Without a thread it is done here.
+                    // If no thread can be started, this thread does it.
                     Err(_) => error(pair),
                 };
             }
@@ -150,7 +150,7 @@ impl Trial {
     }
 }
 
-/// Paints a view, several times if that is quick, and keeps the fastest.
+/// Paints a view, several times if it is short, and keeps the fastest time.
 fn paint(
     prepared: &mut dyn Prepared,
     view: &View,
@@ -163,7 +163,7 @@ fn paint(
     Ok(painted)
 }
 
-/// Does something again and again while it is quick; the fastest of all.
+/// Repeats a short function and returns the fastest run.
 fn repeat<T, E>(mut once: impl FnMut() -> Result<(T, Duration), E>) -> Result<(T, Duration), E> {
     let start = Instant::now();
     let mut best = once()?;

@@ -59,7 +59,7 @@ pub struct Shot {
     rays: Vec<(Ray, Vec<Vec<Hit>>)>,
 }
 
-/// Rays from `views` viewpoints, of all kinds in turn.
+/// Rays from `views` viewpoints, of all kinds alternately.
 pub fn shots(targets: &Targets<'_>, [views, rays]: [usize; 2], dice: &mut Dice) -> Vec<Shot> {
     let scene = targets.scene;
     // With a tolerance, rays along edges decide nothing.

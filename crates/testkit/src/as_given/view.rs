@@ -17,7 +17,7 @@ pub enum Place {
 #[derive(Clone, Debug)]
 pub struct View {
     pub place: Place,
-    /// The polygons that most rays aim at; all, if there are none.
+    /// The polygons that most rays aim at; all polygons if this is empty.
     about: Vec<usize>,
     /// A point that the first ray aims at: numerators over a number.
     target: Option<(Vector, i128)>,
@@ -115,8 +115,8 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     add(corners[0], add(times(s, arm(1)), times(t, arm(corners.len() - 1))))
 }
 
-/// A viewpoint around the scene, within it, on a corner or a plane, a hair off a plane, far out at the
-/// height of a corner, collinear with two corners; or a direction, along an edge or a plane or next to one.
+/// A viewpoint around the scene, within it, on a corner or a plane, just off a plane, far out at the height
+/// of a corner, or collinear with two corners; or a direction along an edge or a plane, or next to one.
 pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
@@ -190,7 +190,7 @@ fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     View::new(Place::Direction(rounded))
 }
 
-/// A direction along a polygon's plane, if an exact one is found; or a hair off it.
+/// A direction along a polygon's plane, if an exact one is found; otherwise just off it.
 fn along_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> View {
     let corners = &scene.polygons[polygon];
     let arm = |k: usize| minus(corners[k], corners[0]);

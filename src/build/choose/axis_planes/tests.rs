@@ -88,7 +88,7 @@ fn on_a_lattice_planes_touch_many() {
     }
 }
 
-/// Between rows of vertices, planes cut a row; through the vertices they cut nothing, or less.
+/// Planes between rows of vertices cut a row; planes through the vertices cut nothing, or less.
 #[test]
 fn planes_go_through_rows_of_vertices() {
     let rows = 9;

@@ -70,7 +70,7 @@ fn of_equals_the_earliest_wins() {
     assert_eq!(piece(&best(&fixture.set(), &ALL)), 0);
 }
 
-/// Comparing few planes with few pieces finds nearly as good ones.
+/// Comparing few planes with few pieces finds nearly as good planes.
 #[test]
 fn halving_finds_a_good_plane() {
     let mut random = SplitMix64::new(2);

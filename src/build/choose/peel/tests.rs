@@ -18,8 +18,8 @@ fn peel(set: &Set<'_>, tuning: &Tuning) -> Option<Peeled> {
     Peeler::default().search(set, &sketch, 0..set.len(), tuning, &Watch::default())
 }
 
-/// Asserts that each layer has all the rest on its declared side, and that its own pieces are all those on
-/// its plane; returns the pieces that are left.
+/// Asserts that each layer has all remaining pieces on its declared side, and that its own pieces are all
+/// pieces on its plane. Returns the remaining pieces.
 fn assert_layers(name: &str, set: &Set<'_>, peeled: Option<&Peeled>) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     let layers =
@@ -39,7 +39,7 @@ fn assert_layers(name: &str, set: &Set<'_>, peeled: Option<&Peeled>) -> Vec<bool
     left
 }
 
-/// The pieces that are left once each has been tried in turn.
+/// Returns the pieces that remain after each has been tried once, in order.
 fn brute_force(set: &Set<'_>, order: &[usize]) -> Vec<bool> {
     let mut left = vec![true; set.len()];
     for &piece in order {
@@ -192,7 +192,7 @@ fn a_pile_is_taken_off_from_one_end() {
     }
 }
 
-/// A set with boxes, and then another without.
+/// A set with boxes, and then another set without boxes.
 #[test]
 fn nothing_is_left_of_the_search_before() {
     let mut random = SplitMix64::new(4);

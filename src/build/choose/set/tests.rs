@@ -54,7 +54,7 @@ fn rounding_makes_nothing_certain() {
             (exact * f64::from(1 << 30) * 1e4).round()
         };
         let (u, w) = (vector(0.1, -0.1, 0.0), vector(0.0, 0.1, -0.1));
-        // √3 times that is a little more than a power of two.
+        // √3 times this coordinate is a little more than a power of two.
         let corner = vector(37.3, 37.3, 37.3);
         let mut at = || {
             let [i, j] = [(); 2].map(|()| (random.next() % 9) as f64 - 4.0);
@@ -125,7 +125,7 @@ fn what_is_certain_is_so() {
     }
 }
 
-/// Small pieces of large faces: their planes are as certain as those of small faces.
+/// Small pieces of large faces: their planes are as certain as the planes of small faces.
 #[test]
 fn small_pieces_of_large_faces_are_as_certain() {
     let mut random = SplitMix64::new(4);
@@ -138,7 +138,7 @@ fn small_pieces_of_large_faces_are_as_certain() {
                 [near() - DVec3::new(1.0, 0.1, 0.3), near() - DVec3::new(0.2, 1.0, 0.7), near()]
             })
             .collect();
-        // In the planes of those faces: nothing is certain for them.
+        // Pieces in the planes of those faces: nothing is certain for them.
         for i in 0..10 {
             let [a, b, c] = polygons[i];
             polygons.push([c, c + (a - c) * 1e-3, c + (b - c) * 1e-3]);

@@ -12,28 +12,28 @@ use crate::{BuildOptions, Heuristic};
 /// The distance of a corner below the plane of the others.
 const OFF: f64 = 1.0 / 64.0;
 
-/// A quad whose topmost corner is given below the plane of the others, by less than the tolerance, and is
-/// moved up onto it; a floor through that corner as given, which cuts off a tip of the quad as moved, but
-/// nothing of it as given; and triangles that cut the tip.
+/// A quad, a floor, and triangles. The quad's topmost corner is given below the plane of the others, by less
+/// than the tolerance, and is moved up onto it. The floor goes through that corner as given, so it cuts off a
+/// tip of the moved quad, but nothing of the given quad. The triangles cut the tip.
 fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
     let quad = [[2.0, 1.0, -2.625], [4.0, 4.0, -7.0], [1.0, 2.0, -2.625], [0.0, 0.0, -OFF]];
     let floor = [(-3.0, -3.0), (-2.0, -3.0), (-2.0, -2.0), (-3.0, -2.0)].map(|(x, y)| [x, y, -OFF]);
     let mut polygons = vec![floor.map(DVec3::from).to_vec()];
     for _ in 0..triangles {
-        // From one of the ends of the cut to the other, at this height.
+        // A point at this height between the two ends of the cut.
         let share = random.range(0.1, 0.9);
         let at = DVec3::new(1.0 + share, 2.0 - share, -2.625) * (OFF / 2.625);
         let [u, v] = [(); 2].map(|()| random.point(-1.0, 1.0));
         polygons.push(vec![at + u, at - u + v, at - u - v]);
     }
-    // Last, so that all others cut it.
+    // The quad is last, so that all other polygons cut it.
     polygons.push(quad.map(DVec3::from).to_vec());
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     options.with_tolerance(OFF / 1.25).build(polygons).unwrap()
 }
 
-/// Whether any three ends on each line compare like numbers. Returns the number of pairs on lines that are
-/// one point although they are at different places of the line.
+/// Asserts that any three ends on each line compare like numbers. Returns the number of pairs of ends that
+/// are one point although they are at different places of their line.
 fn check(tree: &BspTree) -> usize {
     let survey = Survey::new(tree.mesh_source()).unwrap();
     let points = Points::new(&survey).unwrap();

@@ -1,5 +1,5 @@
-//! The distance of eyes' rounded values from their bound: searches for eyes that a smaller bound would put
-//! on the wrong side.
+//! The distance of eyes' rounded values from their bound: searches for eyes that a smaller bound would
+//! misplace.
 
 use std::cmp::Ordering;
 
@@ -33,7 +33,7 @@ impl Numbers {
     }
 }
 
-/// A tree whose first plane is that of a triangle in a corner of the scene, which fills its lattice: planes
+/// A tree whose first plane is the plane of a triangle in a corner of a scene that fills its lattice: planes
 /// far from the middle have the largest errors.
 fn tree(numbers: &mut Numbers) -> BspTree {
     let corner = DVec3::ONE.copysign(numbers.point()) * ALMOST_TWO;
@@ -83,7 +83,7 @@ fn a_bound_of_a_quarter_would_put_eyes_on_the_wrong_side() {
                 // Hill climbing from the best of some samples.
                 let size = 10f64.powf(-4.0 - 3.0 * numbers.number());
                 let near = best.1 + best.1 * numbers.point() * size;
-                // Beyond the scene, up to its size again.
+                // Also beyond the scene, up to half its size away.
                 let place = if turn < 200 { numbers.point() * 1.5 } else { near };
                 let nudge = 1e-15 * numbers.number();
                 let found = error(&tree, in_plane(&tree, place, kind == 1, nudge));

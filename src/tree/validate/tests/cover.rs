@@ -39,8 +39,8 @@ fn remove(tree: &BspTree, fragment: u32) -> Dismantled {
     parts
 }
 
-/// Duplicates a fragment that is the only one of a leaf, or on a plane: in a leaf, with its face's plane as
-/// a node.
+/// Duplicates a fragment in a leaf or on a plane. A leaf becomes a node with the plane of the fragment's
+/// face.
 fn double(tree: &BspTree, fragment: u32) -> Dismantled {
     let mut parts = Dismantled::of(tree);
     let (node, group) = place(tree, fragment);
@@ -52,7 +52,7 @@ fn double(tree: &BspTree, fragment: u32) -> Dismantled {
         return parts;
     }
     assert!(sides.contains(&group));
-    // A leaf's subtree comes after the other leaf, and before or after the other subtree.
+    // A leaf's subtree is stored after the other leaf, and before or after the other subtree.
     let raw = &mut parts.nodes[node];
     let child = if group == 1 { &mut raw.front } else { &mut raw.back };
     *child = RawChild::Node;
@@ -157,7 +157,7 @@ fn a_half_in_place_of_the_other_half_s_quarter_is_found() {
                 let vertices = parts.pieces[b as usize].1.clone();
                 parts.pieces[a as usize].1 = vertices;
             };
-            assert_fault(&tree, edit, "as its place says");
+            assert_fault(&tree, edit, "but its place requires");
         }
         assert!(!verdict(&remove(&tree, a).tree(&tree)).is_empty());
     }
@@ -218,8 +218,8 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
         let on_edge = vertex.with_line(EdgeLine::edge(edge));
         on_edge.cut(&tree.faces, 1, &prepared).with_line(vertex.line()).stored()
     };
-    // Corner 0 as the place where the diagonal crosses the edge that ends or begins there: in one piece,
-    // and in both.
+    // Corner 0 as the point where the diagonal crosses the edge that ends or begins there: in one piece, and
+    // in both pieces.
     for edge in [3, 0] {
         for pieces in [vec![1], vec![2], vec![1, 2]] {
             let edit = |parts: &mut Dismantled| {
@@ -235,12 +235,12 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
             edit(&mut parts);
             let said = verdict(&parts.tree(&tree));
             // A crossing that is not between the ends of its edge may be reported as a wrong side first.
-            let faults = [if pieces.len() == 1 { CUT } else { INCOMPLETE }, "as its place says"];
+            let faults =
+                [if pieces.len() == 1 { CUT } else { INCOMPLETE }, "but its place requires"];
             assert!(faults.iter().any(|fault| said.contains(fault)), "{said:?}");
         }
     }
-    // Another vertex at corner 0: an edge without length, in the piece that has the one edge there or the
-    // other.
+    // Another vertex at corner 0: an edge without length, in either of the pieces that have an edge there.
     for long in [0, 3] {
         let edit = |parts: &mut Dismantled| {
             for (_, vertices) in &mut parts.pieces[1..] {
@@ -264,7 +264,10 @@ fn names_of_the_right_place_but_the_wrong_vertex_are_found() {
         let mut parts = Dismantled::of(&tree);
         edit(&mut parts);
         let said = verdict(&parts.tree(&tree));
-        assert!([CUT, "as its place says"].iter().any(|fault| said.contains(fault)), "{said:?}");
+        assert!(
+            [CUT, "but its place requires"].iter().any(|fault| said.contains(fault)),
+            "{said:?}"
+        );
     }
 }
 
@@ -318,7 +321,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
 
 #[test]
 fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
-    // Two squares in one plane and one that both planes cut.
+    // Two squares in one plane, and a square that their plane cuts.
     let upright = square(1.0, 0.2).map(|p| glam::DVec3::new(p.z, p.x, p.y));
     let polygons = [square(1.0, 0.0), square(2.0, 0.0), upright];
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
@@ -326,7 +329,7 @@ fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
     assert_eq!((tree.len(), tree.nodes[0].own()), (4, 2));
     let edit = |parts: &mut Dismantled| parts.nodes[0].plane = PlaneId::face(1);
     assert_fault(&tree, edit, CUT);
-    // If nothing is cut, either is right.
+    // If nothing is cut, either order is right.
     let tree = options.build(&polygons[..2]).expect("finite");
     let mut parts = Dismantled::of(&tree);
     parts.nodes[0].plane = PlaneId::face(1);

@@ -5,8 +5,8 @@ use crate::exact::StoredVertex;
 use crate::tree::BspTree;
 
 const LAYOUT: &str = "the layout for orders does not match the nodes";
-const POSITIONS: &str = "node 0: the positions are not those of the vertices";
-const ROUNDED: &str = "the rounded planes are not those of the nodes";
+const POSITIONS: &str = "node 0: the positions do not match the vertices";
+const ROUNDED: &str = "the rounded planes do not match the nodes";
 
 /// Breaks every tree to which an edit applies; returns their number.
 fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
@@ -113,7 +113,7 @@ fn positions_of_other_vertices_or_of_more_or_fewer_are_found() {
         assert_all(POSITIONS, |tree| {
             keep_positions(tree)?;
             tree.positions.pop();
-            // Without any, none are stored.
+            // A tree without cut vertices stores no positions.
             (!tree.positions.is_empty()).then_some(())
         }),
         assert_all(POSITIONS, |tree| {

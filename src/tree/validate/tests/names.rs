@@ -76,7 +76,7 @@ fn faces_and_vertices_that_name_nothing_are_found() {
     let prepared = PreparedPlane::new(&large.faces, PlaneId::face(8));
     let inside = along_cut.cut(&large.faces, 1, &prepared);
     assert_unknown(&tree, inside.with_line(EdgeLine::edge(0)).stored());
-    // A vertex of a known plane and an unknown one, whichever of the two comes first.
+    // A vertex of a known plane and an unknown plane, in either order.
     for (known, unknown) in [
         (PlaneId::face(0), PlaneId::face(8)),
         (PlaneId::face(0), PlaneId::axis(0, 35)),

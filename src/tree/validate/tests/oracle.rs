@@ -117,7 +117,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
             }
         }
         _ => {
-            // One fragment more on the plane, or one less.
+            // One fragment more on the plane, or one fragment less.
             if other % 2 == 0 {
                 *own += 1;
                 let piece = parts.pieces[a].clone();

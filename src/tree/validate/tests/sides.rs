@@ -20,12 +20,12 @@ fn sides_that_are_exchanged_are_found() {
         let edit = |parts: &mut Dismantled| match parts.nodes.iter_mut().rfind(has_one_leaf) {
             Some(node) => std::mem::swap(&mut node.front, &mut node.back),
             None => {
-                // The last node has one on each side.
+                // The last node has one fragment on each side.
                 let last = parts.pieces.len() - 1;
                 parts.pieces.swap(last - 1, last);
             }
         };
-        assert_fault(&tree, edit, "as its place says");
+        assert_fault(&tree, edit, "but its place requires");
     }
 }
 
@@ -35,7 +35,7 @@ fn fragments_that_change_places_are_found() {
     let mut swapped = 0;
     for (a, b) in (0..tree.len()).flat_map(|a| (a + 1..tree.len()).map(move |b| (a, b))) {
         let edit = |parts: &mut Dismantled| parts.pieces.swap(a, b);
-        assert_fault(&tree, edit, "as its place says");
+        assert_fault(&tree, edit, "but its place requires");
         swapped += 1;
     }
     assert!(swapped > 50, "{swapped}");
@@ -58,7 +58,7 @@ fn a_fragment_beside_the_plane_that_it_is_said_to_be_on_is_found() {
         last.own += 1;
         (last.front, last.back) = (RawChild::Leaf(0), RawChild::Leaf(0));
     };
-    assert_fault(&tree, edit, "not Coplanar as its place says");
+    assert_fault(&tree, edit, "but its place requires Coplanar");
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn a_plane_that_faces_the_other_way_is_found() {
             let is_opposite = normal(plane).dot(normal(node.plane())) < -0.9;
             if is_opposite && node.in_front().len() + node.behind().len() > 0 {
                 let edit = |parts: &mut Dismantled| parts.nodes[at].plane = plane;
-                assert_fault(&tree, edit, "as its place says");
+                assert_fault(&tree, edit, "but its place requires");
                 flipped += 1;
             }
         }
@@ -112,5 +112,5 @@ fn a_face_beside_its_own_plane_is_found_and_counts_as_misplaced() {
         }
         (root.own, root.front, root.back) = (0, RawChild::Leaf(1), RawChild::Leaf(1));
     };
-    assert_fault(&tree, edit, "is Coplanar, not");
+    assert_fault(&tree, edit, "is Coplanar, but");
 }

@@ -25,8 +25,8 @@ pub enum DepthFormat {
     /// z as an `f32`. Most of its values are near 0, as z values after the divide are, so far depths have the
     /// worst resolution.
     Float,
-    /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), the larger being nearer: the
-    /// two unevennesses all but cancel.
+    /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), where larger numbers are
+    /// nearer. The uneven steps of z and of `f32` almost cancel.
     FloatReversed,
     /// The depth w itself, linear between near and far, in steps of 1 / (2^bits − 1): 1 / w is
     /// interpolated and inverted in each pixel.

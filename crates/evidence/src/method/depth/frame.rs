@@ -46,7 +46,7 @@ impl Frame {
         &self.faces
     }
 
-    /// Where a run's pixels are, if they are in this section.
+    /// The pixels of a run, if they are in this section.
     fn pixels(&self, y: u32, columns: &Range<u32>) -> Option<Range<usize>> {
         let row = self.rows.contains(&y).then(|| y - self.rows.start)?;
         let start = row as usize * self.width as usize;

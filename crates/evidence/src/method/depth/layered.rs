@@ -21,7 +21,7 @@ pub type Layers = Vec<Vec<u32>>;
 /// A picture of opaque and translucent polygons.
 #[derive(Clone, Copy, Debug)]
 pub struct Layered<'a> {
-    /// How depths are kept. Its rule on writing is for the opaque polygons.
+    /// The depth buffer. Its rule on writing applies to the opaque polygons.
     pub buffer: DepthBuffer,
     /// The polygons, and the order of their fragments.
     pub tree: &'a BspTree,

@@ -31,7 +31,7 @@ use super::rules::DepthRules;
 pub struct DepthBuffer {
     /// The stored number.
     pub format: DepthFormat,
-    /// How depths are interpolated from the corners to the pixels.
+    /// The interpolation of depths from the corners to the pixels.
     pub interpolation: Interpolation,
     /// The least depth that is shown, in world units along the direction of view, from the eye, or from the
     /// centre of a parallel camera's picture. Default: `None`, the least visible depth, though no less than
@@ -41,8 +41,7 @@ pub struct DepthBuffer {
     pub far: Option<f64>,
     /// The buffer's first value, its test and its writes.
     pub rules: DepthRules,
-    /// The sections of the picture that are drawn one after another. Default: `None`, all of it at
-    /// once.
+    /// The sections of the picture, drawn one after another. Default: `None`, the whole picture at once.
     pub sections: Option<Sections>,
 }
 

@@ -99,7 +99,7 @@ mod tests {
         {
             for depth in [1.5, 2.0, 5.0, 10.0, 30.0, 70.0, 120.0, 180.0] {
                 let step = format.step(PLANES, depth);
-                // As wide as a few steps, and so narrow that they are all but equal.
+                // Samples as wide as a few steps, and samples so narrow that they are almost equal.
                 let share = 3.0 * step / depth;
                 if share > 0.01 {
                     continue;

@@ -106,7 +106,7 @@ impl Comparison {
         Self { flip, or_equal, cleared: cleared ^ flip, is_open, writes: rules.writes }
     }
 
-    /// A key as it is stored.
+    /// The stored form of a key.
     #[inline]
     pub(super) fn stored(&self, key: u32) -> u32 {
         key ^ self.flip

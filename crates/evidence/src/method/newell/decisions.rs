@@ -3,7 +3,7 @@
 use super::compare::Reason;
 
 /// Counts of decisions by each test of [`Newell`](super::Newell)'s algorithm in one view, and the outcome of
-/// pairs that none decided.
+/// pairs that no test decided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Decisions {
@@ -15,13 +15,13 @@ pub struct Decisions {
     pub compared: u64,
     /// Pairs among these of pieces of one face, which cannot hide each other.
     pub of_one_face: u64,
-    /// Pairs among these that each of the five tests decided, where none before it did.
+    /// Pairs among these that each of the five tests decided and no earlier test did.
     pub by_test: [u64; 5],
     /// Pairs that no test decided: Q took P's place in the list.
     pub moved: u64,
     /// Pairs that no test decided: a piece was cut.
     pub cuts: u64,
-    /// Pairs that no test decided, nor any cut: all is within the epsilon.
+    /// Pairs that neither a test nor a cut decided, because everything is within the epsilon.
     pub passed: u64,
 }
 

@@ -14,9 +14,9 @@
 /// 5. their projections do not overlap.
 ///
 /// If none does, Q takes P's place, marked, if it is behind P's plane or P is in front of Q's. Otherwise
-/// (they penetrate), or if Q is marked already (a cycle), one is cut by the plane of the other. Where no
-/// plane of a cycle cuts another face of it, one is cut along an edge of another as it is seen. If that does
-/// not help either, all faces are nearer than the epsilon, and P is painted.
+/// (they penetrate), or if Q is marked already (a cycle), one is cut by the plane of the other. If no
+/// plane of a cycle cuts another face of it, one face is cut along the projected edge of another. If that
+/// fails too, all faces are nearer than the epsilon, and P is painted.
 ///
 /// When Q is painted, its predecessor resumes its comparisons instead of beginning again. The order is the
 /// same, with fewer comparisons.

@@ -52,7 +52,7 @@ pub(super) struct Piece {
 pub(super) struct Pieces {
     pieces: Vec<Piece>,
     vertices: Vec<Vertex>,
-    /// Where the vertices show on the picture, in pixels.
+    /// The positions of the vertices on the picture, in pixels.
     flat: Vec<[f64; 2]>,
     /// By face.
     planes: Vec<EyePlane>,

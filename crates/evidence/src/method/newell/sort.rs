@@ -48,7 +48,7 @@ impl<'a> Sorter<'a> {
     ) -> Result<Self, MethodError> {
         let mut list: Vec<u32> = (0..pieces.len() as u32).collect();
         let far = |piece: u32| pieces.get(piece).far;
-        // Of two at the same depth the earlier is painted first: it is the last of the list.
+        // Of two faces at the same depth, the earlier is painted first, so it is the last in the list.
         list.sort_unstable_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
         let state = vec![State::Waiting; list.len()];
         let (chain, gone, comparisons) = (Vec::new(), 0, 0);

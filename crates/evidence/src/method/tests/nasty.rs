@@ -1,4 +1,4 @@
-//! Views from which much is exactly, or all but, in line.
+//! Views in which many planes and corners are in line with the eye, exactly or almost.
 
 use super::{
     Polygons, covers_by_itself, cycle_that_no_plane_cuts, disjoint, faces, judge, polygons_of,
@@ -6,8 +6,8 @@ use super::{
 use crate::method::{Options, all};
 use testkit::prelude::*;
 
-/// Eyes at corners, in planes, a hair's breadth off them, and far away. Eyes that touch a face up to rounding
-/// are marked. These may see it all over the picture at no distance, and any near plane cuts it off.
+/// Eyes at corners, in planes, just off them, and far away. Eyes that touch a face up to rounding are marked:
+/// the face may fill the picture at distance 0, and any near plane cuts it off.
 fn in_line(polygons: &Polygons, size: [u32; 2]) -> Vec<(bool, Camera)> {
     let corners = || polygons.iter().flatten();
     let centre = corners().sum::<DVec3>() / corners().count() as f64;

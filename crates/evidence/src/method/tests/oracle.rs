@@ -27,7 +27,8 @@ pub(super) enum Meeting {
     Doubtful,
 }
 
-/// How near an edge, in world units, and how near another depth, as a share, is too near.
+/// Distances from an edge, in world units, and from another depth, as a share, below which a pixel is
+/// undecided.
 const NEAR: f64 = 1e-7;
 
 pub(super) fn meet(polygon: &[DVec3], camera: &Camera, x: u32, y: u32) -> Meeting {

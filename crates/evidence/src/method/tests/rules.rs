@@ -78,7 +78,7 @@ fn each_rule_decides_what_it_says() {
             // Without a depth left behind, the last shows.
             assert_eq!(walls(&order, format, DepthRules { writes: false, ..smaller }), 1);
         }
-        // Of two at the same depth the first shows, or the last.
+        // Of two faces at the same depth, `LESS` shows the first and `LEQUAL` the last.
         assert_eq!(walls(&[3.0, 3.0], format, smaller), 0);
         assert_eq!(walls(&[3.0, 3.0], format, or_equal), 1);
         // A face at the far plane is not nearer than the clear value.

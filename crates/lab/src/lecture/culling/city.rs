@@ -34,15 +34,16 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         ]
     });
     chapter.text(format!(
-        "Most of a large scene need not be drawn: what is outside of the view volume, the backs of closed \
-         bodies, and what is hidden. Here are a city of {} polygons and an eye above its roofs. Each \
-         step leaves out what the steps before it leave out and some more. The tree does it by boxes \
-         of whole subtrees: what is far from the rim of the view is taken or left as a whole. Steps \
-         cost time of their own, the last also draws what it finds into a mask; what is won is the \
-         drawing that follows, all of it here, or whatever is done to each polygon. Every picture is \
-         compared with that of an exact depth buffer that gets all polygons: none differs. What \
-         the last step leaves are those polygons that own a pixel, no more. `binspace-lab report` prints the \
-         same table for a city of 2600000 polygons, ten times as large.",
+        "Most polygons of a large scene need not be drawn: polygons outside the view volume, back faces \
+         of closed bodies, and hidden polygons. The scene is a city of {} polygons, and the eye is above \
+         its roofs. Each step leaves out everything that the steps before it leave out, and more. The \
+         tree tests the bounding boxes of subtrees, so a subtree far from the boundary of the view is \
+         accepted or rejected as a whole. The steps themselves take time, and the last one also draws \
+         the polygons that it finds into a mask. In return, later work on each polygon, here the \
+         drawing, is saved. Every picture is compared with the picture of an exact depth buffer that \
+         gets all polygons: none differs. The polygons left by the last step are exactly those that own \
+         a pixel. `binspace-lab report` prints the same table for a city of 2600000 polygons, ten times \
+         as many.",
         scene.len(),
     ));
     chapter.table(

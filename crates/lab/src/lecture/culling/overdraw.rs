@@ -21,12 +21,12 @@ const SHUFFLES: u32 = 2000;
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Overdraw");
     chapter.text(
-        "Overdraw is the number of pixels that are written, divided by those that show. A painter writes \
-         each pixel once for every surface in it. A depth buffer writes a pixel whenever something \
-         nearer comes than all before, so its overdraw depends on the order in which polygons come: 1 + \
-         1/2 + … + 1/n for n layers in random order, n from back to front, 1 from front to back. A \
-         tree walked from front to back with a mask of covered pixels writes each pixel once; and what \
-         the mask hides as a whole is not even looked at.",
+        "Overdraw is the number of written pixels divided by the number of visible pixels. A painter \
+         writes each pixel once for every surface in it. A depth buffer writes a pixel whenever a \
+         surface is nearer than all earlier ones, so its overdraw depends on the order of the polygons. \
+         For n layers it is 1 + 1/2 + … + 1/n in random order, n from back to front, and 1 from front to \
+         back. A tree that is walked from front to back, with a mask of covered pixels, writes each \
+         pixel once. It skips subtrees that the mask hides completely.",
     );
     let city = scene::city(1500, 1);
     let random = scene::random_triangles(300, 1);
@@ -55,7 +55,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     stack(chapter)
 }
 
-/// How overdraw grows with the layers of a pixel.
+/// The growth of overdraw with the layers per pixel.
 fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     let [mut painted, mut buffered, mut masked] = [vec![], vec![], vec![]];
     for layers in [1, 2, 5, 10, 20, 50, 100] {
@@ -67,8 +67,9 @@ fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     }
     let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.1);
     chapter.text(format!(
-        "Squares one over another, the depth buffer in {SHUFFLES} random orders: with 100 layers it \
-         writes each pixel {:.2} times in the mean (1 + 1/2 + … + 1/100 = 5.19), the painter {} times.",
+        "For a stack of squares, the depth buffer gets them in {SHUFFLES} random orders. With 100 layers \
+         it writes each pixel {:.2} times on average (1 + 1/2 + … + 1/100 = 5.19), and the painter \
+         writes it {} times.",
         last(&buffered),
         last(&painted),
     ));
@@ -79,8 +80,8 @@ fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     ];
     chapter.graph(&Chart {
         title: "Overdraw",
-        x_label: "layers of each pixel",
-        y_label: "writes of each pixel",
+        x_label: "layers per pixel",
+        y_label: "writes per pixel",
         ticks: None,
         falls: false,
         zero: false,

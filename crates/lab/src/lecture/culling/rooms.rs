@@ -35,13 +35,14 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let cells = Cells::new(&tree, quads.len());
     let level = Level { tree, cells, polygons: quads.len() };
     chapter.text(format!(
-        "In a building one sees other rooms through doors only. The leaves of the tree are convex cells; \
-         what its polygons leave open of a plane between two cells is a portal. From an eye, what \
-         is seen is what lies within the portals before it: each narrows the view further (Jones, A New \
-         Approach to the ‘Hidden Line’ Problem, 1971). From a whole cell, it is what some line \
-         through the portals reaches: the potentially visible set, which can be computed before any eye \
-         is known (Airey 1990; Teller & Séquin, Visibility Preprocessing for Interactive Walkthroughs, \
-         1991). This level has {} rooms and {} polygons, its tree {} cells and {} portals.",
+        "In a building, other rooms are visible only through doors. The leaves of the tree are convex \
+         cells. A portal is the part of a plane between two cells that no polygon covers. From an eye, a \
+         polygon is visible only through a sequence of portals, each of which narrows the view (Jones, A \
+         New Approach to the ‘Hidden Line’ Problem, 1971). From a whole cell, a polygon may be visible \
+         if some line through portals reaches it. These polygons are the potentially visible set of the \
+         cell, which can be computed before any eye is known (Airey 1990; Teller & Séquin, Visibility \
+         Preprocessing for Interactive Walkthroughs, 1991). This level has {} rooms and {} polygons; its \
+         tree has {} cells and {} portals.",
         SIDE * SIDE,
         level.polygons,
         level.cells.len(),
@@ -91,7 +92,7 @@ fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Resu
     let owners = level.owners(&camera)?;
     let seen = level.cells.seen_from(eye, &camera.frustum());
     let set = level.set_of(eye);
-    // From above without ceilings, which show their backs.
+    // Front faces only: seen from above, this leaves out the ceilings.
     let middle = dvec3(0.5 * WIDTH, 0.5 * WIDTH, 0.0);
     let down = dvec3(0.0, 0.45, -1.0);
     let plan = Camera::parallel(down, DVec3::Y, middle, 1.02 * WIDTH, SIZE).map_err(failure)?;
@@ -102,18 +103,18 @@ fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Resu
         _ => [110, 110, 115],
     };
     chapter.pictures([
-        Picture::new(SIZE, level.picture(&camera, colour_of, false)?, "What the eye sees"),
+        Picture::new(SIZE, level.picture(&camera, colour_of, false)?, "The view of the eye"),
         Picture::new(
             SIZE,
             level.picture(&plan, status, true)?,
-            "From above, without ceilings. Green: owns a pixel of the view. Yellow: kept for the eye, in \
-             vain. Blue: in the set of the eye's cell. Grey: left out",
+            "From above, without ceilings. Green: owns a pixel of the view. Yellow: kept for the eye, \
+             but owns no pixel. Blue: only in the set of the eye's cell. Grey: left out",
         ),
     ]);
     let counts = [owners.len(), seen.polygon_count(), set.iter().filter(|&&kept| kept).count()];
     chapter.text(format!(
-        "Of {} polygons, {} own a pixel of this view; portals keep {} for the eye, and {} for its whole \
-         cell and every direction.",
+        "Of {} polygons, {} own a pixel of this view. Portals keep {} for the eye, and {} for its whole \
+         cell and all directions.",
         level.polygons, counts[0], counts[1], counts[2],
     ));
     Ok(())
@@ -160,9 +161,9 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
         ],
     );
     chapter.text(format!(
-        "Sums over {EYES} eyes at random places, each with four views. A view is judged by the exact \
-         depth buffer. A cell is judged by the four views of one eye in it, so some of what counts as \
-         too many is seen from elsewhere in the cell.",
+        "The figures are sums over {EYES} eyes at random places, with four views each. An exact depth \
+         buffer judges each view. A cell is judged by the four views of one eye in it. So some polygons \
+         that count as too many are visible from other points of the cell.",
     ));
     Ok(())
 }

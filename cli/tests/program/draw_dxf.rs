@@ -1,0 +1,172 @@
+//! Drawings as DXF: its structure, and its lines.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use crate::draw::figures;
+use crate::run::{CROSSING, Folder};
+use crate::svg_picture::Svg;
+
+/// A file: the dashes of each layer, and its lines.
+#[derive(Default)]
+struct Dxf {
+    layers: BTreeMap<String, Vec<f64>>,
+    lines: Vec<Line>,
+}
+
+struct Line {
+    layer: String,
+    is_closed: bool,
+    points: Vec<[f64; 2]>,
+}
+
+impl Line {
+    /// The data of a path of an SVG.
+    fn data(&self) -> String {
+        let points: Vec<String> = self.points.iter().map(|[x, y]| format!("{x} {y}")).collect();
+        format!("M{}{}", points.join("L"), if self.is_closed { "z" } else { "" })
+    }
+}
+
+/// The groups of a file, each a code and a value, in parts that begin with the code 0.
+fn parts(text: &str) -> Vec<Vec<(u32, &str)>> {
+    let mut parts: Vec<Vec<(u32, &str)>> = Vec::new();
+    let mut lines = text.lines();
+    while let Some(code) = lines.next() {
+        let group = (code.parse().unwrap(), lines.next().unwrap());
+        if group.0 == 0 {
+            parts.push(Vec::new());
+        }
+        parts.last_mut().unwrap().push(group);
+    }
+    parts
+}
+
+impl Dxf {
+    /// A file of release 12, in which all layers and types of lines that are used are defined.
+    fn parse(text: &str) -> Self {
+        let mut dxf = Self::default();
+        let mut types = BTreeMap::new();
+        let (mut open, mut line) = (Vec::new(), None);
+        for part in parts(text) {
+            let all = |code: u32| part.iter().filter(move |group| group.0 == code);
+            let value =
+                |code: u32| all(code).next().unwrap_or_else(|| panic!("{code}: {part:?}")).1;
+            let number = |code: u32| value(code).parse::<f64>().unwrap();
+            let layer = || dxf.layers.contains_key(value(8)).then(|| value(8).to_owned()).unwrap();
+            match value(0) {
+                "SECTION" | "TABLE" => open.push(value(2)),
+                "ENDSEC" | "ENDTAB" => assert!(open.pop().is_some()),
+                "EOF" => assert!(open.is_empty()),
+                "LTYPE" => {
+                    let lengths = all(49).map(|group| group.1.parse::<f64>().unwrap().abs());
+                    let lengths: Vec<f64> = lengths.collect();
+                    assert_eq!(number(73), lengths.len() as f64);
+                    assert_eq!(number(40), lengths.iter().sum::<f64>());
+                    types.insert(value(2), lengths);
+                }
+                "LAYER" => {
+                    let name = value(2).to_owned();
+                    assert!(dxf.layers.insert(name, types[value(6)].clone()).is_none());
+                }
+                "POLYLINE" => {
+                    let new = Line { layer: layer(), is_closed: value(70) == "1", points: vec![] };
+                    assert!(line.replace(new).is_none());
+                }
+                "VERTEX" => {
+                    let line = line.as_mut().unwrap();
+                    assert_eq!(line.layer, layer());
+                    line.points.push([number(10), number(20)]);
+                }
+                "SEQEND" => dxf.lines.extend(line.take()),
+                other => panic!("{other}"),
+            }
+        }
+        assert!(line.is_none() && text.ends_with("0\nEOF\n") && text.contains("\nAC1009\n"));
+        dxf
+    }
+
+    fn as_svg(&self, [width, height]: [u32; 2]) -> String {
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\
+             <g fill=\"none\" stroke=\"#000\" stroke-linejoin=\"round\" \
+             transform=\"matrix(1 0 0 -1 0 {height})\">"
+        );
+        // The lines of a layer together, as in an SVG: where they cross, they are no darker.
+        for lines in self.lines.chunk_by(|a, b| a.layer == b.layer) {
+            let dashes: Vec<String> =
+                self.layers[&lines[0].layer].iter().map(f64::to_string).collect();
+            let (cap, wide) = if dashes.is_empty() { ("round", 1.0) } else { ("butt", 0.6) };
+            let dashes = if dashes.is_empty() { "none".to_owned() } else { dashes.join(" ") };
+            let data: String = lines.iter().map(Line::data).collect();
+            svg += &format!(
+                "<path stroke-width=\"{wide}\" stroke-linecap=\"{cap}\" \
+                 stroke-dasharray=\"{dashes}\" d=\"{data}\"/>"
+            );
+        }
+        svg + "</g></svg>"
+    }
+}
+
+#[test]
+fn a_dxf_has_the_lines_of_the_svg_in_layers_by_kind() {
+    let folder = Folder::new("dxf_same");
+    folder.write("s.obj", CROSSING);
+    let (mut layers, mut closed) = (BTreeSet::new(), 0);
+    for (options, size) in [
+        ("s.obj --eye=3,2.5,6 --target=0,0,0 --size 300x200", [300, 200]),
+        ("teapot:5 --hidden layers", [640, 480]),
+        ("random:200 --edges all --hidden dashed --size 200x150", [200, 150]),
+        ("newell --edges silhouettes", [640, 480]),
+        ("newell --eye=0,0,50 --target=0,0,90", [640, 480]),
+    ] {
+        folder.run(&format!("draw {options} --lines -o a.svg")).good();
+        let numbers = figures(&folder.run(&format!("draw {options} -o a.dxf --json")).good());
+        let text = fs::read_to_string(folder.path("a.dxf")).unwrap();
+        assert_eq!(numbers["bytes"], text.len(), "{options}");
+        let dxf = Dxf::parse(&text);
+        assert_eq!(numbers["lines"], dxf.lines.len(), "{options}");
+        let svg = Svg::read(&folder.path("a.svg"));
+        // Layers are named for the classes of the SVG.
+        let name = |classes: &Vec<String>| {
+            let [visible, kind] = &classes[..] else { panic!("{classes:?}") };
+            let kind = kind.to_uppercase();
+            match visible.split_once(" layers-") {
+                Some((_, depth)) => format!("HIDDEN{depth}_{kind}"),
+                None if visible == "hidden" => format!("HIDDEN_{kind}"),
+                None => kind,
+            }
+        };
+        let expected: Vec<String> = svg.lines.iter().map(|lines| name(&lines.classes)).collect();
+        let used: BTreeSet<&String> = dxf.lines.iter().map(|line| &line.layer).collect();
+        assert_eq!(used, expected.iter().collect(), "{options}");
+        closed += dxf.lines.iter().filter(|line| line.is_closed).count();
+        layers.extend(expected);
+        let drawn = dxf.as_svg(size);
+        folder.write("b.svg", &drawn);
+        let [found, expected] = [Svg::parse(&drawn), svg].map(|svg| svg.smooth_picture());
+        // An SVG rounds coordinates to fiftieths, and dashes begin there.
+        let wrong = found.rgb.iter().zip(&expected.rgb).filter(|(a, b)| a.abs_diff(**b) > 16);
+        let wrong = wrong.count();
+        assert!(100 * wrong <= found.rgb.len(), "{options}: {wrong} of {}", found.rgb.len());
+    }
+    assert!(layers.len() > 8 && closed > 0, "{layers:?}, {closed} closed");
+}
+
+#[test]
+fn a_dxf_has_lines_alone() {
+    let folder = Folder::new("dxf_lines");
+    folder.write("s.obj", CROSSING);
+    folder.run("draw s.obj -o a.dxf").good();
+    let kept = fs::read(folder.path("a.dxf")).unwrap();
+    assert!(folder.pipe("draw - -o - --format dxf --lines", CROSSING).stdout == kept);
+    // What a DXF has no polygons for makes no difference.
+    for options in ["--edges none", "--seams trap", "--translucent"] {
+        folder.run(&format!("draw s.obj -o b.dxf {options}")).good();
+        assert!(fs::read(folder.path("b.dxf")).unwrap() == kept, "{options}");
+    }
+    let message = folder.run("draw s.obj -o a.dxf --ids").refused();
+    assert!(message.contains("only SVG has a place for names"), "{message}");
+    assert!(fs::read(folder.path("a.dxf")).unwrap() == kept);
+}
