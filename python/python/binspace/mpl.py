@@ -470,6 +470,8 @@ class _Late(Sequence):
 
 def _may_be_late(artist):
     """Whether the projection of an artist is that of mplot3d, and can wait."""
+    if "do_3d_projection" in vars(artist):
+        return False
     project = getattr(type(artist), "do_3d_projection", None)
     return project in (art3d.Poly3DCollection.do_3d_projection, art3d.Line3DCollection.do_3d_projection)
 
@@ -1020,9 +1022,9 @@ class _Composite(martist.Artist):
             owners[chosen] = owner[given[numbers[chosen]]]
         groups = {}
         group = np.array([groups.setdefault(_group(source.artist), len(groups)) for source in sources] + [0])
-        # Areas and the lines of collections of one group are painted at once; others by artist.
-        is_line2d = np.array([isinstance(source.artist, mlines.Line2D) for source in sources] + [False])
-        alone = (kinds == 2) | is_line2d[owners]
+        # Areas and lines of one group are painted at once; others by artist.
+        has_gaps = np.array([_has_gaps(source.artist) for source in sources] + [False])
+        alone = (kinds == 2) | has_gaps[owners]
         hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
         hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
         known = {}
@@ -1051,7 +1053,7 @@ class _Composite(martist.Artist):
                 source.artist.draw(renderer)
 
     def _paths(self, sources, shown, kinds, numbers, owners, place):
-        """A collection of areas and of the lines of collections and patches."""
+        """A collection of areas and lines."""
         is_area = kinds == 0
         batches = [self._areas(shown, numbers[is_area], np.flatnonzero(is_area))]
         if not is_area.all():
@@ -1077,7 +1079,7 @@ class _Composite(martist.Artist):
         batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
-        cap, join = template.get_capstyle(), template.get_joinstyle()
+        cap, join = _cap_and_join(template)
         if cap:
             batch.set_capstyle(cap)
         if join:
@@ -1104,13 +1106,13 @@ class _Composite(martist.Artist):
         return position, fills, face, edge, widths, look.smooth[polygon], dashes
 
     def _lines(self, source, shown, numbers, position, run, place):
-        """Lines of a collection or a patch, as `_areas`."""
+        """Lines of an artist, as `_areas`."""
         first, line, segment, corners, offsets = _chains(shown, numbers, run, len(source.edge) == 1)
         row = self.line_row[line]
         edge, widths = source.edge[row % len(source.edge)], source.widths[row % len(source.widths)]
         patterns = [source.dashes[i] for i in (row % len(source.dashes)).tolist()]
         is_solid = np.array([pattern is None for _, pattern in patterns], bool)
-        if source.artist.get_capstyle() in (None, "butt"):
+        if _cap_and_join(source.artist)[0] in (None, "butt"):
             self._overlap(line, corners, offsets, widths, is_solid & (edge[:, 3] >= 1), place)
         codes = np.full(len(corners), Path.LINETO, np.uint8)
         codes[offsets[:-1]] = Path.MOVETO
@@ -1192,8 +1194,24 @@ def _group(artist):
            artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
     clip = id(getattr(clip, "_patch", clip))
     if isinstance(artist, (mcoll.Collection, mpatches.Patch)):
-        key += (artist.get_hatch(), artist.get_capstyle(), artist.get_joinstyle(), bool(artist.get_hatch()) and id(artist))
+        key += (artist.get_hatch(), bool(artist.get_hatch()) and id(artist))
+    if isinstance(artist, (mcoll.Collection, mpatches.Patch, mlines.Line2D)):
+        key += _cap_and_join(artist)
     return key + (clip,)
+
+
+def _cap_and_join(artist):
+    """The styles of the ends and the corners of an artist's lines."""
+    if not isinstance(artist, mlines.Line2D):
+        return artist.get_capstyle(), artist.get_joinstyle()
+    if artist.is_dashed():
+        return artist.get_dash_capstyle(), artist.get_dash_joinstyle()
+    return artist.get_solid_capstyle(), artist.get_solid_joinstyle()
+
+
+def _has_gaps(artist):
+    """Whether the gaps of a dashed line have a colour."""
+    return isinstance(artist, mlines.Line2D) and artist.is_dashed() and artist.get_gapcolor() is not None
 
 
 def _take_style(copy, artist, kind=martist.Artist):
@@ -1266,7 +1284,8 @@ class _Exact:
 
     def __getstate__(self):
         # A tree is built again from what is drawn.
-        return {name: value for name, value in super().__getstate__().items() if name != "_exact_built"}
+        left_out = "_exact_built", "exact_progress"
+        return {name: value for name, value in super().__getstate__().items() if name not in left_out}
 
     def get_children(self):
         children = super().get_children()
@@ -1282,7 +1301,7 @@ class _Exact:
         taken = [
             child for child in self._children if child.get_visible() and not child.get_animated() and _kind(child)
         ]
-        zorders = [artist.zorder for artist in taken]
+        zorders = [(artist, artist.zorder) for artist in taken]
         taken.sort(key=lambda artist: artist.zorder)
         self._exact_composite = _Composite(self, taken)
         late = []
@@ -1299,8 +1318,7 @@ class _Exact:
                 del artist.do_3d_projection
                 _project_late(artist)
             self._exact_composite = None
-            in_order = [child for child in self._children if any(child is artist for artist in taken)]
-            for artist, zorder in zip(in_order, zorders):
+            for artist, zorder in zorders:
                 artist.zorder = zorder
         return None
 
