@@ -470,6 +470,8 @@ class _Late(Sequence):
 
 def _may_be_late(artist):
     """Whether the projection of an artist is that of mplot3d, and can wait."""
+    if "do_3d_projection" in vars(artist):
+        return False
     project = getattr(type(artist), "do_3d_projection", None)
     return project in (art3d.Poly3DCollection.do_3d_projection, art3d.Line3DCollection.do_3d_projection)
 
@@ -547,9 +549,11 @@ class _Built:
     def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
-        valid = everything[~np.isnan(everything).any(1)]
-        # Coordinates of the tree are from -1 to 1: axes may have very different scales.
-        low, high = (valid.min(0), valid.max(0)) if len(valid) else (-np.ones(3), np.ones(3))
+        # Coordinates of the tree are from -1 to 1: axes may have very different scales. NaN are left out.
+        low, high = (
+            np.nan_to_num([ends.reduce(everything[:, axis], initial=np.nan) for axis in range(3)])
+            for ends in (np.fmin, np.fmax)
+        )
         self.middle, self.scale = low + (high - low) / 2, np.where(high > low, (high - low) / 2, 1.0)
         points, lines, markers = ((part - self.middle) / self.scale for part in (points, lines, markers))
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
@@ -660,7 +664,7 @@ def _views(offsets):
         codes = np.full(len(around), Path.LINETO, np.uint8)
         codes[:1], codes[1:][-1:] = Path.MOVETO, Path.CLOSEPOLY
         rows = places[start:end].reshape(len(chosen), len(around), 2)
-        paths[chosen] = np.fromiter((_Outline(row, codes) for row in rows), object, len(chosen))
+        paths[chosen] = np.fromiter([_Outline(row, codes) for row in rows], object, len(chosen))
         start = end
     return paths, np.concatenate(corners), places[:start]
 
@@ -943,6 +947,23 @@ class _Looks:
             self.dashes = [s.dashes[row % len(s.dashes)] for s, r in parts for row in r]
 
 
+class _LineLooks:
+    """How lines are painted: a row for each."""
+
+    def __init__(self, sources, owners, rows):
+        sources = [sources[owner] for owner in owners.tolist()]
+        looks = list(zip(sources, rows.tolist()))
+        self.edge = np.array([s.edge[row % len(s.edge)] for s, row in looks]).reshape(-1, 4)
+        self.widths = np.array([s.widths[row % len(s.widths)] for s, row in looks], float)
+        self.smooth = np.array([s.smooth[row % len(s.smooth)] for s, row in looks], bool)
+        self.dashes = [s.dashes[row % len(s.dashes)] for s, row in looks]
+        self.is_solid = np.array([pattern is None for _, pattern in self.dashes], bool)
+        self.has_one_color = np.array([len(s.edge) == 1 for s in sources], bool)
+        # Ends that reach no further than the line.
+        is_butt = np.array([_cap_and_join(s.artist)[0] in (None, "butt") for s in sources], bool)
+        self.is_extended = self.is_solid & is_butt & (self.edge[:, 3] >= 1)
+
+
 class _Composite(martist.Artist):
     """Paints all artists of exact axes in one order."""
 
@@ -969,6 +990,7 @@ class _Composite(martist.Artist):
         self.marker_owner = np.repeat(np.arange(len(sources)), [len(source.points) for source in sources])
         self.marker_row = np.concatenate([source.point_rows for source in sources] + [np.empty(0, int)]).astype(int)
         self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
+        self.line_looks = _LineLooks(sources, self.line_owner, self.line_row)
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
         # Areas with a hatch alone are painted too.
@@ -1018,20 +1040,29 @@ class _Composite(martist.Artist):
             owners[chosen] = owner[given[numbers[chosen]]]
         groups = {}
         group = np.array([groups.setdefault(_group(source.artist), len(groups)) for source in sources] + [0])
-        # Areas and the lines of collections of one group are painted at once; others by artist.
-        is_line2d = np.array([isinstance(source.artist, mlines.Line2D) for source in sources] + [False])
-        alone = (kinds == 2) | is_line2d[owners]
+        # Areas and lines of one group are painted at once; others by artist.
+        has_gaps = np.array([_has_gaps(source.artist) for source in sources] + [False])
+        alone = (kinds == 2) | has_gaps[owners]
+        # Areas without strokes have no ends and corners of lines: they take part in any group that is painted.
+        styles = {}
+        style = np.array([styles.setdefault(_style(source.artist), len(styles)) for source in sources] + [0])[owners]
+        is_plain = kinds == 0
+        is_plain[is_plain] = ~self.looks.is_stroked[shown.polygon[numbers[is_plain]]]
+        last = np.maximum.accumulate(np.where(is_plain, 0, np.arange(len(kinds))))
+        style = np.where(alone, 0, style[last])
         hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
         hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
         known = {}
         hatch = np.array([known.setdefault(name, len(known)) for name in hatches], int)
-        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners]) + (len(groups) + 3 * len(sources)) * hatch
+        key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
+        key += (len(groups) + 3 * len(sources) + 3) * (hatch + (len(known) + 1) * style)
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
             chosen = numbers[start:end]
             if not alone[start]:
-                batch = self._paths(sources, shown, kinds[start:end], chosen, owners[start:end], place)
+                template = sources[owners[start + np.argmin(is_plain[start:end])]].artist
+                batch = self._paths(template, shown, kinds[start:end], chosen, owners[start:end], place)
                 batch.set_hatch(hatches[start])
                 batch.draw(renderer)
             elif kinds[start] == 1:
@@ -1048,16 +1079,14 @@ class _Composite(martist.Artist):
             else:
                 source.artist.draw(renderer)
 
-    def _paths(self, sources, shown, kinds, numbers, owners, place):
-        """A collection of areas and of the lines of collections and patches."""
+    def _paths(self, template, shown, kinds, numbers, owners, place):
+        """A collection of areas and lines."""
         is_area = kinds == 0
         batches = [self._areas(shown, numbers[is_area], np.flatnonzero(is_area))]
         if not is_area.all():
             # Parts of lines that no area is between.
             run = np.cumsum(np.append(True, is_area[1:] | is_area[:-1] | (owners[1:] != owners[:-1])))
-            for owner in np.unique(owners[~is_area]).tolist():
-                chosen = np.flatnonzero(~is_area & (owners == owner))
-                batches.append(self._lines(sources[owner], shown, numbers[chosen], chosen, run[chosen], place))
+            batches.append(self._lines(shown, numbers[~is_area], np.flatnonzero(~is_area), run[~is_area], place))
         position, paths, face, edge, widths, smooth, dashes = (list(part) for part in zip(*batches))
         order = np.argsort(np.concatenate(position), kind="stable")
         paths = np.concatenate(paths)[order].tolist()
@@ -1067,7 +1096,6 @@ class _Composite(martist.Artist):
             dashes = [dash for part in dashes for dash in part]
             dashes = [dashes[i] for i in order.tolist()]
         face, edge, widths, smooth = (np.concatenate(part)[order] for part in (face, edge, widths, smooth))
-        template = sources[owners[0]].artist
         batch = mcoll.Collection()
         batch._paths = paths
         _take_style(batch, template)
@@ -1075,7 +1103,9 @@ class _Composite(martist.Artist):
         batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
-        cap, join = template.get_capstyle(), template.get_joinstyle()
+        # With one, matplotlib paints a single path as a marker: at whole pixels, and always antialiased.
+        batch._urls = [None, None]
+        cap, join = _cap_and_join(template)
         if cap:
             batch.set_capstyle(cap)
         if join:
@@ -1101,25 +1131,21 @@ class _Composite(martist.Artist):
         dashes = None if look.dashes is None else [look.dashes[i] for i in polygon.tolist()]
         return position, fills, face, edge, widths, look.smooth[polygon], dashes
 
-    def _lines(self, source, shown, numbers, position, run, place):
-        """Lines of a collection or a patch, as `_areas`."""
-        first, line, segment, corners, offsets = _chains(shown, numbers, run, len(source.edge) == 1)
-        row = self.line_row[line]
-        edge, widths = source.edge[row % len(source.edge)], source.widths[row % len(source.widths)]
-        patterns = [source.dashes[i] for i in (row % len(source.dashes)).tolist()]
-        is_solid = np.array([pattern is None for _, pattern in patterns], bool)
-        if source.artist.get_capstyle() in (None, "butt"):
-            self._overlap(line, corners, offsets, widths, is_solid & (edge[:, 3] >= 1), place)
+    def _lines(self, shown, numbers, position, run, place):
+        """Lines, as `_areas`."""
+        look = self.line_looks
+        first, line, segment, corners, offsets = _chains(shown, numbers, run, look.has_one_color)
+        self._overlap(line, corners, offsets, place)
         codes = np.full(len(corners), Path.LINETO, np.uint8)
         codes[offsets[:-1]] = Path.MOVETO
         paths = _paths(corners, codes, offsets)
-        dashes = None
-        if not is_solid.all():
-            starts = corners[offsets[:-1]]
-            dashes = [self._dash(*part, place) for part in zip(line.tolist(), segment.tolist(), starts, patterns)]
-        smooth = source.smooth[row % len(source.smooth)]
         paths = np.fromiter(paths, object, len(paths))
-        return position[first], paths, np.zeros((len(row), 4)), edge, widths, smooth, dashes
+        dashes = None
+        if not look.is_solid[line].all():
+            parts = zip(line.tolist(), segment.tolist(), corners[offsets[:-1]])
+            dashes = [self._dash(line, segment, start, look.dashes[line], place) for line, segment, start in parts]
+        face = np.zeros((len(line), 4))
+        return position[first], paths, face, look.edge[line], look.widths[line], look.smooth[line], dashes
 
     def _dash(self, line, segment, start, dash, place):
         """The pattern of dashes at a part of a line, as if the line were drawn at once."""
@@ -1131,28 +1157,23 @@ class _Composite(martist.Artist):
         length = np.nansum(before) + np.hypot(*(start - places[segment]))
         return offset + length * 72 / self.axes.figure.dpi, pattern
 
-    def _overlap(self, line, corners, offsets, widths, chosen, place):
+    def _overlap(self, line, corners, offsets, place):
         """Extends the ends of parts of lines by half their width into the parts before and after them, so that there is no
         notch between them. Where one shines through the other, they may only touch."""
-        lines = [self.lines[i] for i in line.tolist()]
-        for end, inner, own in (
-            (offsets[:-1], offsets[:-1] + 1, [points[0] for points in lines]),
-            (offsets[1:] - 1, offsets[1:] - 2, [points[-1] for points in lines]),
-        ):
+        reach = 0.5 * self.line_looks.widths[line] * self.axes.figure.dpi / 72
+        for end, inner, own in ((offsets[:-1], offsets[:-1] + 1, 0), (offsets[1:] - 1, offsets[1:] - 2, -1)):
             step = corners[end] - corners[inner]
             length = np.hypot(*step.T)
-            own = place(np.array(own).reshape(-1, 3))
-            moved = chosen & (length > 0) & ~(np.abs(corners[end] - own).max(1, initial=0) <= _JOINED)
-            reach = 0.5 * widths * self.axes.figure.dpi / 72
+            own = place(np.array([self.lines[i][own] for i in line.tolist()]).reshape(-1, 3))
+            is_own = np.abs(corners[end] - own).max(1, initial=0) <= _JOINED
+            moved = self.line_looks.is_extended[line] & (length > 0) & ~is_own
             corners[end[moved]] += (step * (reach / np.maximum(length, 1e-300))[:, None])[moved]
 
     def _paint_line(self, renderer, source, shown, numbers, place):
         artist = source.artist
-        _, line, segment, corners, offsets = _chains(shown, numbers, np.zeros(len(numbers), int), True)
+        run = np.zeros(len(numbers), int)
+        _, line, segment, corners, offsets = _chains(shown, numbers, run, self.line_looks.has_one_color)
         starts = corners[offsets[:-1]]
-        if not artist.is_dashed() and artist.get_solid_capstyle() == "butt":
-            is_opaque = np.full(len(line), source.edge[0, 3] >= 1)
-            self._overlap(line, corners, offsets, np.full(len(line), source.widths[0]), is_opaque, place)
         for i in range(len(line)):
             copy = mlines.Line2D(*corners[offsets[i] : offsets[i + 1]].T)
             _take_style(copy, artist, mlines.Line2D)
@@ -1165,13 +1186,12 @@ def _chains(shown, numbers, run, may_sort):
     """Parts of lines of one run that follow one another, joined: for each, the number of a part in it, its line, the
     segment that it begins in; the corners of all, and where each begins."""
     line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
-    order = np.arange(len(numbers))
-    if may_sort and len(numbers) > 1:
-        # How far each part is along its segment: parts of one segment have one direction.
-        step = ends[:, 1] - ends[:, 0]
-        along = (ends[:, 0] * step).sum(-1) / np.maximum(np.hypot(*step.T), 1e-300)
-        order = np.lexsort([along, segment, line, run])
-        line, segment, ends, run = line[order], segment[order], ends[order], run[order]
+    # How far each part is along its segment: parts of one segment have one direction.
+    step = ends[:, 1] - ends[:, 0]
+    along = (ends[:, 0] * step).sum(-1) / np.maximum(np.hypot(*step.T), 1e-300)
+    is_sorted = may_sort[line]
+    order = np.lexsort([np.where(is_sorted, part, 0) for part in (along, segment, line)] + [run])
+    line, segment, ends, run = line[order], segment[order], ends[order], run[order]
     follows = (run[1:] == run[:-1]) & (line[1:] == line[:-1])
     follows &= (segment[1:] - segment[:-1] <= 1) & (segment[1:] >= segment[:-1])
     follows &= np.abs(ends[1:, 0] - ends[:-1, 1]).max(1, initial=0) <= _JOINED
@@ -1190,8 +1210,27 @@ def _group(artist):
            artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
     clip = id(getattr(clip, "_patch", clip))
     if isinstance(artist, (mcoll.Collection, mpatches.Patch)):
-        key += (artist.get_hatch(), artist.get_capstyle(), artist.get_joinstyle(), bool(artist.get_hatch()) and id(artist))
+        key += (artist.get_hatch(), bool(artist.get_hatch()) and id(artist))
     return key + (clip,)
+
+
+def _style(artist):
+    """The key of artists whose lines are painted together."""
+    return _cap_and_join(artist) if isinstance(artist, (mcoll.Collection, mpatches.Patch, mlines.Line2D)) else ()
+
+
+def _cap_and_join(artist):
+    """The styles of the ends and the corners of an artist's lines."""
+    if not isinstance(artist, mlines.Line2D):
+        return artist.get_capstyle(), artist.get_joinstyle()
+    if artist.is_dashed():
+        return artist.get_dash_capstyle(), artist.get_dash_joinstyle()
+    return artist.get_solid_capstyle(), artist.get_solid_joinstyle()
+
+
+def _has_gaps(artist):
+    """Whether the gaps of a dashed line have a colour."""
+    return isinstance(artist, mlines.Line2D) and artist.is_dashed() and artist.get_gapcolor() is not None
 
 
 def _take_style(copy, artist, kind=martist.Artist):
@@ -1264,7 +1303,8 @@ class _Exact:
 
     def __getstate__(self):
         # A tree is built again from what is drawn.
-        return {name: value for name, value in super().__getstate__().items() if name != "_exact_built"}
+        left_out = "_exact_built", "exact_progress"
+        return {name: value for name, value in super().__getstate__().items() if name not in left_out}
 
     def get_children(self):
         children = super().get_children()
@@ -1280,7 +1320,7 @@ class _Exact:
         taken = [
             child for child in self._children if child.get_visible() and not child.get_animated() and _kind(child)
         ]
-        zorders = [artist.zorder for artist in taken]
+        zorders = [(artist, artist.zorder) for artist in taken]
         taken.sort(key=lambda artist: artist.zorder)
         self._exact_composite = _Composite(self, taken)
         late = []
@@ -1297,8 +1337,7 @@ class _Exact:
                 del artist.do_3d_projection
                 _project_late(artist)
             self._exact_composite = None
-            in_order = [child for child in self._children if any(child is artist for artist in taken)]
-            for artist, zorder in zip(in_order, zorders):
+            for artist, zorder in zorders:
                 artist.zorder = zorder
         return None
 
