@@ -187,7 +187,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 }
 
 /// The target of a path, through links to files that need not exist: the target is replaced, not the links.
-fn behind_links(path: &Path) -> io::Result<PathBuf> {
+pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
         match fs::read_link(&target) {

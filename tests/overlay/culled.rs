@@ -82,6 +82,32 @@ fn a_culled_order_is_the_whole_order_without_outside_and_back_facing_fragments()
     enough!(kept > 200, outside > 200, turned > 200, lines > 60; "{kept} {outside} {turned} {lines}");
 }
 
+/// Coplanar pieces keep their input order after the fragments on their plane, culled or not, and a buffer's
+/// earlier contents are gone.
+#[test]
+fn coplanar_pieces_keep_their_places() {
+    let square = |x: f64, z: f64| [[x, 0.0, z], [x + 1.0, 0.0, z], [x + 1.0, 1.0, z], [x, 1.0, z]];
+    let tree = BspTree::build((0..8).map(|k| square(f64::from(k % 4), f64::from(k / 4)))).unwrap();
+    let mut overlay = Overlay::new(&tree);
+    let shifted = |x: f64, z: f64| square(x, z).map(|[x, y, z]| [x + 0.25, y / 2.0, z]);
+    let pieces = (0..12).map(|k| shifted(f64::from(k % 3), 0.5 * f64::from(k / 3)));
+    overlay.replace(&tree, pieces).unwrap();
+    let culling = Culling::NONE.with_frustum(Frustum::new([(DVec3::NEG_X, -2.6)]));
+    let (mut left, mut right) = (0, 0);
+    for height in [-9.0, 0.2, 0.7, 9.0] {
+        let order = overlay.order(&tree, Viewpoint::eye([2.0, 0.3, height])).unwrap();
+        let (mut whole, mut culled) = (vec![], vec![77; 5]);
+        order.write_into(&mut whole);
+        order.culled(&culling).write_into(&mut culled);
+        assert!(whole.len() == overlay.len() + tree.len());
+        right += whole.len() - culled.len();
+        left += culled.len();
+        let mut rest = whole.into_iter();
+        assert!(culled.iter().all(|number| rest.any(|next| next == *number)), "{culled:?}");
+    }
+    enough!(left > 40, right > 4; "{left} {right}");
+}
+
 /// Without shapes, it is the tree's own culled order.
 #[test]
 fn an_empty_overlay_culls_as_its_tree_does() {

@@ -1,7 +1,6 @@
 //! The common arguments of several commands.
 
 use std::ffi::OsString;
-use std::num::NonZeroUsize;
 
 use binspace::glam::DVec3;
 use binspace::{BuildOptions, Heuristic};
@@ -96,13 +95,17 @@ impl Args for IsGiven {
     }
 }
 
+/// The largest number of threads. Too large: a mistyped number makes threads until memory ends.
+const MOST_THREADS: i64 = 1024;
+
 /// The options of all commands.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "General")]
 pub(crate) struct GeneralArgs {
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", global = true, hide_short_help = true)]
-    threads: Option<NonZeroUsize>,
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    threads: Option<u16>,
     /// Print only errors: neither notes nor progress
     #[arg(long, global = true, conflicts_with = "notes", hide_short_help = true)]
     quiet: bool,
@@ -120,7 +123,7 @@ impl GeneralArgs {
             _ => Notes::Brief,
         });
         let Some(threads) = self.threads else { return Ok(()) };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
         pool.build_global().map_err(|error| Failure::about("--threads", error))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fmt::Write as _;
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ use crate::Outcome;
 use crate::args::{ExportArgs, ExportFormat};
 use crate::colours::{Colouring, Colours};
 use crate::failure::Failure;
-use crate::files::{NewFile, Output, STANDARD};
+use crate::files::{NewFile, Output, STANDARD, behind_links};
 use crate::format::format;
 use crate::job::{self, Made};
 use crate::progress::Progress;
@@ -27,7 +28,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     let output = Output::open(Some(&args.output))?;
     // Colours of OBJ files are in a file beside it.
     let library = match format {
-        ExportFormat::Obj => library(&args.output),
+        ExportFormat::Obj => library(&args.output)?,
         _ => None,
     };
     let materials = library.as_deref().map(NewFile::create).transpose()?;
@@ -59,9 +60,28 @@ pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The file of materials beside an OBJ file.
-fn library(output: &Path) -> Option<PathBuf> {
-    (output != Path::new(STANDARD)).then(|| output.with_extension("mtl"))
+/// The first line of a file of materials: only such a file is replaced.
+const MATERIALS: &str = "# Materials of `binspace export`";
+
+/// The file of materials beside an OBJ file; `None` if the output is not a regular file.
+fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
+    let is_special = output.metadata().is_ok_and(|data| !data.is_file());
+    if output == Path::new(STANDARD) || is_special {
+        return Ok(None);
+    }
+    let target = behind_links(output).map_err(|error| Failure::about(output.display(), error))?;
+    let library = target.with_extension("mtl");
+    if library == target {
+        let problem = "the materials go into this file: name the triangles' file .obj";
+        return Err(Failure::about(output.display(), problem));
+    }
+    match fs::read(&library) {
+        Ok(bytes) if !bytes.starts_with(MATERIALS.as_bytes()) => {
+            let problem = "it exists, and `binspace export` did not write it: choose another name for the .obj";
+            Err(Failure::about(library.display(), problem))
+        }
+        _ => Ok(Some(library)),
+    }
 }
 
 /// The data to write.
@@ -121,6 +141,7 @@ impl Export<'_> {
         let mut colours: Vec<[u8; 4]> = self.faces().map(|face| self.colour(face.1)).collect();
         colours.sort_unstable();
         colours.dedup();
+        writeln!(out, "{MATERIALS}")?;
         for colour in colours {
             let [r, g, b, opacity] = colour.map(|channel| f64::from(channel) / 255.0);
             let name = Self::material(colour);

@@ -243,7 +243,9 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let header = parser.read_header(&mut reader);
     let header = header.map_err(|error| format!("in its header: {}", short(&error)))?;
     let mut rest = reader.into_inner();
-    let mut lines = Lines::new(rest);
+    let header_lines =
+        bytes[..bytes.len() - rest.len()].iter().filter(|&&byte| byte == b'\n').count();
+    let mut lines = Lines::after(header_lines, rest);
     let mut precision = Precision::default();
     let mut contents = Contents::default();
     for definition in header.elements.values() {

@@ -16,7 +16,12 @@ pub(crate) struct Line<'a> {
 
 impl<'a> Lines<'a> {
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        Self { rest: bytes, number: 0 }
+        Self::after(0, bytes)
+    }
+
+    /// The lines behind a number of lines that were read otherwise.
+    pub(crate) fn after(number: usize, bytes: &'a [u8]) -> Self {
+        Self { rest: bytes, number }
     }
 }
 

@@ -248,3 +248,14 @@ fn libraries_outside_the_folder_are_not_read() {
         run.good();
     }
 }
+
+/// A mistyped number of threads is refused before any thread is made.
+#[test]
+fn too_many_threads_are_refused() {
+    let folder = Folder::new("too_many_threads");
+    for number in ["0", "1025", "99999999"] {
+        let message = folder.run(&format!("stats crossing --threads {number}")).refused();
+        assert!(message.contains("1..=1024"), "{message}");
+    }
+    folder.run("stats crossing --threads 3").good();
+}

@@ -165,3 +165,31 @@ fn files_of_no_format_are_refused() {
     assert!(folder.run("export newell -o no/s.ply").refused().contains("cannot be written"));
     assert!(folder.files().is_empty());
 }
+
+/// Materials replace only a file that `export` wrote, and never the triangles.
+#[test]
+fn materials_replace_no_file_of_others() {
+    let folder = Folder::new("export_materials");
+    folder.write("mine.mtl", "newmtl mine\n");
+    let message = folder.run("export cornell -o mine.obj").refused();
+    assert!(message.contains("mine.mtl: it exists, and"), "{message}");
+    assert_eq!(fs::read_to_string(folder.path("mine.mtl")).unwrap(), "newmtl mine\n");
+    assert!(!folder.path("mine.obj").exists());
+    let message = folder.run("export cornell -o same.mtl --format obj").refused();
+    assert!(message.contains("name the triangles' file .obj"), "{message}");
+    // Its own are replaced; a link's are beside the file that it names.
+    folder.run("export cornell -o a.obj").good();
+    folder.run("export crossing -o a.obj").good();
+    assert!(!fs::read_to_string(folder.path("a.mtl")).unwrap().contains("newmtl mine"));
+    #[cfg(unix)]
+    {
+        fs::create_dir(folder.path("real")).unwrap();
+        folder.write("real/t.obj", "");
+        std::os::unix::fs::symlink("real/t.obj", folder.path("link.obj")).unwrap();
+        folder.run("export cornell -o link.obj").good();
+        folder.run("stats real/t.obj").good();
+        assert!(folder.path("real/t.mtl").exists() && !folder.path("link.mtl").exists());
+        folder.run("export crossing -o /dev/null --format obj").good();
+        assert!(!std::path::Path::new("/dev/null.mtl").exists());
+    }
+}
