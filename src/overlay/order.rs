@@ -266,8 +266,9 @@ impl<'a> OverlayOrder<'a> {
     /// It takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare
     /// the eye with each plane that leads to the pieces. An empty overlay adds no time. The buffer also
     /// serves as working space; once it is large enough, nothing is allocated. A culled order skips subtrees
-    /// like a [tree's](crate::Order::write_into), and visits all planes that lead to the pieces. The first
-    /// culled order after a [`replace`](Overlay::replace) also computes the boxes of the pieces.
+    /// like a [tree's](crate::Order::write_into), visits all planes that lead to the pieces, and allocates
+    /// working space. The first culled order after a [`replace`](Overlay::replace) also computes the boxes
+    /// of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {
