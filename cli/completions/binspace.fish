@@ -80,7 +80,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand verify" -l quiet -d 'P
 complete -c binspace -n "__fish_binspace_using_subcommand verify" -l notes -d 'Print each note in full, in a line of its own'
 complete -c binspace -n "__fish_binspace_using_subcommand verify" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c binspace -n "__fish_binspace_using_subcommand stats" -l seed -d 'Seed of random built-in scenes and of random views' -r
-complete -c binspace -n "__fish_binspace_using_subcommand stats" -l heuristic -d 'How to choose the planes: one of the ways below, or all' -r
+complete -c binspace -n "__fish_binspace_using_subcommand stats" -l heuristic -d 'Heuristic to choose the planes: one of those below, or all' -r
 complete -c binspace -n "__fish_binspace_using_subcommand stats" -l tolerance -d 'Distance within which points lie on a plane [default: by the input\'s digits]' -r
 complete -c binspace -n "__fish_binspace_using_subcommand stats" -l max-fragments -d 'Largest number of fragments' -r
 complete -c binspace -n "__fish_binspace_using_subcommand stats" -l threads -d 'Number of threads [default: one for each processor]' -r
@@ -112,7 +112,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand render" -l heuristic -
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l tolerance -d 'Distance within which points lie on a plane [default: by the input\'s digits]' -r
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l max-fragments -d 'Largest number of fragments' -r
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l threads -d 'Number of threads [default: one for each processor]' -r
-complete -c binspace -n "__fish_binspace_using_subcommand render" -l z-buffer -d 'Draw what a depth buffer shows'
+complete -c binspace -n "__fish_binspace_using_subcommand render" -l z-buffer -d 'Draw the picture of a depth buffer'
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l difference -d 'Draw where painter and depth buffer differ; exit status 1 if they do'
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l quiet -d 'Print only errors: neither notes nor progress'
 complete -c binspace -n "__fish_binspace_using_subcommand render" -l notes -d 'Print each note in full, in a line of its own'
@@ -136,7 +136,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand draw" -l fov -d 'Verti
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l size -d 'Size of the picture in pixels' -r
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l margin -d 'Empty share of the picture on each side of a whole scene, in percent' -r
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l scale -d 'Millimetres of paper for each unit of the scene, with --view or --direction' -r
-complete -c binspace -n "__fish_binspace_using_subcommand draw" -l edges -d 'Edges to draw: none, all, creases[=DEG] or silhouettes' -r
+complete -c binspace -n "__fish_binspace_using_subcommand draw" -l edges -d 'Edges to draw: none, all, creases[=DEG] or silhouettes [default: none; creases with --lines, --hidden or a DXF]' -r
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l hidden -d 'Hidden parts of edges: none, dashed or layers (by depth)' -r -f -a "dashed\t'Dashed, and thinner'
 layers\t'Dashed the more sparsely the more polygons lie in front: one, two, three, or more'
 none\t'Not at all'"
@@ -156,7 +156,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand draw" -l max-fragments
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l threads -d 'Number of threads [default: one for each processor]' -r
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l ids -d 'Write the numbers of polygons and edges and the names of materials into the SVG'
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l json -d 'Print the figures of the drawing as one JSON object'
-complete -c binspace -n "__fish_binspace_using_subcommand draw" -l lines -d 'Draw lines alone; polygons still hide what is behind them'
+complete -c binspace -n "__fish_binspace_using_subcommand draw" -l lines -d 'Draw lines alone; polygons still hide lines behind them'
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l opaque -d 'Draw translucent polygons as opaque ones'
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l translucent -d 'Draw hidden polygons too, below those that hide them'
 complete -c binspace -n "__fish_binspace_using_subcommand draw" -l quiet -d 'Print only errors: neither notes nor progress'

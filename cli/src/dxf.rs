@@ -1,5 +1,6 @@
 //! Lines as DXF of release 12, which every CAD program reads: a layer for each kind of edges, visible and
-//! hidden. Units are pixels, and y points up.
+//! hidden. Units are pixels or, to scale, millimetres of
+//! paper; y points up.
 
 use std::fmt::{self, Write};
 

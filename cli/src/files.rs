@@ -1,18 +1,21 @@
 //! Files that are written completely or not at all.
 //!
 //! Until it is complete, a file has no name. So if the program ends earlier, by a signal, by lack of memory or
-//! killed, it leaves nothing behind. A complete file is copied to a hidden one beside its place,
-//! `.binspace-….part`, which then replaces an existing file at once. Signals wait until that is done. The hidden
-//! file remains only if the program is killed meanwhile, or the machine stops.
+//! killed, it leaves nothing behind. A complete file gets a hidden name beside its place, `.binspace-….part`, and
+//! then replaces an existing file at once. Linux links the name to the file. Other systems, and file systems
+//! without such links, copy the file. Signals wait while a file has a hidden name. The name remains only if the
+//! program is killed meanwhile, or the machine stops.
 
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, IntoInnerError, IsTerminal, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
+
 use crate::failure::Failure;
 use crate::signals;
 
-/// The most symbolic links that are followed: more count as a circle, as in most systems.
+/// The most symbolic links that are followed: more count as a cycle, as in most systems.
 const MOST_LINKS: usize = 40;
 
 /// The destination of output.
@@ -89,19 +92,21 @@ impl NewFile {
             // For example, a name that is too long is reported now, not at the end.
             Err(error) => return Err(error),
         };
-        let target = behind_links(path)?;
         if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
             return Err(io::ErrorKind::IsADirectory.into());
         }
         if existing.as_ref().is_some_and(|data| !data.is_file()) {
-            let file = OpenOptions::new().write(true).open(&target)?;
+            // The link /dev/stdout leads to a pipe that has no path.
+            let file = OpenOptions::new().write(true).open(path)?;
+            let target = path.to_owned();
             return Ok(Self { writer: BufWriter::new(file), target, place: Place::Same });
         }
         if existing.as_ref().is_some_and(|data| data.permissions().readonly()) {
             return Err(io::ErrorKind::PermissionDenied.into());
         }
+        let target = behind_links(path)?;
         target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        let writer = BufWriter::new(tempfile::tempfile_in(folder_of(&target))?);
+        let writer = BufWriter::new(unnamed(folder_of(&target))?);
         let place = Place::Later(existing.map(|data| data.permissions()));
         Ok(Self { writer, target, place })
     }
@@ -123,22 +128,74 @@ impl NewFile {
     }
 }
 
-/// Puts a complete file in its place, with the given permissions, or the usual ones if there are none. A hidden
-/// file in a folder replaces the existing one.
+/// Creates a file without a name in a folder.
+pub(crate) fn unnamed(folder: &Path) -> io::Result<File> {
+    #[cfg(target_os = "linux")]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+
+        let flags = rustix::fs::OFlags::TMPFILE.bits() as i32;
+        let mut options = OpenOptions::new();
+        let options = options.read(true).write(true).mode(0o666).custom_flags(flags);
+        // Some file systems do not support the flag.
+        options.open(folder).or_else(|_| tempfile::tempfile_in(folder))
+    }
+    #[cfg(not(target_os = "linux"))]
+    tempfile::tempfile_in(folder)
+}
+
+/// Puts a complete file in its place, with the given permissions, or the usual ones if there are none. A file
+/// with a hidden name in a folder replaces the existing one.
 fn put(
-    mut file: File,
+    file: File,
     folder: &Path,
     target: &Path,
     permissions: Option<Permissions>,
 ) -> io::Result<()> {
+    if let Some(permissions) = &permissions {
+        // Now without the user's mask. Best effort: only the content matters.
+        let _ = file.set_permissions(permissions.clone());
+    }
+    match linked(&file, folder) {
+        Ok(part) => part.persist(target).map_err(|error| error.error),
+        Err(_) => {
+            let part = copied(file, folder, permissions)?;
+            part.persist(target).map(drop).map_err(|error| error.error)
+        }
+    }
+}
+
+/// Gives an unnamed file a hidden name in a folder.
+#[cfg(target_os = "linux")]
+fn linked(file: &File, folder: &Path) -> io::Result<NamedTempFile<()>> {
+    use std::os::fd::AsRawFd;
+
+    use rustix::fs::{AtFlags, CWD, linkat};
+
+    let unnamed = format!("/proc/self/fd/{}", file.as_raw_fd());
+    hidden(None).make_in(folder, |path| {
+        Ok(linkat(CWD, unnamed.as_str(), CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+    })
+}
+
+#[cfg(not(target_os = "linux"))]
+fn linked(_: &File, _: &Path) -> io::Result<NamedTempFile<()>> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Copies a file to one with a hidden name in a folder.
+fn copied(
+    mut file: File,
+    folder: &Path,
+    permissions: Option<Permissions>,
+) -> io::Result<NamedTempFile> {
     let mut part = hidden(permissions.clone().or(mode(0o666))).tempfile_in(folder)?;
     file.rewind()?;
     io::copy(&mut file, &mut part)?;
     if let Some(permissions) = permissions {
-        // Now without the user's mask. Best effort: only the content matters.
         let _ = part.as_file().set_permissions(permissions);
     }
-    part.persist(target).map(drop).map_err(|error| error.error)
+    Ok(part)
 }
 
 /// Puts complete files into a new folder with their names; all or none of them. The folder is in another.
@@ -223,7 +280,7 @@ mod tests {
         let target = folder.path().join("a");
         let names = || fs::read_dir(folder.path()).unwrap().count();
         let file = |content: &str| {
-            let mut file = tempfile::tempfile_in(folder.path()).unwrap();
+            let mut file = unnamed(folder.path()).unwrap();
             file.write_all(content.as_bytes()).unwrap();
             file
         };
@@ -233,5 +290,35 @@ mod tests {
         fs::create_dir(&target).unwrap();
         assert!(put(file("other"), folder.path(), &target, None).is_err());
         assert_eq!(names(), 1);
+    }
+
+    /// As on file systems whose unnamed files cannot be linked.
+    #[test]
+    fn a_file_that_cannot_get_a_name_is_copied() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        let named = tempfile::NamedTempFile::new_in(folder.path()).unwrap();
+        let (mut file, path) = named.into_parts();
+        file.write_all(b"content").unwrap();
+        path.close().unwrap();
+        assert!(linked(&file, folder.path()).is_err());
+        put(file, folder.path(), &target, None).unwrap();
+        assert_eq!(fs::read_to_string(&target).unwrap(), "content");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_complete_file_is_not_copied() {
+        use std::os::unix::fs::MetadataExt;
+
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        fs::write(&target, "old").unwrap();
+        let new = NewFile::create(&target).unwrap();
+        let written = new.writer.get_ref().metadata().unwrap().ino();
+        new.write(|out| out.write_all(b"content")).unwrap();
+        assert_eq!(fs::metadata(&target).unwrap().ino(), written);
+        assert_eq!(fs::read_to_string(&target).unwrap(), "content");
     }
 }

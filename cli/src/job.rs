@@ -98,7 +98,7 @@ pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, fo
     }
     if found.crossing > 0 {
         let brief = format!("{} with crossing edges", count(found.crossing, "face"));
-        let full = format!("of these, {brief}: the area covered is a guess");
+        let full = format!("of these, {brief}: the area covered is unspecified");
         remark(scene.name(), brief, full);
     }
     if found.dropped > 0 {

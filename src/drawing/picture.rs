@@ -1,4 +1,4 @@
-//! Vector pictures: areas, lines, markers and labels in the order to paint them, to be written as SVG or PDF.
+//! Collects areas, lines, markers and labels in the order to paint them, to be written as SVG, PDF or TikZ.
 //!
 //! Coordinates are rounded once, when a shape is added, to whole numbers of a small unit. So files are short,
 //! and all formats have the same shapes.

@@ -7,8 +7,11 @@ use super::svg::{Look, Written, write_nodes};
 
 /// The largest coordinate, in big points: TeX has no length beyond 16 383.99 of its points.
 const FURTHEST: f64 = 16_000.0;
+/// The number of corners in a line of the file. Too large: pdfLaTeX refuses lines of 200 000 bytes. Too small:
+/// files are longer.
+const CORNERS: usize = 50;
 
-/// The beginning of a file that is compiled alone.
+/// The beginning of a file that LaTeX compiles alone or includes in a document.
 const HEAD: &str = "\
 % By itself: pdflatex FILE. In a document that has \\usepackage{tikz}: \\input{FILE}.
 % Styles change it: \\tikzset{binspace/CLASS/.style={...}} before it, for the CLASS of a scope below.
@@ -38,10 +41,11 @@ impl VectorPicture {
     ///
     /// A pixel is a big point, 1/72 inch. Each word of the `class` of a [group](Self::group) is a style that
     /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`; it overrides the
-    /// colours and lines of the group. Words with characters other than letters, digits and hyphens, and
+    /// colours and lines of a group whose shapes all have the same paint. In other groups, shapes override the
+    /// style. Labels override it in all groups of several shapes. Words with characters other than letters, digits and hyphens, and
     /// other attributes, are left out. Labels are in the document's font, which must have their characters.
-    /// Strokes of labels are left out. Shapes that reach further than 16 000 pixels are left out, because TeX
-    /// has no such length.
+    /// Strokes of labels are left out. Shapes that reach further than 16 000 pixels, and shapes with a wider
+    /// stroke or longer dashes, are left out, because TeX has no such length.
     pub fn to_tikz(&self) -> String {
         let mut out = HEAD.to_owned();
         // Writing to a string does not fail.
@@ -60,7 +64,7 @@ impl VectorPicture {
         write_nodes(&self.nodes, |part| match part {
             Written::Begin { attributes, look } => {
                 write!(out, "\\begin{{scope}}")?;
-                write_options(out, look, attributes)?;
+                write_options(out, paint_options(look.map(|(paint, _)| paint)), attributes)?;
                 writeln!(out)
             }
             Written::Item { item, attributes, look } => {
@@ -81,25 +85,33 @@ fn write_item(
 ) -> fmt::Result {
     let PaintedShape { shape, .. } = item;
     let paint = item.own_paint();
-    let is_label = matches!(shape, Shape::Label { .. });
-    if !fits(shape, units) || is_label && paint.fill.is_none() {
+    let label = if let Shape::Label { size, .. } = shape { Some(*size) } else { None };
+    if !fits(shape, units) || !stroke_fits(&paint) && label.is_none() {
         return Ok(());
     }
-    let command = match (paint.fill, paint.stroke) {
-        _ if is_label => "\\node",
-        (Some(_), Some(_)) => "\\filldraw",
-        (Some(_), None) => "\\fill",
-        (None, _) => "\\draw",
+    let (command, options) = match (label, paint.fill, paint.stroke) {
+        (Some(_), None, _) => return Ok(()),
+        // A node that is filled is a bar, and a node that is drawn has a frame.
+        (Some(size), Some(colour), _) => ("\\node", label_options(size, colour, paint.opacity)),
+        (None, Some(_), Some(_)) => ("\\filldraw", paint_options(look.map(|_| paint))),
+        (None, Some(_), None) => ("\\fill", paint_options(look.map(|_| paint))),
+        (None, None, _) => ("\\draw", paint_options(look.map(|_| paint))),
     };
     write!(out, "{command}")?;
-    write_options(out, look.map(|(_, font)| (paint, font)), attributes)?;
+    write_options(out, options, attributes)?;
     match shape {
         Shape::Path(Steps { lines, decimals }) => {
             let steps = f64::from(units) * 10f64.powi(*decimals as i32);
-            for Line { corners, is_closed } in lines {
+            for (number, Line { corners, is_closed }) in lines.iter().enumerate() {
                 for (i, corner) in corners.iter().enumerate() {
                     let [x, y] = corner.map(|c| short(c as f64 / steps));
-                    write!(out, "{}({x},{y})", if i == 0 { " " } else { "--" })?;
+                    let between = match (number, i) {
+                        (0, 0) => " ",
+                        (_, 0) => "\n",
+                        _ if i % CORNERS == 0 => "\n--",
+                        _ => "--",
+                    };
+                    write!(out, "{between}({x},{y})")?;
                 }
                 write!(out, "{}", if *is_closed { "--cycle" } else { "" })?;
             }
@@ -108,53 +120,67 @@ fn write_item(
             let [x, y] = at.map(|c| short(c as f64 / f64::from(units)));
             write!(out, " ({x},{y}) circle[radius={}bp]", short(*radius))?;
         }
-        Shape::Label { at, size, text } => {
+        Shape::Label { at, text, .. } => {
             let [x, y] = at.map(|c| short(c as f64 / f64::from(units)));
-            let (size, colour) = (short(*size), rgb(paint.fill.unwrap_or_default()));
-            write!(
-                out,
-                "[anchor=base,inner sep=0pt,text={colour},text opacity={},\
-                 font=\\fontsize{{{size}bp}}{{{size}bp}}\\selectfont] at ({x},{y}) {{{}}}",
-                paint.opacity,
-                escaped(text),
-            )?;
+            write!(out, " at ({x},{y}) {{{}}}", escaped(text))?;
         }
     }
     writeln!(out, ";")
 }
 
+/// Whether all lengths of a stroke are within TeX's range.
+fn stroke_fits(paint: &Paint) -> bool {
+    paint.stroke.is_none_or(|Stroke { width, dashes, .. }| {
+        let [dash, gap] = dashes.unwrap_or_default();
+        [width, dash, gap].into_iter().all(|length| length <= FURTHEST)
+    })
+}
+
 /// Whether all lengths of a shape are within TeX's range.
 fn fits(shape: &Shape, units: u32) -> bool {
-    let is_near = |point: &[i64; 2], decimals: u32| {
-        let most = FURTHEST * f64::from(units) * 10f64.powi(decimals as i32);
+    let is_near = |point: &[i64; 2], decimals: u32, radius: f64| {
+        let most = (FURTHEST - radius) * f64::from(units) * 10f64.powi(decimals as i32);
         point.iter().all(|c| c.unsigned_abs() as f64 <= most)
     };
     match shape {
-        Shape::Path(Steps { lines, decimals }) => {
-            lines.iter().flat_map(|line| &line.corners).all(|corner| is_near(corner, *decimals))
-        }
-        Shape::Marker { at, radius: length } | Shape::Label { at, size: length, .. } => {
-            is_near(at, 0) && *length <= FURTHEST
-        }
+        Shape::Path(Steps { lines, decimals }) => lines
+            .iter()
+            .flat_map(|line| &line.corners)
+            .all(|corner| is_near(corner, *decimals, 0.0)),
+        Shape::Marker { at, radius } => is_near(at, 0, *radius),
+        Shape::Label { at, size, .. } => is_near(at, 0, 0.0) && *size <= FURTHEST,
     }
 }
 
-/// The look of a scope or a shape, and the styles of its classes, which override it.
-fn write_options(out: &mut String, look: Option<Look>, attributes: &str) -> fmt::Result {
-    let mut options: Vec<String> = Vec::new();
-    if let Some((Paint { fill, opacity, stroke }, _)) = look {
-        options.extend(fill.map(|colour| format!("fill={}", rgb(colour))));
-        options.extend((opacity < 1.0).then(|| format!("fill opacity={opacity}")));
-        if let Some(Stroke { width, colour, opacity, dashes, round_ends }) = stroke {
-            options.push(format!("draw={},line width={}bp", rgb(colour), short(width)));
-            options.extend((opacity < 1.0).then(|| format!("draw opacity={opacity}")));
-            options.extend(dashes.map(|lengths| {
-                let [dash, gap] = lengths.map(short);
-                format!("dash pattern=on {dash}bp off {gap}bp")
-            }));
-            options.extend(round_ends.then(|| "line cap=round".to_owned()));
-        }
+fn label_options(size: f64, colour: [u8; 3], opacity: f64) -> Vec<String> {
+    let (size, colour) = (short(size), rgb(colour));
+    vec![
+        format!("anchor=base,inner sep=0pt,text={colour},text opacity={opacity}"),
+        format!("font=\\fontsize{{{size}bp}}{{{size}bp}}\\selectfont"),
+    ]
+}
+
+fn paint_options(paint: Option<Paint>) -> Vec<String> {
+    let mut options = Vec::new();
+    // All shapes with another stroke are left out.
+    let Some(paint) = paint.filter(stroke_fits) else { return options };
+    let Paint { fill, opacity, stroke } = paint;
+    options.extend(fill.map(|colour| format!("fill={}", rgb(colour))));
+    options.extend((opacity < 1.0).then(|| format!("fill opacity={opacity}")));
+    if let Some(Stroke { width, colour, opacity, dashes, round_ends }) = stroke {
+        options.push(format!("draw={},line width={}bp", rgb(colour), short(width)));
+        options.extend((opacity < 1.0).then(|| format!("draw opacity={opacity}")));
+        options.extend(dashes.map(|lengths| {
+            let [dash, gap] = lengths.map(short);
+            format!("dash pattern=on {dash}bp off {gap}bp")
+        }));
+        options.extend(round_ends.then(|| "line cap=round".to_owned()));
     }
+    options
+}
+
+/// Writes the options of a scope or a shape, and the styles of its classes, which override them.
+fn write_options(out: &mut String, mut options: Vec<String>, attributes: &str) -> fmt::Result {
     // Other attributes have no such characters: quotation marks in their values are escaped.
     let classes = attributes.split_once(" class=\"").and_then(|(_, rest)| rest.split_once('"'));
     let is_plain = |word: &&str| word.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
@@ -181,6 +207,12 @@ fn escaped(text: &str) -> String {
             '^' => escaped += "\\textasciicircum{}",
             '~' => escaped += "\\textasciitilde{}",
             '{' | '}' | '$' | '&' | '#' | '%' | '_' => escaped.extend(['\\', c]),
+            // The font encoding OT1 has other characters in their places.
+            '<' => escaped += "\\textless{}",
+            '>' => escaped += "\\textgreater{}",
+            '|' => escaped += "\\textbar{}",
+            // Packages for languages define it as a command.
+            '"' => escaped += "\\symbol{34}",
             '\u{2212}' => escaped += "$-$",
             c if c.is_control() => escaped.push(' '),
             c => escaped.push(c),
@@ -199,13 +231,15 @@ mod tests {
         let expected = "50 \\% of \\{a\\_1\\} \\& \\textbackslash{}b\\textasciicircum{}2 \
                         \\textasciitilde{} \\$3 \\#4 $-$ä";
         assert_eq!(escaped(text), expected);
+        let others = "\\textless{}\\textgreater{}\\textbar{}\\symbol{34}";
+        assert_eq!(escaped("<>|\""), others);
     }
 
     #[test]
     fn classes_become_styles() {
         let options = |attributes: &str| {
             let mut out = String::new();
-            write_options(&mut out, None, attributes).unwrap();
+            write_options(&mut out, vec![], attributes).unwrap();
             out
         };
         assert_eq!(options(""), "");
@@ -228,5 +262,55 @@ mod tests {
         };
         assert_eq!(shapes(15_000.0), [1, 2, 1, 1]);
         assert_eq!(shapes(16_001.0), [0; 4]);
+    }
+
+    #[test]
+    fn strokes_too_wide_or_with_too_long_dashes_for_tex_are_left_out() {
+        let draws = |stroke: Stroke, count: usize| {
+            let mut picture = VectorPicture::new([640, 480]);
+            for y in 0..count {
+                picture.add_lines([[[0.0, y as f64], [9.0, 1.0]]], stroke);
+            }
+            let text = picture.to_tikz();
+            assert!(!text.contains("16001"), "{text}");
+            text.matches("\\draw").count()
+        };
+        let narrow = Stroke::new(1.0, [0; 3]);
+        // Several lines share their look in a scope.
+        for count in [1, 3] {
+            assert_eq!(draws(Stroke::new(16_000.0, [0; 3]), count), count);
+            assert_eq!(draws(narrow.with_dashes(16_000.0, 1.0), count), count);
+            assert_eq!(draws(Stroke::new(16_001.0, [0; 3]), count), 0);
+            assert_eq!(draws(narrow.with_dashes(16_001.0, 1.0), count), 0);
+            assert_eq!(draws(narrow.with_dashes(1.0, 16_001.0), count), 0);
+        }
+    }
+
+    #[test]
+    fn a_label_has_neither_a_background_nor_a_frame() {
+        let mut picture = VectorPicture::new([640, 480]);
+        let paint = Paint::from([1, 2, 3]).with_opacity(0.5);
+        let stroke = Stroke::new(20_000.0, [4, 5, 6]);
+        picture.group(&[("class", "title")], |picture| {
+            picture.add_label([9.0, 9.0], "a", 12.0, paint.with_stroke(stroke));
+        });
+        let text = picture.to_tikz();
+        let node = text.lines().find(|line| line.starts_with("\\node")).unwrap();
+        let expected = "\\node[anchor=base,inner sep=0pt,text={rgb,255:red,1;green,2;blue,3},\
+                        text opacity=0.5,font=\\fontsize{12bp}{12bp}\\selectfont,binspace/title/.try] at (";
+        assert!(node.starts_with(expected) && node.ends_with(") {a};"), "{node}");
+    }
+
+    #[test]
+    fn lines_are_short() {
+        let mut picture = VectorPicture::new([640, 480]);
+        let zigzag: Vec<[f64; 2]> = (0..15_000).map(|i| [f64::from(i % 7), f64::from(i)]).collect();
+        picture.add_lines(vec![zigzag; 3], Stroke::new(1.0, [0; 3]));
+        let ticks = (0..15_000).map(|i| [[f64::from(i), 0.0], [f64::from(i), 3.0]]);
+        picture.add_lines(ticks, Stroke::new(1.0, [0; 3]));
+        let text = picture.to_tikz();
+        assert!(text.len() > 100_000, "{}", text.len());
+        let longest = text.lines().map(str::len).max().unwrap();
+        assert!(longest < 2_000, "{longest}");
     }
 }

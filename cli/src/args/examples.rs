@@ -41,15 +41,15 @@ Examples:
   binspace stats scene.obj --heuristic weighted:8,1,0
 
 Heuristics, by the plane that divides a set of polygons:
-  first          of the first polygon (Fuchs, Kedem and Naylor 1980)
-  random:SEED    of a random polygon (Paterson and Yao 1990)
-  fewest-splits  of the polygon whose plane cuts the fewest (Fuchs, Abram and Grant 1983)
-  balanced       of the polygon that leaves both sides most equal (Naylor 1993: rarely good)
+  first          the plane of the first polygon (Fuchs, Kedem and Naylor 1980)
+  random:SEED    the plane of a random polygon (Paterson and Yao 1990)
+  fewest-splits  the plane of a polygon that cuts the fewest (Fuchs, Abram and Grant 1983)
+  balanced       the plane of a polygon with the most equal sides (Naylor 1993: rarely good)
   weighted:SPLITS,BALANCE,AXIAL
-                 of the lowest weighted sum of both (Thibault and Naylor 1987)
-  sampled:K      the same, among K polygons (Fuchs, Abram and Grant 1983)
-  free-planes    across an axis, as in a k-d tree (Bentley 1975), by bins (Wald 2007)
-  auto           of the last kind or a polygon's, by one cost; polygons are compared
+                 the plane of the lowest weighted sum of both (Thibault and Naylor 1987)
+  sampled:K      the same plane, among those of K polygons (Fuchs, Abram and Grant 1983)
+  free-planes    a plane across an axis, as in a k-d tree (Bentley 1975), by bins (Wald 2007)
+  auto           a free plane or a polygon's, by one cost; polygons are compared
                  by successive halving (Karnin, Koren and Somekh 2013)";
 
 pub(crate) const RENDER: &str = "\

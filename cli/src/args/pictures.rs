@@ -85,15 +85,13 @@ pub(crate) struct DrawArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Lines")]
 pub(crate) struct LineArgs {
-    /// Draw lines alone; polygons still hide what is behind them
+    /// Draw lines alone; polygons still hide lines behind them
     #[arg(long = "lines", conflicts_with = "colours")]
     pub(crate) alone: bool,
-    /// Edges to draw: none, all, creases[=DEG] or silhouettes
-    #[arg(long, value_name = "KIND", value_parser = EdgeChoice::parse, default_value = "none")]
-    #[arg(default_value_if("alone", "true", "creases"))]
-    #[arg(default_value_if("hidden", "dashed", "creases"))]
-    #[arg(default_value_if("hidden", "layers", "creases"))]
-    pub(crate) edges: EdgeChoice,
+    /// Edges to draw: none, all, creases[=DEG] or silhouettes [default: none; creases with --lines,
+    /// --hidden or a DXF]
+    #[arg(long, value_name = "KIND", value_parser = EdgeChoice::parse)]
+    pub(crate) edges: Option<EdgeChoice>,
     /// Hidden parts of edges: none, dashed or layers (by depth)
     #[arg(long, value_name = "STYLE", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) hidden: Hidden,
@@ -138,7 +136,7 @@ pub(crate) enum DrawFormat {
 #[group(multiple = false)]
 #[command(next_help_heading = "Other pictures")]
 pub(crate) struct KindArgs {
-    /// Draw what a depth buffer shows
+    /// Draw the picture of a depth buffer
     #[arg(long)]
     pub(crate) z_buffer: bool,
     /// Draw where painter and depth buffer differ; exit status 1 if they do

@@ -67,7 +67,7 @@ impl NewFolder {
         if is_mounted(target, folder.beside()) {
             return Err(about("it is a mount point: name a folder in it".to_owned()));
         }
-        match tempfile::tempfile_in(folder.beside()) {
+        match files::unnamed(folder.beside()) {
             Ok(_) => Ok(folder),
             Err(error) => Err(about(format!("cannot be written: {error}"))),
         }
@@ -107,7 +107,7 @@ impl NewFolder {
         name: String,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let written = tempfile::tempfile_in(self.beside()).and_then(|file| {
+        let written = files::unnamed(self.beside()).and_then(|file| {
             let mut out = BufWriter::new(file);
             write(&mut out)?;
             out.into_inner().map_err(io::IntoInnerError::into_error)

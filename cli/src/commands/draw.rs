@@ -22,7 +22,7 @@ use crate::files::{Output, STANDARD};
 use crate::format::{about_output, format};
 use crate::job::{self, Made};
 use crate::progress::Progress;
-use crate::strokes::{EdgeChoice, Strokes, strokes};
+use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
 use crate::terminal::{remark, say};
 use crate::upright::note_up;
 use crate::{camera, coverage, dxf, ink, png_file};
@@ -40,10 +40,13 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     let lines = args.lines.alone || format == DrawFormat::Dxf;
     let about_output = |problem: &str| about_output(&args.output, problem);
     check(args, format, lines).map_err(about_output)?;
-    let edges = match args.lines.edges {
-        EdgeChoice::None if format == DrawFormat::Dxf => EdgeChoice::DEFAULT,
-        edges => edges,
-    };
+    let edges = args.lines.edges.unwrap_or(match args.lines.hidden {
+        Hidden::None if !lines => EdgeChoice::None,
+        _ => EdgeChoice::DEFAULT,
+    });
+    if args.scale.is_none() {
+        check_page(format, args.view.size).map_err(|problem| about_output(&problem))?;
+    }
     let output = Output::open(Some(&args.output))?;
     if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
         return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
@@ -55,13 +58,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         None => camera::asked(&args.view, &scene)?,
     };
     let size = camera.size();
-    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && size[0].max(size[1]) > LONGEST {
-        return Err(about_output(&format!(
-            "a page of a PDF or of TeX has at most {LONGEST} points each way, and this one would have \
-             {} x {}: give a smaller --size or --scale",
-            size[0], size[1]
-        )));
-    }
+    check_page(format, size).map_err(|problem| about_output(&problem))?;
     if args.look.cull.cull == Cull::None {
         note_backs(&scene, &tree, &camera);
     }
@@ -142,9 +139,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The pixels of a picture in an inch of paper: points in PDF, and the pixels of CSS elsewhere.
+/// The pixels of a picture in an inch of paper: points in PDF and TeX, millimetres in DXF, and the pixels of CSS
+/// elsewhere.
 fn pixels_in_inch(format: DrawFormat) -> f64 {
-    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) { 72.0 } else { 96.0 }
+    match format {
+        DrawFormat::Pdf | DrawFormat::Tex => 72.0,
+        DrawFormat::Dxf => INCH,
+        DrawFormat::Svg | DrawFormat::Png => 96.0,
+    }
 }
 
 /// The content of the drawing, and its style.
@@ -290,8 +292,8 @@ fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'stati
     let is_png = format == DrawFormat::Png;
     if args.json && args.output == Path::new(STANDARD) {
         Err("the drawing and the figures of --json cannot both go there: name a file")
-    } else if args.lines.alone && args.lines.edges == EdgeChoice::None {
-        Err("with --lines and `--edges none` there is nothing to draw: choose other edges")
+    } else if lines && args.lines.edges == Some(EdgeChoice::None) {
+        Err("with `--edges none`, --lines and a DXF have nothing to draw: choose other edges")
     } else if args.fill.seams == Seams::PlusLighter
         && !lines
         && matches!(format, DrawFormat::Pdf | DrawFormat::Tex)
@@ -304,6 +306,17 @@ fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'stati
     } else {
         Ok(())
     }
+}
+
+/// An error if a page of the format has no such size.
+fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), String> {
+    if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && width.max(height) > LONGEST {
+        return Err(format!(
+            "a page of a PDF or of TeX has at most {LONGEST} points each way, and this one would have \
+             {width} x {height}: give a smaller --size or --scale"
+        ));
+    }
+    Ok(())
 }
 
 /// An error if the opacity of a polygon is not a number from 0 to 1, as it may be in a saved file.

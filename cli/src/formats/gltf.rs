@@ -42,6 +42,9 @@ const KNOWN: [&str; 10] = [
     "MSFT_texture_",
 ];
 
+/// The extension that places several copies of a node's mesh. It is not read.
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
 /// Keys of a document. They occur in any order, and one may be long.
 const KEYS: [&[u8]; 5] =
     [b"\"asset\"", b"\"buffers\"", b"\"meshes\"", b"\"accessors\"", b"\"scenes\""];
@@ -65,7 +68,9 @@ pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Re
     let gltf = parsed(bytes).map_err(about)?;
     let buffers = buffers(name, &gltf, folder)?;
     let instances = instances(&gltf.document).map_err(about)?;
-    let mut left_out = LeftOut::default();
+    let used = &gltf.as_json().extensions_used;
+    let has_copies = used.iter().any(|name| name == INSTANCING);
+    let mut left_out = LeftOut { has_copies, ..LeftOut::default() };
     // Each once, however often it is placed.
     let mut models: Vec<Option<Model<'_>>> = gltf.meshes().map(|_| None).collect();
     let mut triangles = 0_usize;
@@ -107,8 +112,8 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
     if is_binary && is_first_version(bytes) {
         return Err(FIRST.into());
     }
-    if is_binary && length.is_some_and(|length| length as usize > bytes.len()) {
-        return Err("cut short: it says that it is longer".into());
+    if let Some(length) = length.filter(|&length| is_binary && length as usize > bytes.len()) {
+        return Err(format!("truncated: {length} bytes declared, {} found", bytes.len()));
     }
     let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let gltf = Gltf::from_slice_without_validation(json).map_err(|error| match error {
@@ -185,7 +190,7 @@ fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Rc<Vec<
         };
         if bytes.len() < buffer.length() {
             let (says, has) = (buffer.length(), bytes.len());
-            return Err(about(format!("it says that it has {says} bytes, and has {has}")));
+            return Err(about(format!("truncated: {says} bytes declared, {has} found")));
         }
         all.push(bytes);
     }
@@ -494,6 +499,8 @@ struct LeftOut {
     without_faces: usize,
     textures: usize,
     rest_poses: usize,
+    /// Whether nodes may have copies by an extension.
+    has_copies: bool,
 }
 
 impl LeftOut {
@@ -512,6 +519,8 @@ impl LeftOut {
             (self.rest_poses, "instance", " that skins or morph targets move, drawn at rest"),
         ];
         let found = parts.into_iter().filter(|part| part.0 > 0);
-        found.map(|(number, what, how)| format!("{}{how}", count(number, what))).collect()
+        let found = found.map(|(number, what, how)| format!("{}{how}", count(number, what)));
+        let copies = self.has_copies.then(|| format!("copies by {INSTANCING} skipped"));
+        found.chain(copies).collect()
     }
 }

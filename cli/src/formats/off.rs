@@ -55,7 +55,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     // proportional to the file's size.
     if vertices.saturating_add(faces) > bytes.len() / 2 {
         return Err(format!(
-            "it says that it has {vertices} vertices and {faces} faces, more than fit into it"
+            "truncated: {vertices} vertices and {faces} faces declared, more than fit into it"
         ));
     }
     let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Z), Precision::default());
@@ -91,9 +91,10 @@ fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>),
     let count: Option<usize> = words.next().and_then(|word| word.parse().ok());
     let count = count.ok_or("expected the number of its corners")?;
     let mut corners = Vec::new();
-    for _ in 0..count {
-        let word =
-            words.next().ok_or(format!("it says that it has {count} corners, and has fewer"))?;
+    for number in 0..count {
+        let word = words
+            .next()
+            .ok_or_else(|| format!("truncated: {count} corners declared, {number} found"))?;
         match word.parse() {
             Ok(corner) if corner < vertices => corners.push(corner),
             _ => return Err(format!("{word:.20} is not one of {vertices} vertices")),

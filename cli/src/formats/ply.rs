@@ -253,8 +253,9 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         // A last line may lack its end.
         let fits =
             rest.len().saturating_add(1).checked_div(least_size(definition, header.encoding));
-        if count > fits.unwrap_or(0) {
-            return Err(format!("it says that it has {count} of `{kind}`, more than fit into it"));
+        let fits = fits.unwrap_or(0);
+        if count > fits {
+            return Err(format!("truncated: {count} of `{kind}` declared, at most {fits} found"));
         }
         for number in 0..count {
             let what = format!("{kind} {number} (from 0)");

@@ -39,7 +39,7 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let triangles = bytes[HEADER..].chunks_exact(TRIANGLE);
     if (count as usize) > triangles.len() {
         let has = triangles.len();
-        return Err(format!("it says that it has {count} triangles, and has {has}: cut short?"));
+        return Err(format!("truncated: {count} triangles declared, {has} found"));
     }
     let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Z), Precision::default());
     let colours = Colours::of(&bytes[..HEADER - 4]);

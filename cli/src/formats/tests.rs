@@ -280,12 +280,8 @@ fn what_is_wrong_is_named() {
         ),
         (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): cut short"),
         (MeshKind::Stl, stl("outer loop", "inner loop"), "unexpected here"),
-        (MeshKind::BinaryStl, lying(5), "it says that it has 5 triangles, and has 4"),
-        (
-            MeshKind::BinaryStl,
-            lying(u32::MAX),
-            "it says that it has 4294967295 triangles, and has 4",
-        ),
+        (MeshKind::BinaryStl, lying(5), "truncated: 5 triangles declared, 4 found"),
+        (MeshKind::BinaryStl, lying(u32::MAX), "truncated: 4294967295 triangles declared, 4 found"),
         (
             MeshKind::BinaryStl,
             with_nan(),
@@ -295,7 +291,7 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Ply,
             ply_of("vertex 4", "vertex 99999999999"),
-            "it says that it has 99999999999 of `vertex`",
+            "truncated: 99999999999 of `vertex` declared, at most ",
         ),
         (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): cut short"),
         (
@@ -323,7 +319,7 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Ply,
             cut(ply("binary_little_endian"), 3),
-            "it says that it has 4 of `vertex`, more than fit into it",
+            "truncated: 4 of `vertex` declared, at most 3 found",
         ),
         (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than fit into it"),
         (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): cut short"),
@@ -337,8 +333,8 @@ fn what_is_wrong_is_named() {
             off_of("3 0 2 1", "3 0 2 4"),
             "face 0 (from 0): 4 is not one of 4 vertices",
         ),
-        (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "it says that it has 9 corners"),
-        (MeshKind::Gltf, cut(glb(), 1), "cut short: it says that it is longer"),
+        (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "truncated: 9 corners declared, "),
+        (MeshKind::Gltf, cut(glb(), 1), "truncated: "),
         (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "it is glTF 1.0; glTF 2.0 is read"),
         (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "it is glTF 1.0"),
         (MeshKind::Gltf, glb()[..10].to_vec(), "its header is cut short"),
@@ -360,7 +356,7 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Gltf,
             gltf_of("\"byteLength\":72", "\"byteLength\":73"),
-            "buffer 0 (from 0): it says that it has 73 bytes, and has 72",
+            "buffer 0 (from 0): truncated: 73 bytes declared, 72 found",
         ),
         (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "in its JSON: "),
         (

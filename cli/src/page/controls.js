@@ -103,7 +103,8 @@ function show(picture) {
     context.putImageData(picture.image, 0, 0);
     return;
   }
-  picture.canvas ??= new OffscreenCanvas(picture.width, picture.height);
+  picture.canvas ??= Object.assign(
+    document.createElement("canvas"), { width: picture.width, height: picture.height });
   picture.canvas.getContext("2d", { alpha: false }).putImageData(picture.image, 0, 0);
   context.drawImage(picture.canvas, 0, 0, CANVAS.width, CANVAS.height);
 }

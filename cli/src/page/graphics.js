@@ -68,7 +68,7 @@ void main() { pixel = colour; }`;
 
 /** What paints a tree; `null` where the browser has no fast WebGL 2, or the tree is too large for it. */
 function graphicsOf(tree, isFast = true) {
-  const canvas = new OffscreenCanvas(1, 1);
+  const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false });
   if (!gl || isFast && isSlow(gl)) return null;
   const count = tree.corners.length;

@@ -162,11 +162,30 @@ fn a_dxf_has_lines_alone() {
     let kept = fs::read(folder.path("a.dxf")).unwrap();
     assert!(folder.pipe("draw - -o - --format dxf --lines", CROSSING).stdout == kept);
     // What a DXF has no polygons for makes no difference.
-    for options in ["--edges none", "--seams trap", "--translucent"] {
+    let looks = "--colours polygon --background none";
+    for options in ["--edges creases", "--seams trap", "--translucent", looks] {
         folder.run(&format!("draw s.obj -o b.dxf {options}")).good();
         assert!(fs::read(folder.path("b.dxf")).unwrap() == kept, "{options}");
     }
     let message = folder.run("draw s.obj -o a.dxf --ids").refused();
     assert!(message.contains("only SVG has a place for names"), "{message}");
+    let message = folder.run("draw s.obj -o a.dxf --edges none").refused();
+    assert!(message.contains("a DXF have nothing to draw"), "{message}");
     assert!(fs::read(folder.path("a.dxf")).unwrap() == kept);
+}
+
+/// A square of 3 units is 30 mm at 10 mm for each unit.
+#[test]
+fn a_dxf_to_scale_is_in_millimetres_of_paper() {
+    let folder = Folder::new("dxf_scale");
+    folder.write("s.obj", "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nf 1 2 3 4\n");
+    folder.run("draw s.obj -o a.dxf --direction=0,0,-1 --up 0,1,0 --scale 10").good();
+    let dxf = Dxf::parse(&fs::read_to_string(folder.path("a.dxf")).unwrap());
+    let [line] = &dxf.lines[..] else { panic!("{} lines", dxf.lines.len()) };
+    assert!(line.is_closed && line.points.len() == 4);
+    for axis in [0, 1] {
+        let along = line.points.iter().map(|point| point[axis]);
+        let extent = along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min);
+        assert!((extent - 30.0).abs() < 1e-4, "{extent}");
+    }
 }

@@ -52,7 +52,7 @@ fn what_cannot_be_drawn_is_said_at_once() {
         ),
         ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
         ("-o p.svg --format gif", "--format"),
-        ("-o p.svg --lines --edges none", "there is nothing to draw"),
+        ("-o p.svg --lines --edges none", "--lines and a DXF have nothing to draw"),
         ("-o p.svg --lines --hidden dotted", "--hidden"),
         ("-o p.svg --lines --colours polygon", "cannot be used with"),
         ("-o p.svg --edges creases=x", "from 0 to 180 degrees, as in creases=20"),
@@ -108,4 +108,14 @@ fn a_drawing_is_written_completely_or_not_at_all() {
         assert_eq!(fs::read_to_string(folder.path("a.SVG")).unwrap(), kept);
     }
     assert_eq!(folder.files(), ["a.SVG", "s.obj"]);
+}
+
+/// Without a scale, the size of a page is known before the scene is read.
+#[test]
+fn a_page_too_large_is_refused_before_the_scene_is_read() {
+    let folder = Folder::new("draw_page");
+    for name in ["p.pdf", "p.tex"] {
+        let message = folder.run(&format!("draw missing.obj -o {name} --size 14401x2")).refused();
+        assert!(message.contains("at most 14400 points each way"), "{message}");
+    }
 }

@@ -67,7 +67,14 @@ fn as_svg(text: &str, [width, height]: [u32; 2]) -> String {
          <g stroke-linejoin=\"round\">"
     );
     let mut is_clipped = false;
+    let mut command = String::new();
     for line in commands.lines() {
+        if !line.ends_with(';') && !line.starts_with("\\begin") && !line.starts_with("\\end") {
+            // A path of several lines.
+            command = command + line + " ";
+            continue;
+        }
+        let line = &(std::mem::take(&mut command) + line);
         if line == "\\end{scope}" {
             svg += "</g>";
             continue;
@@ -77,7 +84,7 @@ fn as_svg(text: &str, [width, height]: [u32; 2]) -> String {
             continue;
         }
         let rectangle = format!("(0,0) rectangle ({width},{height});");
-        if line == format!("\\clip {rectangle}") {
+        if *line == format!("\\clip {rectangle}") {
             is_clipped = true;
             continue;
         }
@@ -92,13 +99,17 @@ fn as_svg(text: &str, [width, height]: [u32; 2]) -> String {
             path if path == rectangle => format!("M0 0H{width}V{height}H0z"),
             path => {
                 let path = path.strip_suffix(';').unwrap().replace("--cycle", "z");
-                let path = path.replace("--(", "L").replace(" (", "M").replace(')', " ");
+                let path = path
+                    .replace(" --", "--")
+                    .replace("--(", "L")
+                    .replace(" (", "M")
+                    .replace(')', " ");
                 format!("M{}", path.strip_prefix('(').unwrap())
             }
         };
         svg += &format!("<path{kind}{attributes} d=\"{data}\"/>");
     }
-    assert!(is_clipped);
+    assert!(is_clipped && command.is_empty());
     svg + "</g></svg>"
 }
 

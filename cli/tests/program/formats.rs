@@ -145,6 +145,21 @@ fn files_that_are_not_read_are_named() {
 }
 
 #[test]
+fn copies_of_meshes_in_a_gltf_are_left_out_and_that_is_said() {
+    let folder = Folder::new("formats_copies");
+    let (json, buffer) = gltf("b.bin");
+    folder.write("b.bin", &buffer);
+    for (extension, is_said) in [("EXT_mesh_gpu_instancing", true), ("EXT_other", false)] {
+        let used = format!("{{\"extensionsUsed\":[\"{extension}\"],");
+        folder.write("s.gltf", json.replacen('{', &used, 1));
+        let run = folder.run("stats s.gltf");
+        let said = "copies by EXT_mesh_gpu_instancing skipped";
+        assert_eq!(run.err.contains(said), is_said, "{run:?}");
+        run.good();
+    }
+}
+
+#[test]
 fn buffers_beside_a_file_are_found_or_named() {
     let folder = Folder::new("formats_buffers");
     let (json, buffer) = gltf("in/b.bin");
@@ -154,7 +169,7 @@ fn buffers_beside_a_file_are_found_or_named() {
     folder.write("in/b.bin", &buffer[..140]);
     let message = folder.run("stats s.gltf").refused();
     assert!(
-        message.contains("buffer 0 (from 0): it says that it has 144 bytes, and has 140"),
+        message.contains("buffer 0 (from 0): truncated: 144 bytes declared, 140 found"),
         "{message}"
     );
     folder.write("in/b.bin", &buffer);

@@ -35,6 +35,19 @@ fn links_and_devices_are_written_through() {
     assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
 
+/// The paths that a shell passes for `>(…)` and for `/dev/stdout`.
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_without_names_are_written() {
+    let folder = Folder::new("output_unnamed");
+    let expected = folder.run("order newell --eye=3,2,6 -o -").good();
+    for name in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
+        let piped = folder.pipe(&format!("order newell --eye=3,2,6 -o {name}"), "");
+        assert_eq!(String::from_utf8_lossy(&piped.stdout), expected, "{name}: {piped:?}");
+    }
+    assert!(folder.files().is_empty());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_to_a_file_that_is_not_there_is_kept_and_the_file_made() {

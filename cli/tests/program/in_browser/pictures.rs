@@ -113,3 +113,43 @@ fn pictures_are_those_of_the_library() {
     assert!(shown > 400_000, "{shown}");
     assert!(differ[0] <= 10 && differ[1] <= shown / 200, "{differ:?}");
 }
+
+/// A tenth of the pixels of lines may differ: WebGL rounds corners to a sixteenth of a pixel.
+#[test]
+#[ignore = "needs Chromium"]
+fn both_painters_draw_the_same_lines() {
+    let browser = browser();
+    let folder = Folder::new("page_lines");
+    for scene in ["teapot:6", "random:200", "cornell"] {
+        let (page, _) = page_and_tree(&folder, scene);
+        // The pixels of lines, and the pixels in which the painters differ.
+        let counts = |page: &str| -> [usize; 2] {
+            let [first, second] = PAINTERS;
+            let script = format!(
+                "{PAINTED}
+                const colours = new Float32Array(3 * TREE.fragments).fill(200);
+                const opacities = new Float64Array(TREE.fragments).fill(1);
+                const plain = {{ colours, opacities, background: [255, 255, 255] }};
+                const lined = {{ ...plain, edges: [0, 0, 0], cuts: [255, 0, 0] }};
+                const pixels = (painter, style) => {{
+                    graphics = painter;
+                    return Array.from(painted(320, 180, style), pixel => pixel & 0xffffff);
+                }};
+                const differ = (a, b) => a.filter((pixel, i) => pixel !== b[i]).length;
+                const lines = pixels({first}, lined);
+                return [differ(lines, pixels({first}, plain)),
+                    differ(lines, pixels({second}, lined))].join(' ');"
+            );
+            let said = said(browser, &folder.path(""), page, &script);
+            let numbers: Vec<usize> = said.split(' ').map(|n| n.parse().unwrap()).collect();
+            numbers.try_into().unwrap()
+        };
+        let [lines, differ] = counts(&page);
+        assert!(lines > 1_000 && 10 * differ < lines, "{scene}: {differ} of {lines}");
+        // A copy whose WebGL draws wider lines is found out.
+        let broken = page.replace("0.5 * lineWidth *", "1.5 * lineWidth *");
+        assert_ne!(broken, page);
+        let [lines, differ] = counts(&broken);
+        assert!(differ > lines, "{scene}: {differ} of {lines}");
+    }
+}
