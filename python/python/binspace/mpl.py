@@ -488,25 +488,33 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The paths of a collection in the plane of the picture, projected when someone reads them: picking does, painting
-    does not."""
+    """The paths, or the colours, of a collection in the plane of the picture, projected when someone reads them: picking
+    does, painting does not. Collections that are removed from the axes are projected too."""
 
-    def __init__(self, artist):
-        self._artist = artist
+    def __init__(self, artist, name):
+        self._artist, self._axes, self._name = artist, artist.axes, name
 
-    def _paths(self):
+    def _values(self):
         artist = self._artist
-        if artist._paths is self:
-            artist._paths = []
-            if artist.axes is not None:
+        if getattr(artist, self._name) is self:
+            is_removed = artist.axes is None
+            if is_removed:
+                artist.axes = self._axes
+            try:
                 artist.do_3d_projection()
-        return artist._paths
+            finally:
+                if is_removed:
+                    artist.axes = None
+        return getattr(artist, self._name)
 
     def __len__(self):
-        return len(self._paths())
+        return len(self._values())
 
     def __getitem__(self, number):
-        return self._paths()[number]
+        return self._values()[number]
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self._values(), dtype)
 
 
 def _may_be_late(artist):
@@ -518,10 +526,11 @@ def _may_be_late(artist):
 
 
 def _project_late(artist):
-    artist._paths = _Late(artist)
-    # mplot3d projects again where these are missing.
-    for name in ("_facecolors2d", "_edgecolors2d"):
-        artist.__dict__.pop(name, None)
+    names = ["_paths"]
+    if isinstance(artist, art3d.Poly3DCollection):
+        names += ["_facecolors2d", "_edgecolors2d"]
+    for name in names:
+        setattr(artist, name, _Late(artist, name))
 
 
 # The view.
