@@ -12,7 +12,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from binspace import compare
+from binspace import _matplotlib_tests, compare
 from binspace._scenes import SCENES
 from matplotlib.backend_bases import MouseEvent
 from mpl_toolkits.mplot3d import art3d
@@ -70,6 +70,54 @@ def picture(draw, projection, **options):
     draw(figure.add_subplot(projection=projection), **options)
     figure.canvas.draw()
     return np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def test_removed_surfaces_have_colors_and_paths():
+    found = []
+    for projection in ("3d", "exact3d"):
+        ax = plt.figure().add_subplot(projection=projection)
+        x, y = np.meshgrid(range(4), range(4))
+        surface, wires = ax.plot_surface(x, y, x * y, cmap="viridis"), ax.plot_wireframe(x, y, x + y)
+        ax.figure.canvas.draw()
+        surface.remove()
+        wires.remove()
+        colors = [surface.get_facecolor(), surface.get_edgecolor()]
+        found.append(colors + [path.vertices for path in [*surface.get_paths(), *wires.get_paths()]])
+        assert surface.axes is None
+    for before, ours in zip(*found, strict=True):
+        np.testing.assert_array_equal(before, ours)
+
+
+def test_unknown_scenes_are_refused(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["compare", "moebius_strip", "moebius"])
+    with pytest.raises(SystemExit) as refused:
+        compare.main()
+    assert refused.value.code == 2
+    assert "unknown scene: moebius (known: crossing_surfaces, " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", [None, "def test_a():\n    raise ValueError\n"])
+def test_folders_without_tests_that_pass_are_refused(tmp_path, monkeypatch, capsys, text):
+    if text:
+        (tmp_path / "test_a.py").write_text(text)
+    monkeypatch.setattr(sys, "argv", ["compare", "--matplotlib-tests", str(tmp_path)])
+    assert compare.main() == 1
+    assert "has no tests that pass" in capsys.readouterr().err
+
+
+def test_only_pictures_that_differ_have_a_reason(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text(
+        "import pytest\nfrom matplotlib.testing.exceptions import ImageComparisonFailure\n"
+        "def test_bar3d():\n    raise ImageComparisonFailure('images not close (RMS 1.5)')\n"
+        "@pytest.mark.parametrize('failure', [ValueError, ImageComparisonFailure])\n"
+        "def test_stem3d(failure):\n    raise failure('images not close (RMS 1.5)')\n"
+        "def test_fancy():\n    pass\n"
+    )
+    results = _matplotlib_tests.results(str(tmp_path), "exact")
+    assert results["test_fancy"] == [] and len(results["test_stem3d"]) == 2
+    assert _matplotlib_tests.reason("test_bar3d", results["test_bar3d"]) == _matplotlib_tests.ROUNDING
+    assert _matplotlib_tests.reason("test_stem3d", results["test_stem3d"]) is None
 
 
 def one_surface(ax):
