@@ -12,7 +12,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from binspace import compare
+from binspace import _matplotlib_tests, compare
 from binspace._scenes import SCENES
 from matplotlib.backend_bases import MouseEvent
 from mpl_toolkits.mplot3d import art3d
@@ -72,6 +72,54 @@ def picture(draw, projection, **options):
     return np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
 
 
+def test_removed_surfaces_have_colors_and_paths():
+    found = []
+    for projection in ("3d", "exact3d"):
+        ax = plt.figure().add_subplot(projection=projection)
+        x, y = np.meshgrid(range(4), range(4))
+        surface, wires = ax.plot_surface(x, y, x * y, cmap="viridis"), ax.plot_wireframe(x, y, x + y)
+        ax.figure.canvas.draw()
+        surface.remove()
+        wires.remove()
+        colors = [surface.get_facecolor(), surface.get_edgecolor()]
+        found.append(colors + [path.vertices for path in [*surface.get_paths(), *wires.get_paths()]])
+        assert surface.axes is None
+    for before, ours in zip(*found, strict=True):
+        np.testing.assert_array_equal(before, ours)
+
+
+def test_unknown_scenes_are_refused(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["compare", "moebius_strip", "moebius"])
+    with pytest.raises(SystemExit) as refused:
+        compare.main()
+    assert refused.value.code == 2
+    assert "unknown scene: moebius (known: crossing_surfaces, " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", [None, "def test_a():\n    raise ValueError\n"])
+def test_folders_without_tests_that_pass_are_refused(tmp_path, monkeypatch, capsys, text):
+    if text:
+        (tmp_path / "test_a.py").write_text(text)
+    monkeypatch.setattr(sys, "argv", ["compare", "--matplotlib-tests", str(tmp_path)])
+    assert compare.main() == 1
+    assert "has no tests that pass" in capsys.readouterr().err
+
+
+def test_only_pictures_that_differ_have_a_reason(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text(
+        "import pytest\nfrom matplotlib.testing.exceptions import ImageComparisonFailure\n"
+        "def test_bar3d():\n    raise ImageComparisonFailure('images not close (RMS 1.5)')\n"
+        "@pytest.mark.parametrize('failure', [ValueError, ImageComparisonFailure])\n"
+        "def test_stem3d(failure):\n    raise failure('images not close (RMS 1.5)')\n"
+        "def test_fancy():\n    pass\n"
+    )
+    results = _matplotlib_tests.results(str(tmp_path), "exact")
+    assert results["test_fancy"] == [] and len(results["test_stem3d"]) == 2
+    assert _matplotlib_tests.reason("test_bar3d", results["test_bar3d"]) == _matplotlib_tests.ROUNDING
+    assert _matplotlib_tests.reason("test_stem3d", results["test_stem3d"]) is None
+
+
 def one_surface(ax):
     x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
     ax.plot_surface(x, y, x * y, cmap="viridis", edgecolor="k", lw=0.5)
@@ -108,6 +156,11 @@ def hatches(ax):
     ax.contourf(x, y, np.sin(x) * y, offset=2, levels=6, hatches=["+", "\\\\"], colors="none")
 
 
+def noise(ax):
+    x, y = np.meshgrid(np.arange(30), np.arange(30))
+    ax.contourf(x, y, np.random.default_rng(1).normal(size=x.shape), offset=0, levels=[-9, -0.5, 0.5, 9])
+
+
 def a_patch(ax):
     patch = matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4, fc="C2", ec="C3", lw=3, hatch="/")
     ax.add_patch(patch)
@@ -120,13 +173,57 @@ def a_text(ax):
 
 
 @pytest.mark.parametrize(
-    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, hatches, a_patch, a_text]
+    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, hatches, noise, a_patch, a_text]
 )
 def test_what_mplot3d_draws_right_is_the_same(draw, way):
     before, ours = picture(draw, "3d"), picture(draw, "exact3d")
     assert (before != 255).any(-1).mean() > 0.1
     different = np.abs(before - ours).max(-1) > 90
     assert different.mean() < 0.004
+
+
+def turns(a, b, c):
+    """Whether lines from `a` over `b` to `c` turn left, by the sign."""
+    (x, y), (u, v) = (b - a).T, (c - a).T
+    return x * v - y * u
+
+
+def test_bridges_to_holes_cross_no_sides():
+    # Many holes of noise, with corners of one y.
+    x, y = np.meshgrid(np.arange(20), np.arange(20))
+    levels = plt.figure().add_subplot().contourf(x, y, np.random.default_rng(1).normal(size=x.shape))
+    count = 0
+    for path in levels.get_paths():
+        rings, _ = binspace.mpl._rings(np.column_stack([path.vertices, np.zeros(len(path.vertices))]), path.codes)
+        for ring, own in binspace.mpl._without_holes(rings):
+            a, b = ring[:, :2], np.roll(ring[:, :2], -1, 0)
+            for p, q in zip(a[~own], b[~own]):
+                of_p, of_q = (turns(a, b, end) for end in (p, q))
+                of_a, of_b = (turns(p, q, end) for end in (a, b))
+                assert not ((of_p * of_q < 0) & (of_a * of_b < 0)).any()
+                # Nor do they go through corners.
+                is_between = ((a - p) @ (q - p) > 0) & ((a - q) @ (p - q) > 0)
+                assert not (is_between & (of_a == 0)).any()
+                count += 1
+    assert count > 100
+
+
+def test_areas_are_divided_again_only_after_a_change(monkeypatch):
+    calls = []
+    divide = binspace.mpl._without_holes
+    monkeypatch.setattr(binspace.mpl, "_without_holes", lambda rings: calls.append(rings) or divide(rings))
+    ax = plt.figure().add_subplot(projection="exact3d")
+    patch = ax.add_patch(matplotlib.patches.Rectangle((0.2, 0.2), 0.5, 0.4))
+    art3d.pathpatch_2d_to_3d(patch, z=0.5)
+    ax.figure.canvas.draw()
+    ax.azim += 20
+    ax.figure.canvas.draw()
+    assert len(calls) == 1
+    before = np.array(ax.figure.canvas.buffer_rgba())
+    patch._segment3d = [(x + 0.2, y, z) for x, y, z in patch._segment3d]
+    ax.figure.canvas.draw()
+    assert len(calls) == 2
+    assert (np.array(ax.figure.canvas.buffer_rgba()) != before).any()
 
 
 @pytest.mark.parametrize("format", ["svg", "pdf", "png"])

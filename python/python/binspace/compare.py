@@ -439,6 +439,10 @@ def main():
         return _matplotlib_tests.main(options.matplotlib_tests)
     if options.speed:
         return _speed.main(options.rounds)
+    known = [scene.__name__ for scene in SCENES]
+    for name in options.scenes:
+        if name not in known:
+            parser.error(f"unknown scene: {name} (known: {', '.join(known)})")
     scenes = [scene for scene in SCENES if not options.scenes or scene.__name__ in options.scenes]
     if options.picture:
         write_picture(options.picture, scenes)

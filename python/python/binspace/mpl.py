@@ -15,6 +15,7 @@ on it, are painted in the order of their z-orders, and otherwise in the order in
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Sequence
 
 import numpy as np
@@ -43,6 +44,8 @@ _CURVE = 16
 # large files. Too large: pictures that take a second, or many.
 _MOST_PIXELS = 10_000
 _MOST_VECTORS = 200_000
+# As many pairs of a corner and an edge are compared at once. Too small: slow. Too large: much memory.
+_MOST_PAIRS = 1_000_000
 # Ends of lines in a picture are one point if they are no further apart, in pixels.
 _JOINED = 1e-5
 
@@ -127,12 +130,34 @@ def _rings(points, codes):
     return rings, lines
 
 
-def _is_inside(point, ring):
-    """Whether a point of the plane is inside a ring, by the number of crossings."""
-    a, b = ring, np.roll(ring, -1, 0)
-    spans = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
-    a, b = a[spans], b[spans]
-    return np.count_nonzero(a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0]) > point[0]) % 2 == 1
+def _nested(rings):
+    """The pairs of rings of a plane, by number, of which the first corner of one is inside the other, by the number of
+    crossings to the right: arrays of the inner and of the outer rings."""
+    lengths = np.array([len(ring) for ring in rings])
+    starts = np.cumsum(lengths) - lengths
+    a = np.concatenate(rings)
+    following = np.arange(1, len(a) + 1)
+    following[starts + lengths - 1] = starts
+    b, ring = a[following], np.repeat(np.arange(len(rings)), lengths)
+    least = np.minimum.reduceat(a[:, 0], starts)
+    # The corners in the order of their y: an edge is beside those of a range.
+    sorting = np.argsort(a[starts, 1])
+    x, y = a[starts[sorting]].T
+    low, high = (np.searchsorted(y, ends) for ends in (np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])))
+    part = np.cumsum(high - low) // _MOST_PAIRS
+    keys = [np.empty(0, np.int64)]
+    for edges in np.split(np.arange(len(a)), np.flatnonzero(np.diff(part)) + 1):
+        beside, owner = _ranges(low[edges], (high - low)[edges])
+        edge = edges[owner]
+        # Most rings lie far from most corners.
+        near = (x[beside] >= least[ring[edge]]) & (x[beside] < np.maximum(a[edge, 0], b[edge, 0]))
+        beside, edge = beside[near], edge[near]
+        from_, to = a[edge], b[edge]
+        at = from_[:, 0] + (y[beside] - from_[:, 1]) / (to[:, 1] - from_[:, 1]) * (to[:, 0] - from_[:, 0])
+        inner, outer = sorting[beside], ring[edge]
+        keys.append((inner * len(rings) + outer)[(at > x[beside]) & (inner != outer)])
+    keys, counts = np.unique(np.concatenate(keys), return_counts=True)
+    return np.divmod(keys[counts % 2 == 1], len(rings))
 
 
 def _without_holes(rings):
@@ -145,18 +170,22 @@ def _without_holes(rings):
     rings = [ring for ring in rings if len(ring) > 2 and not np.isnan(ring).any()]
     if len(rings) < 2:
         return [(ring, np.ones(len(ring), bool)) for ring in rings]
-    normal = sum(np.abs(np.cross(ring - ring[0], np.roll(ring, -1, 0) - ring[0]).sum(0)) for ring in rings)
+    lengths = np.array([len(ring) for ring in rings])
+    ends = np.cumsum(lengths)
+    normal = np.abs(_planes(np.concatenate(rings), ends - lengths, ends, np.arange(len(rings)))[:3]).sum(1)
     axes = [axis for axis in range(3) if axis != np.argmax(normal)]
     flat = [ring[:, axes] for ring in rings]
     areas = [_area(ring) for ring in flat]
-    around = [
-        [j for j in range(len(rings)) if j != i and _is_inside(flat[i][0], flat[j])] for i in range(len(rings))
-    ]
+    inner, outer = _nested(flat)
+    depth = np.bincount(inner, minlength=len(rings))
+    holes_of = [[] for _ in rings]
+    is_next = depth[inner] == depth[outer] + 1
+    for i, j in zip(outer[is_next].tolist(), inner[is_next].tolist()):
+        holes_of[i].append(j)
     polygons = []
-    for i in range(len(rings)):
-        if len(around[i]) % 2:
+    for i, holes in enumerate(holes_of):
+        if depth[i] % 2:
             continue
-        holes = [j for j in range(len(rings)) if i in around[j] and len(around[j]) == len(around[i]) + 1]
         holes.sort(key=lambda j: -flat[j][:, 0].max())
         ring, plane, own = rings[i], flat[i], np.ones(len(rings[i]), bool)
         if areas[i] < 0:
@@ -180,18 +209,17 @@ def _without_holes(rings):
 
 
 def _area(ring):
-    x, y = ring.T
-    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    x, y = (ring - ring[0]).T
+    return float(np.sum(x[:-1] * y[1:] - y[:-1] * x[1:]))
 
 
 def _seen_corner(ring, point):
     """A corner of a counter-clockwise ring that a point inside sees."""
-    a, b = ring, np.roll(ring, -1, 0)
-    spans = (a[:, 1] <= point[1]) & (b[:, 1] > point[1])
-    numbers = np.flatnonzero(spans)
+    y = ring[:, 1]
+    numbers = np.flatnonzero((y <= point[1]) & (np.append(y[1:], y[:1]) > point[1]))
     if not len(numbers):
         return int(np.argmin(np.hypot(*(ring - point).T)))
-    a, b = a[spans], b[spans]
+    a, b = ring[numbers], ring[(numbers + 1) % len(ring)]
     x = a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
     right = np.where(x >= point[0], x, np.inf)
     nearest = int(np.argmin(right))
@@ -203,17 +231,23 @@ def _seen_corner(ring, point):
     triangle = np.array([point, place, ring[corner]])
     if _area(triangle) < 0:
         triangle = triangle[::-1]
-    edges = np.roll(triangle, -1, 0) - triangle
-    offsets = ring[:, None] - triangle
+    edges = triangle[[1, 2, 0]] - triangle
+    # All corners on the line are inside of a triangle without area: its bounds leave out those beside it.
+    low, high = triangle.min(0), triangle.max(0)
+    x, y = ring.T
+    candidates = np.flatnonzero((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1]))
+    offsets = ring[candidates, None] - triangle
     inside = (edges[:, 0] * offsets[..., 1] - edges[:, 1] * offsets[..., 0] >= 0).all(1)
-    inside[corner] = False
-    inside &= ~(ring == ring[corner]).all(1)
-    candidates = np.flatnonzero(inside)
+    candidates = candidates[inside & (ring[candidates] != ring[corner]).any(1)]
     if len(candidates):
         steps = ring[candidates] - point
         slopes = np.abs(steps[:, 1]) / np.maximum(steps[:, 0], 1e-300)
         return int(candidates[np.lexsort([steps[:, 0], slopes])[0]])
     return int(corner)
+
+
+# The paths of artists that are filled, by number: points, codes, and the polygons without holes.
+_areas_of = weakref.WeakKeyDictionary()
 
 
 class _Source:
@@ -273,19 +307,26 @@ class _Source:
     def set_paths(self, axes, paths):
         """Paths of (points, codes) with this artist's colours."""
         areas = []
+        before = _areas_of.get(self.artist, {})
+        kept = _areas_of[self.artist] = {}
         for row, (points, codes) in enumerate(paths):
             points = _placed(axes, self.artist, np.asarray(points, float).reshape(-1, 3))
-            rings, open_lines = _rings(points, codes)
             rows = np.array([row])
             if not self.is_filled(rows)[0]:
                 if self.is_stroked(rows)[0]:
+                    rings, open_lines = _rings(points, codes)
                     closed = [] if codes is None else [np.concatenate([ring, ring[:1]]) for ring in rings]
                     for line in (rings if codes is None else closed) + open_lines:
                         self.lines.append(line)
                         self.line_rows.append(row)
                 continue
-            for corners, own in _without_holes(rings + open_lines):
-                areas.append((corners, row, own))
+            known = before.get(row)
+            if known is None or not _are_equal(known[:2], (points, codes)):
+                rings, open_lines = _rings(points, codes)
+                codes = None if codes is None else np.array(codes)
+                known = points, codes, _without_holes(rings + open_lines)
+            kept[row] = known
+            areas += [(corners, row, own) for corners, own in known[2]]
         self.polygons = _joined_polygons(areas)
 
 
@@ -447,25 +488,33 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The paths of a collection in the plane of the picture, projected when someone reads them: picking does, painting
-    does not."""
+    """The paths, or the colours, of a collection in the plane of the picture, projected when someone reads them: picking
+    does, painting does not. Collections that are removed from the axes are projected too."""
 
-    def __init__(self, artist):
-        self._artist = artist
+    def __init__(self, artist, name):
+        self._artist, self._axes, self._name = artist, artist.axes, name
 
-    def _paths(self):
+    def _values(self):
         artist = self._artist
-        if artist._paths is self:
-            artist._paths = []
-            if artist.axes is not None:
+        if getattr(artist, self._name) is self:
+            is_removed = artist.axes is None
+            if is_removed:
+                artist.axes = self._axes
+            try:
                 artist.do_3d_projection()
-        return artist._paths
+            finally:
+                if is_removed:
+                    artist.axes = None
+        return getattr(artist, self._name)
 
     def __len__(self):
-        return len(self._paths())
+        return len(self._values())
 
     def __getitem__(self, number):
-        return self._paths()[number]
+        return self._values()[number]
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self._values(), dtype)
 
 
 def _may_be_late(artist):
@@ -477,10 +526,11 @@ def _may_be_late(artist):
 
 
 def _project_late(artist):
-    artist._paths = _Late(artist)
-    # mplot3d projects again where these are missing.
-    for name in ("_facecolors2d", "_edgecolors2d"):
-        artist.__dict__.pop(name, None)
+    names = ["_paths"]
+    if isinstance(artist, art3d.Poly3DCollection):
+        names += ["_facecolors2d", "_edgecolors2d"]
+    for name in names:
+        setattr(artist, name, _Late(artist, name))
 
 
 # The view.
@@ -587,10 +637,15 @@ class _Built:
         return matrix @ placed
 
     def is_of(self, *given):
-        return all(
-            a is b or (a is not None and b is not None and a.shape == b.shape and np.array_equal(a, b, equal_nan=True))
-            for a, b in zip(self.given, given)
-        )
+        return _are_equal(self.given, given)
+
+
+def _are_equal(some, others):
+    """Whether arrays, or None, are equal one by one."""
+    return all(
+        a is b or (a is not None and b is not None and np.shape(a) == np.shape(b) and np.array_equal(a, b, equal_nan=True))
+        for a, b in zip(some, others)
+    )
 
 
 def _are_all(values, starts, lengths):
