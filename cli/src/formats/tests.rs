@@ -297,7 +297,7 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Ply,
             ply_of("0.1 0.2", "inf 0.2"),
-            "vertex 0 (from 0): `x`: inf is not a finite number",
+            "line 24, vertex 0 (from 0): `x`: inf is not a finite number",
         ),
         (
             MeshKind::Ply,
