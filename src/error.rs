@@ -56,8 +56,8 @@ impl Error {
         }
     }
 
-    /// Renumbers the polygon that caused the error, if any. For callers that pass on only some of their
-    /// polygons, such as the polygons of a cell.
+    /// Renumbers the polygon that caused the error, if any. Use it if you built from
+    /// only some of your polygons, such as the polygons of a cell.
     ///
     /// ```
     /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
@@ -131,7 +131,7 @@ impl Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// A number of a polygon, option or argument is out of range.
+    /// A number of a polygon, option or argument is NaN, infinite or out of range.
     InvalidInput,
     /// A polygon, line or point of an overlay or a cell lies outside the tree's grid.
     OutOfBounds,

@@ -74,7 +74,7 @@ pub(crate) struct DemoArgs {
 pub(crate) struct BuildFileArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write, such as scene.bsp, or - ; with --cells a new folder
+    /// File to write, such as scene.bsp, or - for standard output; with --cells, a new folder
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Divide a scene too large for memory into N cells, for order, stats and render
@@ -91,7 +91,7 @@ pub(crate) struct BuildFileArgs {
 pub(crate) struct OrderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// Position of the eye; may be repeated, for an order of each
+    /// Position of the eye; repeat it for one order for each eye
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) eye: Vec<DVec3>,
     /// Direction of view, from infinitely far away

@@ -54,8 +54,8 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// # }
 /// ```
 ///
-/// Each segment is drawn once. Open lines end only where an odd number of segments meet: they are Eulerian
-/// trails, found by Hierholzer's algorithm (1873). If a line can continue in several ways, it continues with
+/// Each segment is drawn once. A line that is not closed begins and ends where an odd number of segments meet:
+/// lines are Eulerian trails, found by Hierholzer's algorithm (1873). If a line can continue in several ways, it continues with
 /// the straightest of a few segments. Two ends are shared if they are equal when rounded to a thousandth of a
 /// pixel, so two ends closer than that may stay separate. Segments with an infinite or NaN coordinate are
 /// left out.

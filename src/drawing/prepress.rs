@@ -223,7 +223,7 @@ impl Drawing {
     /// opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers of
     /// polygons. Polygons that are not opaque keep their outlines. So do edges without an opaque neighbour,
     /// edges of polygons that are not convex and have many corners, and edges whose extension would have less
-    /// than a tenth of a square pixel. The list of paths stays the same; only outlines receive corners. An
+    /// than a tenth of a square pixel. No path is added, removed or moved; outlines only gain corners. An
     /// extended side is no longer an [edge](Path::edges) of its polygon.
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. O(n log n)

@@ -46,8 +46,8 @@ impl<'p> LayerPiece<'p> {
     /// of one layer meet, antialiasing would let the background through.
     ///
     /// Edge 0 leads from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
-    /// belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Edges 8 and up
-    /// belong to the ancestors that cut this ancestor, and to further ancestors, in the order of the calls.
+    /// belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Each
+    /// further ancestor that cuts has the next four numbers, in the order of the calls.
     /// Edges of the 64th and later ancestors are `None`.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;

@@ -287,8 +287,8 @@ impl Overlay {
     }
 
     /// Returns the pieces of polygons as vertices and triangles, without T-junctions between them. The mesh
-    /// is like the mesh of a tree, except that fragments have the numbers of [orders](Self::order), and
-    /// polygons are numbered after the tree's. It shares no vertices with the tree's mesh, and no edge is
+    /// is like the mesh of a tree. Its pieces have the numbers that [orders](Self::order) list, so the first is
+    /// the tree's [`len`](BspTree::len); polygon numbers begin after the tree's last. It shares no vertices with the tree's mesh, and no edge is
     /// welded with the tree's edges.
     ///
     /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices for

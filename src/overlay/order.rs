@@ -224,7 +224,8 @@ impl Overlay {
 
     /// Returns whether no plane of the tree, and no plane that leads to the overlay's pieces, lies between
     /// two viewpoints. If so, both orders are the same, as for [`BspTree::same_order`], until the next
-    /// [`replace`](Self::replace). This is not true of [culled](OverlayOrder::culled) orders.
+    /// [`replace`](Self::replace). This is not true of [culled](OverlayOrder::culled) orders: write them again
+    /// whenever the camera moves.
     ///
     /// O(planes); stops at the first plane between the two viewpoints.
     ///
@@ -255,7 +256,7 @@ impl<'a> OverlayOrder<'a> {
     }
 
     /// Leaves out the fragments and pieces that are outside a frustum or show the wrong side. Lines and
-    /// points have no sides; they are left out only if they are outside the frustum.
+    /// points have no sides; they are left out only if they are outside the frustum. The rest keeps its order.
     pub fn culled(self, culling: &'a Culling) -> Self {
         Self { order: self.order.culled(culling), ..self }
     }
@@ -264,9 +265,9 @@ impl<'a> OverlayOrder<'a> {
     /// [`len`](BspTree::len) are its fragments; the other numbers are [shapes](Overlay::shape).
     ///
     /// It takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare
-    /// the eye with each plane that leads to the pieces. An empty overlay adds no time. The buffer also
+    /// the eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer also
     /// serves as working space; once it is large enough, nothing is allocated. A culled order skips subtrees
-    /// like a [tree's](crate::Order::write_into), visits all planes that lead to the pieces, and allocates
+    /// like a [tree's](crate::Order::write_into), visits all planes on the way to the pieces, and allocates
     /// working space. The first culled order after a [`replace`](Overlay::replace) also computes the boxes
     /// of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {

@@ -162,8 +162,8 @@ impl Builtin {
         }
     }
 
-    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of one
-    /// size ignore the size, and unseeded scenes the seed.
+    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of
+    /// only one size ignore `size`; scenes without randomness ignore `seed`.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
         let (low, high) = self.sizes().unwrap_or(1..=1).into_inner();
         let clamp = |default| size.unwrap_or(default).clamp(low, high);

@@ -231,7 +231,8 @@ impl Scene {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// Returns the normal at a corner of a polygon, if it is in the file, not normalised.
+    /// Returns the normal at a corner of a polygon, as in the file: its length may not be 1. `None` if the file has
+    /// none.
     ///
     /// # Panics
     ///

@@ -311,7 +311,7 @@ impl ObjStream {
     ///
     /// # Errors
     ///
-    /// If the file can no longer be read, or has changed.
+    /// If the file can no longer be read, or has other faces than before.
     pub fn read<B>(
         &self,
         mut visit: impl FnMut(&[DVec3], u32) -> ControlFlow<B>,

@@ -99,7 +99,7 @@ impl<'t> Node<'t> {
         self.tree.faces.plane(self.plane()).facing(&eye).into()
     }
 
-    /// Returns the numbers of the fragments on the plane, and on both sides down to the leaves.
+    /// Returns the numbers of the fragments of the whole subtree: on the plane, in front and behind.
     pub fn fragments(&self) -> Range<u32> {
         self.first..self.end
     }

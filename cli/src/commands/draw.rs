@@ -130,7 +130,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     output.write(|out| out.write_all(&file))?;
     view.show(None);
     if figures.visible == 0 {
-        let nothing = "the picture shows nothing of it";
+        let nothing = "no polygon is visible in the picture";
         remark(scene.name(), nothing, nothing);
     }
     if args.json {

@@ -61,7 +61,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let is_plain = matches!(kind, Kind::Painter | Kind::ZBuffer);
     if !is_plain && args.samples > 1 {
         let name = kind.name();
-        return Err(format!("--{name} has one value a pixel: leave out --samples"));
+        return Err(format!("--{name} takes one sample a pixel: leave out --samples"));
     }
     Ok(())
 }

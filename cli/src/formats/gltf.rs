@@ -318,7 +318,7 @@ impl<'a> Part<'a> {
         }
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
         if positions.data_type() == DataType::U32 || positions.dimensions() != Dimensions::Vec3 {
-            return Err("its positions are not three numbers of 32 bits or fewer".into());
+            return Err("its positions are not three floats, or integers of 8 or 16 bits".into());
         }
         let values = |accessor: Accessor<'_>, is_share| Values::of(&accessor, is_share, buffers);
         let are_shares = positions.normalized();

@@ -62,7 +62,7 @@ fn a_drawing_of_nothing_is_noted() {
     folder.write("block.obj", block(true));
     let says = |options: &str| {
         let run = folder.run(&format!("draw block.obj --size 16x12 {options} --notes"));
-        let says = run.err.contains("block.obj: the picture shows nothing of it");
+        let says = run.err.contains("block.obj: no polygon is visible in the picture");
         run.good();
         says
     };

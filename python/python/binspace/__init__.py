@@ -198,7 +198,7 @@ class Tree(_binspace.Tree):
         direction, end : array of the same shape
             The direction of each ray, or the point where each segment ends.
         limit : int, optional
-            The most hits of one ray.
+            The largest number of hits for each ray; all if None.
 
         Returns
         -------
@@ -248,7 +248,7 @@ class Tree(_binspace.Tree):
         front_faces_only : bool
             Whether polygons seen from behind are left out.
         least_area : float
-            Drawings leave out polygons of which less is visible, in square pixels.
+            Drawings leave out polygons with a smaller visible area, in square pixels.
         progress : callable, optional
             As for `Tree`.
         """
@@ -257,7 +257,7 @@ class Tree(_binspace.Tree):
     def translucent(self, camera, overlay=None, *, front_faces_only=False, progress=None) -> Drawing:
         """All polygons as paths, nothing hidden, with the lines and points of an overlay between them.
 
-        Polygons are whole where an order allows it.
+        Polygons are split only where no painting order exists.
         """
         return Drawing(self, camera, overlay, front_faces_only, progress)
 
@@ -387,7 +387,7 @@ class Visibility:
         return self._write("svg", path, **options)
 
     def to_pdf(self, path=None, **options):
-        """The picture as PDF: as `to_svg`, but bytes."""
+        """Return the picture as PDF, in bytes; the options are those of `to_svg`."""
         return self._write("pdf", path, **options)
 
     def _write(

@@ -16,7 +16,7 @@ use crate::progress::Watch;
 /// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
 /// A piece has a number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon on one
-/// side of every plane above. Polygons that are not convex or not planar are divided into triangles.
+/// side of every plane nearer the root. Polygons that are not convex or not planar are divided into triangles.
 /// Positions are in the polygons' unit, rounded like [`Fragment::vertices`](crate::Fragment::vertices).
 ///
 /// # Panics

@@ -147,8 +147,8 @@ impl View {
 }
 
 impl BspTree {
-    /// Returns whether no partition plane lies between two viewpoints. If so, both orders of all fragments
-    /// are the same and need not be written or uploaded again. (The orders may be the same even if a plane
+    /// Returns whether no partition plane lies between two viewpoints. If so, the complete order is the same
+    /// for both and need not be written or uploaded again. (The orders may be the same even if a plane
     /// lies between.)
     ///
     /// This is not true of [culled](crate::Order::culled) orders, which change with the facing of polygons

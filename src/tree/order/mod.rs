@@ -67,7 +67,7 @@ impl<'t> Order<'t> {
         Self { is_front_to_back: true, ..self }
     }
 
-    /// Leaves out the fragments that are outside a frustum or show the wrong side.
+    /// Leaves out the fragments that are outside a frustum or show the wrong side. The rest keeps its order.
     pub fn culled(self, culling: &'t Culling) -> Self {
         Self { culling: Some(culling), ..self }
     }
