@@ -32,7 +32,7 @@ SCENES = {
 
 
 class Timed:
-    """A figure, and the least processor times of what was done with it."""
+    """A figure, and the shortest processor time of each step."""
 
     def __init__(self, scene, projection):
         self.scene, self.projection, self.least = scene, projection, {}

@@ -239,7 +239,7 @@ class Depths:
         return is_apart & (self.edge > self.best + self.margin) & _is_alike(self.number)
 
     def blended(self, background):
-        """The colours of all layers, one over another, and where they are certain."""
+        """The colours of all layers, one over another, and a mask of the pixels where they are certain."""
         shape = self.best.shape
         pixels, near, far, number = (np.concatenate(part) for part in zip(*self.layers))
         order = np.lexsort([-near, pixels])

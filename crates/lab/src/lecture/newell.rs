@@ -43,7 +43,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.pictures(pictures);
     chapter.text(
         "The table gives the share of pairs that each test settles. All compared pairs overlap in depth, \
-         and a test gets only the pairs that no earlier test has settled. The first two tests need two \
+         and each test sees only the pairs left undecided by earlier tests. The first two tests need two \
          comparisons of numbers each, and they settle most pairs. Few pairs reach the expensive fifth \
          test.",
     );

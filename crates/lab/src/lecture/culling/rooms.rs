@@ -163,7 +163,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     chapter.text(format!(
         "The figures are sums over {EYES} eyes at random places, with four views each. An exact depth \
          buffer judges each view. A cell is judged by the four views of one eye in it. So some polygons \
-         that count as too many are visible from other points of the cell.",
+         counted as unneeded are visible from other points of the cell.",
     ));
     Ok(())
 }
