@@ -126,8 +126,8 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
          should be visible. But where a buffer stores the same number for both sheets, the sheet that \
          was drawn first stays, and that is the orange one. This happens only where the distance of the \
          sheets is less than one step of the buffer. Where the distance is a share s of a step, it \
-         happens in 1 − s of the pixels. So both the depths at which z-fighting occurs and the number of wrong pixels \
-         can be predicted.",
+         happens in 1 − s of the pixels. So both the depths at which z-fighting occurs and the \
+         number of wrong pixels can be predicted.",
     );
     let (coarse, fine) = (Sheets::new(6e-4, SIZE), Sheets::new(2.4e-6, SIZE));
     let nearest = Sheets::new(5e-5, SIZE);

@@ -63,8 +63,8 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let room = Room::new(FINE, 1).map_err(failure)?;
     let [direct, once] = [0, 1].map(|bounces| room.leaving(bounces));
     chapter.text(format!(
-        "The pictures have {} patches and {} sight lines, one for each pair of patches that might be visible to each \
-         other. Each patch has one colour. The lamp lies in the ceiling, so the ceiling gets no direct \
+        "The pictures have {} patches and {} sight lines, one for each pair of patches that might be \
+         visible to each other. Each patch has one colour. The lamp lies in the ceiling, so the ceiling gets no direct \
          light. One bounce lights it, and the red and the green wall colour the surfaces beside them. \
          Cornell University built and measured this box. This page uses their measurements: the \
          surfaces, the camera, and the reflectances of the paints at 620, 540 and 460 nm, shown as red, \
