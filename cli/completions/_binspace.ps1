@@ -57,7 +57,7 @@ Register-ArgumentCompleter -Native -CommandName 'binspace' -ScriptBlock {
         }
         'binspace;order' {
             [CompletionResult]::new('--seed', '--seed', [CompletionResultType]::ParameterName, 'Seed of random built-in scenes and of random views')
-            [CompletionResult]::new('--eye', '--eye', [CompletionResultType]::ParameterName, 'Position of the eye; may be repeated, for an order of each')
+            [CompletionResult]::new('--eye', '--eye', [CompletionResultType]::ParameterName, 'Position of the eye; repeat it for one order for each eye')
             [CompletionResult]::new('--direction', '--direction', [CompletionResultType]::ParameterName, 'Direction of view, from infinitely far away')
             [CompletionResult]::new('--cull', '--cull', [CompletionResultType]::ParameterName, 'Sides of polygons to leave out: none or back')
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'File to write [default: standard output, as for -]')
@@ -205,8 +205,8 @@ Register-ArgumentCompleter -Native -CommandName 'binspace' -ScriptBlock {
         }
         'binspace;build' {
             [CompletionResult]::new('--seed', '--seed', [CompletionResultType]::ParameterName, 'Seed of random built-in scenes and of random views')
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'File to write, such as scene.bsp, or - ; with --cells a new folder')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'File to write, such as scene.bsp, or - ; with --cells a new folder')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'File to write, such as scene.bsp, or - for standard output; with --cells, a new folder')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'File to write, such as scene.bsp, or - for standard output; with --cells, a new folder')
             [CompletionResult]::new('--cells', '--cells', [CompletionResultType]::ParameterName, 'Divide a scene too large for memory into N cells, for order, stats and render')
             [CompletionResult]::new('--heuristic', '--heuristic', [CompletionResultType]::ParameterName, 'How to choose the planes; `binspace stats -h` lists the ways')
             [CompletionResult]::new('--tolerance', '--tolerance', [CompletionResultType]::ParameterName, 'Distance within which points lie on a plane [default: by the input''s digits]')

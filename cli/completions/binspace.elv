@@ -52,7 +52,7 @@ set edit:completion:arg-completer[binspace] = {|@words|
         }
         &'binspace;order'= {
             cand --seed 'Seed of random built-in scenes and of random views'
-            cand --eye 'Position of the eye; may be repeated, for an order of each'
+            cand --eye 'Position of the eye; repeat it for one order for each eye'
             cand --direction 'Direction of view, from infinitely far away'
             cand --cull 'Sides of polygons to leave out: none or back'
             cand -o 'File to write [default: standard output, as for -]'
@@ -193,8 +193,8 @@ set edit:completion:arg-completer[binspace] = {|@words|
         }
         &'binspace;build'= {
             cand --seed 'Seed of random built-in scenes and of random views'
-            cand -o 'File to write, such as scene.bsp, or - ; with --cells a new folder'
-            cand --output 'File to write, such as scene.bsp, or - ; with --cells a new folder'
+            cand -o 'File to write, such as scene.bsp, or - for standard output; with --cells, a new folder'
+            cand --output 'File to write, such as scene.bsp, or - for standard output; with --cells, a new folder'
             cand --cells 'Divide a scene too large for memory into N cells, for order, stats and render'
             cand --heuristic 'How to choose the planes; `binspace stats -h` lists the ways'
             cand --tolerance 'Distance within which points lie on a plane [default: by the input''s digits]'

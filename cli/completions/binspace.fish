@@ -50,7 +50,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand demo" -l quiet -d 'Pri
 complete -c binspace -n "__fish_binspace_using_subcommand demo" -l notes -d 'Print each note in full, in a line of its own'
 complete -c binspace -n "__fish_binspace_using_subcommand demo" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l seed -d 'Seed of random built-in scenes and of random views' -r
-complete -c binspace -n "__fish_binspace_using_subcommand order" -l eye -d 'Position of the eye; may be repeated, for an order of each' -r
+complete -c binspace -n "__fish_binspace_using_subcommand order" -l eye -d 'Position of the eye; repeat it for one order for each eye' -r
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l direction -d 'Direction of view, from infinitely far away' -r
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l cull -d 'Sides of polygons to leave out: none or back' -r -f -a "none\t'Neither: polygons are seen from both sides'
 back\t'Backs: polygons are seen only where their corners run counter-clockwise'"
@@ -189,7 +189,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand export" -l quiet -d 'P
 complete -c binspace -n "__fish_binspace_using_subcommand export" -l notes -d 'Print each note in full, in a line of its own'
 complete -c binspace -n "__fish_binspace_using_subcommand export" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c binspace -n "__fish_binspace_using_subcommand build" -l seed -d 'Seed of random built-in scenes and of random views' -r
-complete -c binspace -n "__fish_binspace_using_subcommand build" -s o -l output -d 'File to write, such as scene.bsp, or - ; with --cells a new folder' -r -F
+complete -c binspace -n "__fish_binspace_using_subcommand build" -s o -l output -d 'File to write, such as scene.bsp, or - for standard output; with --cells, a new folder' -r -F
 complete -c binspace -n "__fish_binspace_using_subcommand build" -l cells -d 'Divide a scene too large for memory into N cells, for order, stats and render' -r
 complete -c binspace -n "__fish_binspace_using_subcommand build" -l heuristic -d 'How to choose the planes; `binspace stats -h` lists the ways' -r
 complete -c binspace -n "__fish_binspace_using_subcommand build" -l tolerance -d 'Distance within which points lie on a plane [default: by the input\'s digits]' -r
