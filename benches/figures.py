@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures every figure of the documents, and keeps the documents equal to what was measured.
+"""Measures the figures, and fills the tables of the documents with them.
 
     python3 benches/figures.py           # measures, writes benches/figures.md, fills the documents: 20 minutes
     python3 benches/figures.py fill      # fills the documents from benches/figures.md
@@ -33,7 +33,7 @@ PEERS = [
      "our wrong", "its wrong"),
     ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
 ]
-# As above: what has no order, or is not tuned.
+# The same columns, for peers that compute no order or are not tuned.
 OTHERS = [
     ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
     ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),

@@ -3,17 +3,13 @@
 #![allow(missing_docs, reason = "a program")]
 
 use binspace::BspTree;
-use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use bvh::aabb::{Aabb, Bounded};
-use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::Bvh;
 use dhat::{HeapStats, Profiler};
 use euclid::default::Point3D;
-use nalgebra::Point3;
 use plane_split::BspSplitter;
 use std::thread;
-use support::{Table, check, print_head, scene, triangulated, viewpoints};
+use support::{Table, boxed, check, print_head, scene, triangulated, viewpoints};
 
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
@@ -120,33 +116,7 @@ fn bytes_of_splitter(scene: &Scene) -> usize {
 fn bytes_of_hierarchy(scene: &Scene) -> usize {
     let triangles = triangulated(scene);
     bytes_of(|| {
-        let bounds = |points: &[DVec3]| {
-            let points = points.iter().map(|p| Point3::from(p.as_vec3().to_array()));
-            points.fold(Aabb::empty(), |bounds, point| bounds.grow(&point))
-        };
-        let shapes = triangles.polygons().map(|p| Shape { bounds: bounds(p.points()), node: 0 });
-        let mut shapes: Vec<Shape> = shapes.collect();
+        let mut shapes = boxed(&triangles);
         (Bvh::build(&mut shapes), shapes)
     })
-}
-
-struct Shape {
-    bounds: Aabb<f32, 3>,
-    node: usize,
-}
-
-impl Bounded<f32, 3> for Shape {
-    fn aabb(&self) -> Aabb<f32, 3> {
-        self.bounds
-    }
-}
-
-impl BHShape<f32, 3> for Shape {
-    fn set_bh_node_index(&mut self, index: usize) {
-        self.node = index;
-    }
-
-    fn bh_node_index(&self) -> usize {
-        self.node
-    }
 }

@@ -2,14 +2,10 @@
 //! the same polygons as triangles. Its boxes are computed beforehand, in `f32` as most of its users would.
 
 use binspace::BspTree;
-use binspace::glam::DVec3;
 use binspace::scene::Scene;
-use bvh::aabb::{Aabb, Bounded};
-use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::{Bvh, rayon_executor};
-use nalgebra::Point3;
 use std::time::Duration;
-use support::{Table, best, check, ratio, scene, threads, time, triangulated};
+use support::{Table, best, boxed, check, ratio, scene, threads, time, triangulated};
 
 const SCENES: [&str; 13] = [
     "random:1000",
@@ -76,38 +72,8 @@ fn assert_same(a: &BspTree, b: &BspTree) {
 
 /// The shortest time to build a hierarchy of boxes.
 fn hierarchy(scene: &Scene) -> Duration {
-    let triangles = triangulated(scene);
-    let bounds = |points: &[DVec3]| {
-        let points = points.iter().map(|p| Point3::from(p.as_vec3().to_array()));
-        points.fold(Aabb::empty(), |bounds, point| bounds.grow(&point))
-    };
-    let mut boxes: Vec<Shape> = triangles
-        .polygons()
-        .map(|corners| Shape { bounds: bounds(corners.points()), node: 0 })
-        .collect();
+    let mut boxes = boxed(&triangulated(scene));
     let (shortest, hierarchy) = best(|| Bvh::build_with_executor(&mut boxes, rayon_executor));
     assert_eq!(hierarchy.nodes.len(), 2 * boxes.len() - 1);
     shortest
-}
-
-#[derive(Clone)]
-struct Shape {
-    bounds: Aabb<f32, 3>,
-    node: usize,
-}
-
-impl Bounded<f32, 3> for Shape {
-    fn aabb(&self) -> Aabb<f32, 3> {
-        self.bounds
-    }
-}
-
-impl BHShape<f32, 3> for Shape {
-    fn set_bh_node_index(&mut self, index: usize) {
-        self.node = index;
-    }
-
-    fn bh_node_index(&self) -> usize {
-        self.node
-    }
 }

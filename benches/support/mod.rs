@@ -5,6 +5,9 @@
 use binspace::glam::{DQuat, DVec3, EulerRot};
 use binspace::scene::{Builtin, Scene, random_triangles};
 use binspace::{BspTree, Viewpoint};
+use bvh::aabb::{Aabb, Bounded};
+use bvh::bounding_hierarchy::BHShape;
+use nalgebra::Point3;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::Path;
 use std::process::Command;
@@ -132,6 +135,39 @@ pub fn triangulated(scene: &Scene) -> Scene {
         }
     }
     triangles
+}
+
+/// The box of a triangle, in `f32` as most users of `bvh` would have it.
+#[derive(Clone)]
+pub struct Boxed {
+    bounds: Aabb<f32, 3>,
+    node: usize,
+}
+
+impl Bounded<f32, 3> for Boxed {
+    fn aabb(&self) -> Aabb<f32, 3> {
+        self.bounds
+    }
+}
+
+impl BHShape<f32, 3> for Boxed {
+    fn set_bh_node_index(&mut self, index: usize) {
+        self.node = index;
+    }
+
+    fn bh_node_index(&self) -> usize {
+        self.node
+    }
+}
+
+/// The boxes of triangles, for a hierarchy of `bvh`.
+pub fn boxed(triangles: &Scene) -> Vec<Boxed> {
+    let bounds = |points: &[DVec3]| {
+        let points = points.iter().map(|p| Point3::from(p.as_vec3().to_array()));
+        points.fold(Aabb::empty(), |bounds, point| bounds.grow(&point))
+    };
+    let boxes = triangles.polygons().map(|p| Boxed { bounds: bounds(p.points()), node: 0 });
+    boxes.collect()
 }
 
 fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) -> Scene {

@@ -70,7 +70,8 @@ pub(crate) enum View {
 impl View {
     /// The direction of view and the up direction of the picture, for an up direction of the scene.
     fn axes(self, up: DVec3) -> [DVec3; 2] {
-        let up = up.normalize();
+        // Scaled first, so that no square overflows or vanishes.
+        let up = (up / up.abs().max_element()).normalize();
         let side = if up.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
         let forward = up.cross(side).normalize();
         let right = forward.cross(up);

@@ -1,6 +1,5 @@
 //! Lines as DXF of release 12, which every CAD program reads: a layer for each kind of edges, visible and
-//! hidden. Units are pixels or, to scale, millimetres of
-//! paper; y points up.
+//! hidden. Units are pixels or, to scale, millimetres of paper; y points up.
 
 use std::fmt::{self, Write};
 
@@ -47,6 +46,7 @@ fn write(out: &mut String, [width, height]: [u32; 2], all: &[Strokes]) -> fmt::R
 fn write_tables(out: &mut String, all: &[Strokes]) -> fmt::Result {
     let mut depths: Vec<u32> =
         all.iter().map(|strokes| strokes.depth).filter(|&depth| depth > 0).collect();
+    // Strokes are sorted by depth.
     depths.dedup();
     write!(out, "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n{}\n", depths.len() + 1)?;
     write!(out, "0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid\n72\n65\n73\n0\n40\n0.0\n")?;

@@ -33,8 +33,8 @@ pub(crate) fn up_of(scene: &Scene) -> DVec3 {
 /// Notes that z was taken for up, unless the user has given the up direction.
 pub(crate) fn note_up(scene: &Scene, up: &UpArgs) {
     if let (None, Some(reason)) = (up.given(), taken(scene)) {
-        let full = format!("z is taken for up, as {reason}; `--up y` or `--up z` decides");
-        remark(scene.name(), format!("z is taken for up, as {reason}"), full);
+        let full = format!("z points up, because {reason}; `--up y` or `--up z` overrides this");
+        remark(scene.name(), format!("z points up, because {reason}"), full);
     }
 }
 

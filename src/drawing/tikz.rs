@@ -42,8 +42,8 @@ impl VectorPicture {
     /// A pixel is a big point, 1/72 inch. Each word of the `class` of a [group](Self::group) is a style that
     /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`; it overrides the
     /// colours and lines of a group whose shapes all have the same paint. In other groups, shapes override the
-    /// style. Labels override it in all groups of several shapes. Words with characters other than letters, digits and hyphens, and
-    /// other attributes, are left out. Labels are in the document's font, which must have their characters.
+    /// style. Labels override it in all groups of several shapes. Words with characters other than letters,
+    /// digits and hyphens, and other attributes, are left out. Labels are in the document's font, which must have their characters.
     /// Strokes of labels are left out. Shapes that reach further than 16 000 pixels, and shapes with a wider
     /// stroke or longer dashes, are left out, because TeX has no such length.
     pub fn to_tikz(&self) -> String {

@@ -358,7 +358,7 @@ impl Overlay {
             };
             let own_side = SlotSide::empty(own.fragments.len());
             let [front, back] = [(branch.front, front), (branch.back, back)];
-            let is_in_front = cull.is_in_front_of(&self.faces, branch.plane, branch.rounded);
+            let is_in_front = cull.view.is_in_front_of(&self.faces, branch.plane, branch.rounded);
             let (far, near) = if is_in_front { (back, front) } else { (front, back) };
             // A stack: the last part is processed first.
             let parts = [near, (branch.pieces, nothing), (own_side, own), far];

@@ -152,21 +152,26 @@ impl Builtin {
         }
     }
 
-    /// Returns about how many polygons the scene has, without generating it if it is large. A size outside
-    /// [`sizes`](Self::sizes) is not clamped.
+    /// Returns the approximate number of polygons of [`build`](Self::build), without generating the scene if
+    /// it is large.
     pub fn polygons(self, size: Option<u32>) -> usize {
-        match (self, size.or(self.default_size())) {
-            (Self::Teapot, Some(size)) => 32 * (size as usize).pow(2),
-            (_, Some(size)) if self.sizes().is_some() => size as usize,
-            _ => self.build(None, 0).len(),
+        let of_size = |default| self.clamped(size, default) as usize;
+        match (self, self.default_size()) {
+            (_, None) => self.build(None, 0).len(),
+            (Self::Teapot, Some(default)) => 32 * of_size(default).pow(2),
+            (_, Some(default)) => of_size(default),
         }
+    }
+
+    fn clamped(self, size: Option<u32>, default: u32) -> u32 {
+        let (low, high) = self.sizes().unwrap_or(default..=default).into_inner();
+        size.unwrap_or(default).clamp(low, high)
     }
 
     /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of
     /// only one size ignore `size`; scenes without randomness ignore `seed`.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
-        let (low, high) = self.sizes().unwrap_or(1..=1).into_inner();
-        let clamp = |default| size.unwrap_or(default).clamp(low, high);
+        let clamp = |default| self.clamped(size, default);
         match self.row().2 {
             Recipe::OfOneSize(make) => make(),
             Recipe::Sized(default, _, make) => make(clamp(default)),

@@ -3,7 +3,6 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use glam::Vec4;
 use smallvec::SmallVec;
 
 use super::bounds::{Arms, BLOCK, Bounds, Flat, HalfSpace};
@@ -12,7 +11,7 @@ use super::order::eye::View;
 use super::order::write_from_nodes;
 use super::{BspTree, Node};
 use crate::bits::bits;
-use crate::exact::{Faces, Plane, PlaneId};
+use crate::exact::{Plane, PlaneId};
 use crate::viewpoint::{Facing, Frustum, Viewpoint};
 
 /// The fragments that an order leaves out: [`Order::culled`](crate::Order::culled).
@@ -89,7 +88,7 @@ pub(crate) struct Listed {
 pub(crate) struct Cull<'t> {
     tree: &'t BspTree,
     bounds: &'t Bounds,
-    view: View,
+    pub(crate) view: View,
     arms: Arms,
     planes: SmallVec<[HalfSpace; 6]>,
     marks: Marks,
@@ -172,11 +171,6 @@ impl<'t> Cull<'t> {
         let middle = nodes.start + 1 + record.front_nodes;
         let of = |nodes, fragments| Subtree { nodes, fragments };
         [of(nodes.start + 1..middle, front), of(0..0, own), of(middle..nodes.end, back)]
-    }
-
-    /// Whether the eye is in front of a plane of a tree and an overlay, whose faces are given.
-    pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
-        self.view.is_in_front_of(faces, plane, rounded)
     }
 
     /// Writes the furthest fragments of a part, and pushes the other parts onto the stack.

@@ -424,5 +424,11 @@ fn polygons_are_counted_before_they_are_generated() {
         let (said, made) = (scene.polygons(None), scene.build(None, 1).len());
         assert!(said.abs_diff(made) * 10 <= made, "{scene}: {said} {made}");
     }
-    assert_eq!(Builtin::Teapot.polygons(Some(790)), 19_971_200);
+    // Sizes beyond the limits are clamped, as `build` does.
+    for size in [790, 791, u32::MAX] {
+        assert_eq!(Builtin::Teapot.polygons(Some(size)), 19_971_200);
+        assert_eq!(Builtin::Newell.polygons(Some(size)), scene::newell_bars().len());
+    }
+    assert_eq!(Builtin::Chain.polygons(Some(u32::MAX)), 20_000_000);
+    assert_eq!(Builtin::Chain.polygons(Some(0)), 1);
 }

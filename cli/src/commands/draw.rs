@@ -200,7 +200,7 @@ impl<'a> View<'a> {
     where
         'a: 't,
     {
-        self.show(Some(Progress::share("finding what is visible")));
+        self.show(Some(Progress::share("finding visible polygons")));
         tree.visibility(self.style.camera, &self.options)
     }
 

@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 use std::fmt::Write as _;
-use std::fs;
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 
 use binspace::Viewpoint;
@@ -75,13 +75,18 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
         let problem = "the materials go into this file: name the triangles' file .obj";
         return Err(Failure::about(output.display(), problem));
     }
-    match fs::read(&library) {
-        Ok(bytes) if !bytes.starts_with(MATERIALS.as_bytes()) => {
-            let problem = "it exists, and `binspace export` did not write it: choose another name for the .obj";
-            Err(Failure::about(library.display(), problem))
+    if library.metadata().is_ok_and(|data| data.is_file()) {
+        let mut begin = String::new();
+        let file = File::open(&library).map(|file| file.take(MATERIALS.len() as u64));
+        // A text that is not UTF-8 is not ours either.
+        let _ = file.and_then(|mut file| file.read_to_string(&mut begin));
+        if begin != MATERIALS {
+            let problem =
+                "it exists, and `binspace export` did not write it: give the .obj another name";
+            return Err(Failure::about(library.display(), problem));
         }
-        _ => Ok(Some(library)),
     }
+    Ok(Some(library))
 }
 
 /// The data to write.

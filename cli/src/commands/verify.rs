@@ -56,9 +56,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         }
         if seen.comparison.wrong() > 0 {
             let view = reproduce(args, camera);
-            let advice =
-                "with the other options given, and these, `binspace render --difference` draws";
-            progress.suspend(|| note(&format!("{advice} where view {number} is wrong:\n  {view}")));
+            let advice = "add these options and yours to `binspace render --difference`";
+            let note_view = || note(&format!("to see view {number}, {advice}:\n  {view}"));
+            progress.suspend(note_view);
         }
         add(&mut total, &seen.comparison);
         all_right &= is_right;

@@ -22,7 +22,7 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     folder.write("hangs.obj", block(false).replace(" 0\n", " 1\n"));
     let said = |options: &str| {
         let run = folder.run(&format!("{options} --notes"));
-        let said = run.err.contains("z is taken for up, as it stands on z = 0; `--up y`");
+        let said = run.err.contains("z points up, because it stands on z = 0; `--up y`");
         run.good();
         said
     };
@@ -53,7 +53,7 @@ fn a_file_that_looks_z_up_is_noted_where_up_matters() {
     }
     let run =
         crate::run::Run::new(&folder.pipe(&format!("verify - {verify} --notes"), block(false)));
-    assert!(run.err.contains("standard input: z is taken for up"), "{}", run.err);
+    assert!(run.err.contains("standard input: z points up"), "{}", run.err);
 }
 
 #[test]
@@ -91,10 +91,7 @@ fn the_notes_on_a_scene_are_one_line_unless_all_or_none_are_asked_for() {
     {
         assert!(brief.contains(part), "{brief}");
     }
-    assert!(
-        brief.contains("z is taken for up") && brief.ends_with("; --notes for each\n"),
-        "{brief}"
-    );
+    assert!(brief.contains("z points up") && brief.ends_with("; --notes for each\n"), "{brief}");
     let each = notes("--notes");
     assert_eq!(each.lines().count(), 4, "{each}");
     assert!(each.lines().all(|line| line.starts_with("note: s.obj: ")), "{each}");

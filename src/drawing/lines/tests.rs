@@ -51,7 +51,7 @@ pub(in crate::drawing) fn quads(random: &mut SplitMix64, size: f64, off: DVec3) 
     (0..12).map(quad).collect()
 }
 
-/// Rings of so many corners that edges go through the moved corners, also bent a little.
+/// Planar and slightly bent rings. They have so many corners that some edges pass through moved corners.
 fn rings(random: &mut SplitMix64, size: f64, off: DVec3) -> Vec<Vec<DVec3>> {
     let ring = |_| {
         let [middle, u, v] = [(); 3].map(|()| random.point(-size, size));
