@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the figures, and fills the tables of the documents with them.
 
-    python3 benches/figures.py           # measures, writes benches/figures.md, fills the documents: 20 minutes
+    python3 benches/figures.py           # measures, writes benches/figures.md, fills the documents
     python3 benches/figures.py fill      # fills the documents from benches/figures.md
     python3 benches/figures.py check     # fails if a document differs from benches/figures.md
 
