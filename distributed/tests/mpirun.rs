@@ -16,12 +16,15 @@ struct Run {
     err: String,
 }
 
-/// Runs the program on some ranks, in a folder.
+/// Runs the program on some ranks, in a folder. Each run has its own folder for temporary files: Open MPI's
+/// runs share one otherwise, which a run that ends removes while another one begins.
 fn run(folder: &Path, ranks: usize, arguments: &str) -> Run {
+    let temporary = tempfile::tempdir().unwrap();
     let mut command = Command::new("timeout");
     command.args(["100", "mpirun", "--allow-run-as-root", "--oversubscribe", "-np"]);
     command.arg(ranks.to_string()).arg(env!("CARGO_BIN_EXE_binspace-mpi"));
-    let output = command.args(arguments.split_whitespace()).current_dir(folder).output().unwrap();
+    command.args(arguments.split_whitespace()).current_dir(folder).env("TMPDIR", temporary.path());
+    let output = command.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     Run { status: output.status.code(), out: text(&output.stdout), err: text(&output.stderr) }
 }
