@@ -20,11 +20,11 @@ impl VisibilityMap<'_> {
     /// sorted by polygon, then by edge, then from the start of the edge to its end.
     ///
     /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
-    /// not hide it (though another part of a polygon that is not planar may). Polygons share an edge if both
-    /// its corners are the same. Edges that triangulation made inside a polygon are left out, except
-    /// silhouettes. (A polygon that is not planar may be seen from its front on one side of such an edge, and
-    /// from behind on the other side.) Also left out are edges at which all polygons are seen exactly
-    /// edge-on, and edges along a border of the picture with all polygons outside it.
+    /// not hide it, but another part of a polygon that is not planar may hide it. Polygons share an edge if
+    /// both corners of the edge are equal. Edges that triangulation made inside a polygon are left out,
+    /// except silhouettes. (A polygon that is not planar may be seen from its front on one side of such an
+    /// edge, and from behind on the other side.) Also left out are edges whose polygons are all seen exactly
+    /// edge-on, and edges along a border of the picture whose polygons are all outside the picture.
     /// [`crossings`](Self::crossings) returns the lines in which polygons intersect.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
@@ -52,8 +52,9 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The requested runs, each with the number of its segment. With [`Hidden::Count`], hidden runs are cut
-    /// where the number of polygons in front changes, not counting the segment's own faces. Takes one phase.
+    /// The requested runs of a list, in which each run has the number of its segment. With [`Hidden::Count`],
+    /// hidden runs are cut where the number of polygons in front changes, not counting the segment's own
+    /// faces. Takes one phase.
     pub(super) fn runs(
         &self,
         mut list: Vec<(EdgeRun, u32)>,
@@ -97,7 +98,7 @@ impl VisibilityMap<'_> {
         watch: &Watch<'_>,
     ) -> Result<(), Error> {
         let primitives = &self.primitives;
-        // The edges of a face that lie on a line.
+        // For a face and a line, the edges of the face that lie on the line.
         let mut edges: Table<(u32, u64), SmallVec<[u32; 1]>> = Table::default();
         let faces = primitives.lines.frame.faces;
         for face in 0..faces.len() as u32 {
@@ -131,8 +132,8 @@ impl VisibilityMap<'_> {
         Ok(())
     }
 
-    /// Passes the runs of an edge to a function, in the direction of the face that they name, unless no
-    /// polygon shows a side there.
+    /// Passes the runs of an edge to a function, in the direction in which the runs' polygon traverses the
+    /// edge. An edge has no runs if none of its polygons shows a side.
     fn add_runs(&self, edge: &SharedEdge, give: impl FnMut(EdgeRun)) {
         let Some(segment) = &edge.segment else { return };
         let ViewFrame { rays, faces } = &self.primitives.lines.frame;
@@ -188,7 +189,7 @@ impl VisibilityMap<'_> {
                 let number = if faces.outline_edge(face, k).is_some() {
                     *by_points.entry(points).or_insert(new)
                 } else {
-                    // Each edge once, with the second of its faces.
+                    // Each such edge is added once, at the second of its faces.
                     let before = inner.across((face, k)).filter(|other| {
                         *other < (face, k) && faces.outline_edge(other.0, other.1).is_none()
                     });
@@ -249,8 +250,8 @@ impl SharedEdge {
         a != b
     }
 
-    /// Whether the face with this number at the edge, which shows this side, is inside the picture at the
-    /// edge. (A face whose front is seen is where its edges are negative.)
+    /// Whether a face is inside the picture at the edge. `number` is the face's index in `faces`, and `side`
+    /// is the side that the face shows. (A face seen from its front lies on the negative side of its edges.)
     fn is_in_picture(&self, faces: &Faces, number: usize, side: Ordering) -> bool {
         let is_turned = self.is_turned(faces, 0, number);
         let inside = if is_turned { side } else { side.reverse() };
@@ -294,7 +295,7 @@ pub enum EdgeKind {
     Crossing(usize),
 }
 
-/// A part of an edge or of a crossing, visible or hidden from one end to the other.
+/// A part of an edge or of a crossing, either entirely visible or entirely hidden.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct EdgeRun {

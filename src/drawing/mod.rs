@@ -16,7 +16,7 @@
 //! A [`VectorPicture`] combines any of these with colours and line styles of your choice. It writes SVG, TikZ
 //! and, with the feature `pdf`, PDF.
 //!
-//! Polygons may be translucent: [`ViewOptions::opacities`]. [`Drawing::translucent`] hides nothing and needs no
+//! [`ViewOptions::opacities`] makes polygons translucent. [`Drawing::translucent`] hides nothing and needs no
 //! map.
 //!
 //! ```
@@ -32,7 +32,7 @@
 //! let map = tree.visibility(&camera, &ViewOptions::default())?;
 //! assert_eq!(map.polygons().count(), 2);
 //! let drawing = map.drawing()?;
-//! // Both are whole, and the hidden one comes first.
+//! // Both squares are drawn whole. The partly hidden square comes first.
 //! assert!(drawing.paths().map(|path| path.polygon()).eq([0, 1]));
 //! let mut picture = VectorPicture::new(drawing.size());
 //! picture.add_drawing(&drawing, |polygon| [[200, 80, 40], [40, 80, 200]][polygon]);

@@ -18,17 +18,17 @@ use crate::overlay::Overlay;
 use crate::overlay::place::GivenSegment;
 use crate::progress::Watch;
 
-/// A part of a segment of an overlay's line, visible or hidden from one end to the other.
+/// A part of a segment of an overlay's line, either entirely visible or entirely hidden.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineRun {
     /// The index of the line, in input order.
     pub line: usize,
-    /// The number of the segment in its line: it joins the corners of this number and the next number.
+    /// The number of the segment in its line: segment `k` joins the corners `k` and `k + 1`.
     pub segment: usize,
     /// The start and the end of the run in the picture, in the direction of the line, in pixels.
     pub ends: [[f64; 2]; 2],
-    /// Whether it is visible.
+    /// Whether the run is visible.
     pub is_visible: bool,
     /// The number of polygons in front of the run; `None` unless they were [counted](Hidden::Count). It is 0
     /// for a visible run: translucent polygons in front do not count.
@@ -43,7 +43,7 @@ pub struct MarkerView {
     pub point: usize,
     /// The position of the point in the picture, in pixels.
     pub position: [f64; 2],
-    /// Whether it is visible.
+    /// Whether the point is visible.
     pub is_visible: bool,
 }
 
@@ -69,7 +69,7 @@ impl VisibilityMap<'_> {
     /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, even
     /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on the plane,
     /// and the polygon does not hide it. A segment that is further from the plane on one side only is treated
-    /// as entirely on that side. Integers decide this; only the ends of runs are rounded. Polygons seen
+    /// as entirely on that side. These decisions are exact; only the ends of runs are rounded. Polygons seen
     /// edge-on hide nothing, lines hide nothing, and a segment seen end-on has no run.
     ///
     /// O(n log n) for n segments and cells (or faces, with [`Hidden::Count`]), plus the number of pairs that
@@ -200,7 +200,8 @@ impl Between {
     }
 
     /// Places lines and points in an order of `count` parts; `places` contains the place of each item. Also
-    /// returns the pairs of items that the order would have to keep so that each line and point has a place.
+    /// returns the pairs of items that are in the wrong order: if they were not, each line and point would
+    /// have a place.
     pub(super) fn placed(
         &self,
         places: &[u32],
@@ -255,14 +256,14 @@ impl Room {
     }
 
     /// After the items behind, and before the items in front. If no place satisfies both conditions, the
-    /// first wins.
+    /// first condition wins.
     fn between(passed: &Passed, count: u32) -> Self {
         let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
         Self { least, most: first.map_or(count, |first| first.1).max(least) }
     }
 
-    /// The intersection.
+    /// The places in both rooms; `None` if no place is in both.
     fn common(self, other: Self) -> Option<Self> {
         let (least, most) = (self.least.max(other.least), self.most.min(other.most));
         (least <= most).then_some(Self { least, most })
@@ -293,7 +294,7 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
 }
 
 /// Divides a segment into as few runs as possible, each with the number of parts of the drawing that precede
-/// it, according to the items that it passes. Adds pairs that leave no place between them.
+/// it, according to the items that it passes. Adds the pairs of items that leave no place between them.
 fn in_order(
     ends: [f64; 2],
     passes: &[Pass],

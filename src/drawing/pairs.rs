@@ -34,8 +34,8 @@ struct LeafLists<'l, 'p> {
     translucent: Candidates<'p>,
 }
 
-/// All requested pairs, sorted. `place` contains a number for each face's polygon, or `u32::MAX` if it is not
-/// visible. Pairs contain these numbers for opaque polygons, and item numbers for translucent items.
+/// All requested pairs, sorted. `place` returns a number for a face's polygon, or `u32::MAX` if the polygon
+/// is not visible. Pairs contain these numbers for opaque polygons, and item numbers for translucent items.
 pub(super) fn pairs<'l, 'p>(
     primitives: &'p Primitives<'_>,
     leaves: &'l [Leaf],
@@ -141,7 +141,7 @@ impl LeafLists<'_, '_> {
     }
 
     /// Adds the pairs of a visible cell with translucent items. Two translucent items need one pair, which
-    /// the cell of the rear one adds.
+    /// the cell of the rear item adds.
     fn add_blended(
         &self,
         primitives: &Primitives<'_>,
@@ -198,13 +198,13 @@ pub(super) fn around(leaves: &[Leaf]) -> Rect {
     })
 }
 
-/// Tiles are not halved where at most this many items lie between two that cover the tile. Too small: more
-/// tiles. Too large: more pairs are compared.
+/// A tile is not halved if at most this many items lie between any two consecutive items that cover the tile.
+/// Too small: more tiles. Too large: more pairs are compared.
 const FEW: usize = 8;
 
-/// The pairs of items, by their numbers, that overlap in the picture, sorted; sufficient for an order. If an
-/// item covers a part of the picture, pairs with it replace the pairs of items behind it with items in front
-/// of it.
+/// Sorted pairs of items that overlap in the picture, by item numbers. The pairs are sufficient for an order,
+/// but not all are listed: where an item covers a part of the picture, items behind this item are not paired
+/// with items in front of it.
 pub(super) fn overlaps<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,

@@ -1,8 +1,8 @@
-//! Drawings: filled outlines in an order to paint them.
+//! Drawings: filled outlines in painting order.
 //!
-//! Outlines are made from areas that consist of parts. Exact decisions find collinear sides and equal corners
-//! of parts. So outlines are closed, and no outline traverses a line in both directions, however corners are
-//! rounded.
+//! Each outline is made from an area that consists of convex parts. Collinear sides and equal corners of the
+//! parts are found exactly. So outlines are closed, and no outline traverses a line in both directions,
+//! however corners are rounded.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -23,7 +23,7 @@ use crate::progress::Watch;
 use crate::union::Union;
 use crate::{Error, parallel_map};
 
-/// A view as filled outlines, in the order to paint them.
+/// A view as filled outlines, in painting order.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     pub(super) size: [u32; 2],
@@ -33,7 +33,7 @@ pub struct Drawing {
     pub(super) corners: Vec<[f64; 2]>,
     /// For each corner, the edge of the polygon along the side that begins there.
     pub(super) edges: Vec<Option<u32>>,
-    /// Lines and points in the order to paint them, each with the number of paths that precede it.
+    /// Lines and points in painting order, each with the number of paths that precede it.
     pub(super) overlaid: Vec<(u32, Overlaid)>,
 }
 
@@ -64,7 +64,7 @@ impl Drawing {
         }
     }
 
-    /// Adds a path that fills an area, made of parts of these faces of a polygon.
+    /// Adds a path that fills an area. The area consists of parts of these faces of the polygon.
     pub(super) fn push(
         &mut self,
         polygon: usize,
@@ -119,13 +119,14 @@ impl<'d> Path<'d> {
         self.record.polygon
     }
 
-    /// Returns whether the path is only a part of its polygon: the visible part of a polygon in a cycle with
-    /// others, or one of several parts of a translucent polygon.
+    /// Returns whether the path is only a part of its polygon: the visible part of a polygon in a cycle of
+    /// polygons, or one of several parts of a translucent polygon.
     pub fn is_clipped(&self) -> bool {
         self.record.is_clipped
     }
 
-    /// Returns the outlines of the part in the picture, at least one; fill them together by the nonzero rule.
+    /// Returns the outlines of the path, at least one, clipped to the picture. Fill them together by the
+    /// nonzero rule.
     ///
     /// Each outline is a list of at least three corners in pixels: x to the right, y down, and the corner of
     /// the first pixel at (0, 0). Outer outlines are clockwise, and holes counter-clockwise. The outlines of
@@ -256,14 +257,14 @@ struct End {
     /// The place of the end, in the direction of the line's positive half.
     place: f64,
     radius: f64,
-    /// The half of the other side that meets there.
+    /// The half-plane of the other side that ends there.
     across: HalfPlane,
     is_start: bool,
-    /// Whether that half lies ahead.
+    /// Whether that half-plane contains the points ahead, in the direction of the line's positive half.
     is_ahead: bool,
 }
 
-/// A part of an outline on one line, from one corner to another, in the direction of a half.
+/// A part of an outline on one line, from one corner to another, in the direction of a half-plane.
 #[derive(Clone, Copy)]
 struct Piece {
     half: HalfPlane,
@@ -307,7 +308,8 @@ impl Area {
         // Corners that are one point.
         let mut points = Union::new(place(self.sides.len())?)?;
         let pieces = sides.pieces(&mut points, watch)?;
-        // The first of the pieces that begin at each point, and the piece after each piece.
+        // For each point, the first piece that begins there; for each piece, the next piece that begins at
+        // the same point.
         let (mut begin, mut others) = (vec![NONE; self.sides.len()], vec![NONE; pieces.len()]);
         for (i, piece) in pieces.iter().enumerate().rev() {
             let point = points.root(piece.from) as usize;
@@ -323,7 +325,7 @@ impl Area {
                 watch.work(FOLLOWED)?;
                 is_used[i] = true;
                 let piece = &pieces[i];
-                // Collinear pieces follow one another where other lines meet theirs.
+                // Collinear pieces of one line follow one another where other lines meet the line.
                 if outline.last().is_none_or(|last: &Piece| last.half != piece.half) {
                     outline.push(*piece);
                 }
@@ -404,8 +406,8 @@ impl<'a> Sides<'a> {
 
     /// The exact order of two ends of sides on their line, in the direction of its positive half.
     fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
-        // A corner is off by at most its radius, which changes its place by at most as much; the place is
-        // rounded three times.
+        // A corner is off by at most its radius, which changes its place by at most the radius times the
+        // slope. The place is rounded three times.
         let size: f64 = self.lines.reach.iter().sum();
         let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
         if (a.place - b.place).abs() > off {
@@ -445,7 +447,7 @@ impl<'a> Sides<'a> {
         }
     }
 
-    /// The amount by which an outline turns to the left from one half to another.
+    /// The angle by which an outline turns to the left from one half-plane to another.
     fn turn(&self, from: HalfPlane, to: HalfPlane) -> f64 {
         let [[ax, ay], [bx, by]] = [from, to].map(|half| {
             let [_, kx, ky] = self.lines.rounded(half).flipped(half.is_negative()).k;
@@ -531,7 +533,7 @@ struct Nodes {
     polygons: Vec<usize>,
     /// The place of each face's polygon in the list; `u32::MAX` for polygons that are not visible.
     places: Vec<u32>,
-    /// The faces of each polygon that the camera sees, visible or hidden.
+    /// The faces of each polygon that may be visible, even if other polygons hide them.
     faces: Vec<Vec<u32>>,
     ranks: Vec<Ranks>,
 }
@@ -588,7 +590,7 @@ impl Nodes {
     }
 }
 
-/// The next thing to paint.
+/// An element of a [display list](Drawing::display_list).
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum DisplayItem<'d> {

@@ -16,7 +16,8 @@ const CHOICES: usize = 8;
 pub struct Polyline {
     /// The points, from one end to the other. The last point of a closed line is its first.
     pub points: Vec<[f64; 2]>,
-    /// The indices of the segments that it consists of, in input order: one less than points.
+    /// The input indices of the segments of the line, in drawing order. There is one segment less than
+    /// points.
     pub segments: Vec<usize>,
 }
 
@@ -54,11 +55,11 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// # }
 /// ```
 ///
-/// Each segment is drawn once. A line that is not closed begins and ends where an odd number of segments meet:
-/// lines are Eulerian trails, found by Hierholzer's algorithm (1873). If a line can continue in several ways, it continues with
-/// the straightest of a few segments. Two ends are shared if they are equal when rounded to a thousandth of a
-/// pixel, so two ends closer than that may stay separate. Segments with an infinite or NaN coordinate are
-/// left out.
+/// Each segment is drawn once. A line that is not closed begins and ends where an odd number of segments
+/// meet: lines are Eulerian trails, found by Hierholzer's algorithm (1873). If a line can continue in several
+/// ways, it continues with the straightest of a few segments. Two ends are shared if they are equal when
+/// rounded to a thousandth of a pixel, so two ends closer than that may stay separate. Segments with an
+/// infinite or NaN coordinate are left out.
 ///
 /// The next line is always the line with an end nearest to the pen, which begins at (0, 0). O(n log n) for n
 /// segments, unless ends are spread very unevenly.
@@ -98,10 +99,12 @@ struct Net {
     /// The ends at all corners, one corner after another, and the start of each corner's ends.
     ends: Vec<u32>,
     begins: Vec<u32>,
-    /// For each corner, the number of its ends that are used; and whether each segment is used.
+    /// For each corner, the index in `ends` of its first end that may be unused; and whether each segment is
+    /// used.
     done: Vec<u32>,
     is_used: Vec<bool>,
-    /// For each corner where an odd number of ends meet, another such corner, to be reached without drawing.
+    /// For each corner where an odd number of ends meet, another such corner, which a jump reaches without
+    /// drawing.
     jumps: Vec<Option<u32>>,
 }
 
@@ -152,12 +155,12 @@ impl Net {
         }
     }
 
-    /// Trails through all segments: circuits of segments and jumps, parted at the jumps.
+    /// Trails through all segments: circuits of segments and jumps, split at the jumps.
     fn trails(&mut self) -> Vec<Polyline> {
         let mut lines = Vec::new();
         let (mut path, mut circuit): (Vec<Step>, Vec<Step>) = (vec![], vec![]);
         let corners = self.done.len();
-        // From odd corners first, so that circuits there begin with a jump.
+        // Odd corners come first, so that circuits there begin with a jump.
         for start in 0..2 * corners {
             circuit.clear();
             let jump = self.jumps[start % corners].take();
@@ -218,7 +221,7 @@ impl Net {
     fn part(&self, circuit: &[Step], lines: &mut Vec<Polyline>) {
         for steps in circuit.split(|(_, from)| from.is_none()).filter(|steps| !steps.is_empty()) {
             let mut line = Polyline { points: vec![], segments: vec![] };
-            // Exactly, because most lines are short and many.
+            // The exact capacity, because there are many lines, and most are short.
             line.points.reserve_exact(steps.len() + 1);
             line.segments.reserve_exact(steps.len());
             for &(_, from) in steps {
@@ -264,10 +267,10 @@ fn ordered(mut lines: Vec<Polyline>) -> Vec<Polyline> {
 #[derive(Debug)]
 pub(super) struct Ends {
     points: Vec<[f64; 2]>,
-    /// The numbers of the points, place by place, and the place of each.
+    /// The number of the point at each place, and the place of each point.
     numbers: Vec<u32>,
     places: Vec<u32>,
-    /// For each place, the number of remaining points in the range whose middle it is.
+    /// For each place, the number of remaining points in the range whose middle is this place.
     counts: Vec<u32>,
     /// Whether the point of each place remains.
     is_left: Vec<bool>,
@@ -363,7 +366,7 @@ impl Ends {
     }
 }
 
-/// The distance of two points.
+/// The distance between two points.
 pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

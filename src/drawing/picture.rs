@@ -1,4 +1,4 @@
-//! Collects areas, lines, markers and labels in the order to paint them, to be written as SVG, PDF or TikZ.
+//! Vector pictures: areas, lines, markers and labels in painting order, to be written as SVG, PDF or TikZ.
 //!
 //! Coordinates are rounded once, when a shape is added, to whole numbers of a small unit. So files are short,
 //! and all formats have the same shapes.
@@ -8,17 +8,19 @@ use std::fmt::Write;
 
 use super::paths::{Drawing, Path};
 
-/// The largest number of steps per pixel. Too large: viewers' floats lose the steps. Too small: tiny areas
-/// vanish.
+/// The largest number of steps per pixel. Too large: the floats of viewers cannot represent the steps. Too
+/// small: tiny areas vanish.
 const MOST_STEPS: f64 = 1e9;
-/// Shapes and lengths reach no further than this, in pixels, so that they are 64-bit integers in steps.
+/// The largest absolute value of a coordinate or a length, in pixels, so that its number of steps is a 64-bit
+/// integer.
 const FURTHEST: f64 = 1e6;
-/// Shorter lengths, in pixels, count as 0. Too small: some lengths are written as 0, which makes no dashes.
-/// Too large: lines that are visible in an enlarged picture are left out.
+/// Lengths below this, in pixels, count as 0. Too small: a dash of a positive length is written as 0. Too
+/// large: lines that are visible in an enlarged picture are left out.
 const SHORTEST: f64 = 1e-4;
-/// If the longer side of a picture is at least this, units are fiftieths of a pixel: corners are off by a
-/// hundredth, which is not visible, even if the picture is enlarged a few times. If the side is a tenth of
-/// this, units are a tenth as large, and so on.
+/// In a picture whose longer side is at least this, in pixels, a unit is a fiftieth of a pixel. Rounding then
+/// moves corners by at most a hundredth of a pixel, which is not visible even if the picture is enlarged a
+/// few times. In smaller pictures units are a tenth as large, in pictures below a tenth of this a hundredth
+/// as large, and so on.
 const LARGE: u32 = 480;
 const UNITS: u32 = 50;
 
@@ -46,16 +48,16 @@ const UNITS: u32 = 50;
 /// ```
 ///
 /// Positions and lengths are in pixels, as for [`Camera::project`](crate::view::Camera::project). They are
-/// rounded to fiftieths of a pixel; in pictures of less than 480 pixels more finely. A shape with a
-/// coordinate that is NaN, infinite, or further away than a million pixels is left out. A length that is NaN
-/// or less than 10⁻⁴ pixels is 0; shapes and strokes of this size are left out. Opacities are clamped to 0 to
-/// 1, and NaN is 0. So files are well-formed for any numbers.
+/// rounded to fiftieths of a pixel, or more finely if the picture's longer side is below 480 pixels. A shape
+/// with a coordinate that is NaN, infinite, or beyond a million pixels is left out. A length that is NaN or
+/// less than 10⁻⁴ pixels counts as 0; markers, labels and strokes of this size are left out. Opacities are
+/// clamped to the range from 0 to 1; NaN counts as 0. So files are well-formed for any numbers.
 #[derive(Clone, Debug)]
 pub struct VectorPicture {
     pub(super) size: [u32; 2],
     pub(super) background: Option<[u8; 3]>,
     pub(super) nodes: Vec<Node>,
-    /// Whether there are groups of areas that are added up.
+    /// Whether the picture has a group from [`added_up`](Self::added_up).
     pub(super) adds_up: bool,
 }
 
@@ -73,7 +75,7 @@ pub struct Paint {
     pub fill: Option<[u8; 3]>,
     /// The opacity of the area, from 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The line along the boundary. It covers half its width on either side. Default: `None`.
+    /// The line along the boundary. Half of its width is on each side of the boundary. Default: `None`.
     pub stroke: Option<Stroke>,
 }
 
@@ -90,7 +92,8 @@ pub struct Stroke {
     /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid. It
     /// is also solid if one of the lengths is 0.
     pub dashes: Option<[f64; 2]>,
-    /// Whether ends are half discs beyond the line's end. Default: `true`; dashes are flat.
+    /// Whether a line ends in a half disc beyond its last point. Default: `true`.
+    /// [`with_dashes`](Self::with_dashes) sets `false`.
     pub round_ends: bool,
 }
 
@@ -162,10 +165,10 @@ impl Stroke {
     }
 }
 
-/// A part of a picture, in order.
+/// A part of a picture. Parts are in painting order.
 #[derive(Clone, Debug)]
 pub(super) enum Node {
-    /// The nodes from the next one to `end` are a group with these attributes, as they are written.
+    /// A group: the nodes from the next node up to `end`, without `end`. `attributes` is the text for an SVG.
     Group {
         attributes: String,
         end: usize,
@@ -180,8 +183,8 @@ pub(super) struct PaintedShape {
     pub(super) part: Part,
 }
 
-/// The part of the paint that a shape uses. The fill and the stroke of a path are two shapes that share a
-/// look.
+/// The part of the paint that a shape uses. The fill and the stroke of a path can be two shapes with the same
+/// paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Part {
     All,
@@ -246,12 +249,13 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing, with closed seams: [batched](Drawing::batched) by paint, and
-    /// [trapped](Drawing::trapped). `paint` is called once for each polygon that has a path, with its number.
+    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint, and
+    /// [trapped](Drawing::trapped), which closes the seams between them. `paint` is called once for each
+    /// polygon that has a path, with the polygon's number.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). It is painted directly after its path, so
     /// later paths cover it. Drawings with strokes are not batched. The lines and points of an overlay are
-    /// not added: iterate over [`Drawing::display_list`] for these. To draw edges over all paths, add
+    /// not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all paths, add
     /// polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
@@ -265,7 +269,7 @@ impl VectorPicture {
         let has_strokes = paints.values().any(|paint| paint.stroke.is_some());
         let key = |polygon: usize| {
             let Paint { fill, opacity, .. } = paint(polygon);
-            // Opacities from 0 to 1 are in the order of their bits.
+            // Numbers from 0 to 1 have the same order as their bits.
             (fill, opacity.to_bits())
         };
         let batched = (!has_strokes).then(|| drawing.batched(key));
@@ -331,10 +335,10 @@ impl VectorPicture {
     /// Adds one line of text, centred at a point: horizontally by its width, vertically by half the height of
     /// a capital letter. `size` is the height of the font.
     ///
-    /// The paint's stroke is below the letters: half its width is visible around them, which keeps them
-    /// legible on any background. The font is Helvetica or, in SVG, the viewer's substitute. A PDF has the
-    /// characters of Windows-1252; other characters are `?` there, except that minus signs are dashes. A text
-    /// is always one line.
+    /// The paint's stroke is painted below the letters. Half of its width is visible around the letters,
+    /// which keeps them legible on any background. The font is Helvetica or, in SVG, the viewer's substitute.
+    /// In a PDF, characters outside Windows-1252 become `?`, except minus signs, which become dashes. Line
+    /// breaks do not begin a new line.
     pub fn add_label(&mut self, at: [f64; 2], text: &str, size: f64, paint: impl Into<Paint>) {
         let (size, [x, y]) = (length(size), at);
         if is_near(&at) && size > 0.0 && !text.is_empty() {
@@ -374,7 +378,8 @@ impl VectorPicture {
         self.group_with(written, add)
     }
 
-    /// Groups adjacent areas that `add` adds. In an SVG they have no seams between them, translucent or not.
+    /// Groups adjacent areas that `add` adds. In an SVG there are no seams between these areas, even if they
+    /// are translucent.
     ///
     /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the
     /// picture below. Use it for [regions](super::VisibilityMap::regions), each with its blended colour.
@@ -417,7 +422,7 @@ fn length(given: f64) -> f64 {
     if given >= SHORTEST { bounded(given, FURTHEST) } else { 0.0 }
 }
 
-/// A number that is not negative and at most another; 0 in place of NaN.
+/// Clamps a number to the range from 0 to `most`; NaN becomes 0.
 fn bounded(given: f64, most: f64) -> f64 {
     if given > 0.0 { given.min(most) } else { 0.0 }
 }
@@ -426,7 +431,7 @@ fn in_steps(point: [f64; 2], scale: f64) -> [i64; 2] {
     point.map(|c| (c * scale).round() as i64)
 }
 
-/// The number of units that a pixel has in a picture of some size in pixels.
+/// The number of units per pixel in a picture of this width and height in pixels.
 pub(super) fn units([width, height]: [u32; 2]) -> u32 {
     let longer = width.max(height);
     let smaller = (1..4).filter(|&k| longer < LARGE.div_ceil(10u32.pow(k - 1))).count();
@@ -437,7 +442,7 @@ pub(super) fn units([width, height]: [u32; 2]) -> u32 {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Steps {
     pub(super) lines: Vec<Line>,
-    /// The number of decimals of a unit: 10 to this power steps are one.
+    /// The number of decimals of a unit: a unit has 10 to this power steps.
     pub(super) decimals: u32,
 }
 
@@ -493,7 +498,7 @@ fn closed(mut corners: Vec<[i64; 2]>) -> Line {
     Line { corners, is_closed: true }
 }
 
-/// Corners in steps from the corner of the picture, without repetitions.
+/// Points rounded to steps from the corner of the picture, without consecutive duplicates.
 fn rounded(points: &[[f64; 2]], scale: f64) -> Vec<[i64; 2]> {
     let mut rounded: Vec<[i64; 2]> = points.iter().map(|&point| in_steps(point, scale)).collect();
     rounded.dedup();

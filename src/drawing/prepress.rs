@@ -7,14 +7,15 @@ use super::paths::{Drawing, Path};
 
 type Point = [f64; 2];
 
-/// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: corners that
-/// were rounded differently keep neighbours in order. Too large: overlaps of this width may be visible.
+/// Paths that overlap by less than this, in pixels, may be painted in either order. Too small: neighbours
+/// keep their order only because corners were rounded differently. Too large: overlaps of this width may be
+/// visible.
 const THIN: f64 = 1e-3;
 /// Outlines with more corners than this are replaced by the boxes around them. Too small: fewer paths move.
 /// Too large: more time.
 const MOST_COMPARED_CORNERS: usize = 64;
-/// If more pairs of paths than this, for each path, have to be compared, the order stays the same. Too small:
-/// longer files. Too large: time and memory where many large polygons overlap.
+/// If more pairs than this per path have to be compared, the order stays the same. Too small: longer files.
+/// Too large: time and memory where many large polygons overlap.
 const MOST_PAIRS: usize = 400;
 
 impl Drawing {
@@ -25,9 +26,10 @@ impl Drawing {
     /// consecutive paths share a colour, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// The order is a greedy topological order: of the paths that may be next, it chooses paths with the key
-    /// of the previous path, otherwise with the most frequent key. O(n log n) for n paths, plus the number of
-    /// overlaps. If there are too many overlaps (400 n pairs of boxes), nothing moves.
+    /// The order is a greedy topological order. Of the paths that may be next, it takes a path with the key
+    /// of the previous path. If no such path may be next, it takes a path with the most frequent key. O(n log
+    /// n) for n paths, plus the number of overlaps. If there are too many overlaps (400 n pairs of boxes),
+    /// nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();
@@ -59,7 +61,7 @@ fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
     });
     let kinds: Vec<usize> = numbered.collect();
     let n = keys.len();
-    // The number of paths below each that are not in the order yet, and the paths above it.
+    // For each path, the number of paths below it that are not in the order yet, and the paths above it.
     let mut below = vec![0u32; n];
     let mut above = vec![vec![]; n];
     for &[first, second] in pairs {
@@ -99,7 +101,7 @@ fn ordered<K: Ord>(keys: &[K], pairs: &[[u32; 2]]) -> Vec<usize> {
     order
 }
 
-/// A path: the outlines that it is compared by, and the box around them.
+/// The outlines of a path that are compared with other paths, and the box around them.
 struct BoxedPath {
     low: Point,
     high: Point,
@@ -168,7 +170,8 @@ fn overlap(a: &BoxedPath, b: &BoxedPath) -> bool {
     boxes && a.outlines.iter().any(|p| b.outlines.iter().any(|q| !apart(p, q)))
 }
 
-/// Whether a side of the first outline separates both (for convex outlines: the separating axis theorem).
+/// Whether a side of the first outline separates the two outlines (for convex outlines: the separating axis
+/// theorem).
 fn separates(sides: &[Point], other: &[Point]) -> bool {
     (0..sides.len()).any(|i| {
         let [from, to] = [sides[i], sides[(i + 1) % sides.len()]];
@@ -189,7 +192,8 @@ fn separates(sides: &[Point], other: &[Point]) -> bool {
 }
 
 /// The width of the strip under a neighbour, in pixels. Too small: the background shows where a viewer's
-/// pixels and the edge meet obliquely. Too large: the neighbour's ends cut more corners.
+/// pixels and the edge meet obliquely. Too large: the neighbour's other sides clip more strips, which adds
+/// corners.
 const WIDTH: f64 = 1.0;
 /// A path extends under at most this share of the neighbour's height. Too small: the background shows along
 /// thin neighbours. Too large: the path protrudes on the other side where corners are rounded.
@@ -197,8 +201,9 @@ const SHARE: f64 = 0.6;
 /// Sides that are closer to one another than this, in pixels, are one edge. Too small: rounded corners
 /// separate edges. Too large: sides that only pass each other count as common edges.
 const NEAR: f64 = 0.02;
-/// A triangle replaces a strip if it has at least this share of the strip's area. Too small: the background
-/// shows near the ends of edges. Too large: most neighbours get strips, which have one corner more.
+/// A triangle replaces a strip if it covers at least this share of the strip's area. Too small: the
+/// background shows near the ends of edges. Too large: most neighbours get strips, which have one corner
+/// more.
 const ENOUGH: f64 = 0.85;
 /// Strips with less area than this, in square pixels, are left out. Too small: drawings of small polygons
 /// have many corners without a visible effect. Too large: seams of small polygons are visible.
@@ -206,8 +211,8 @@ const SMALLEST: f64 = 0.1;
 /// Nothing is extended under paths that are not convex and have more corners than this. Too large: time grows
 /// with its cube. Too small: seams at polygons that are not convex.
 const MOST_CORNERS: usize = 24;
-/// The largest number of cells of the grid of sides. Too large: memory. Too small: more sides in each cell
-/// for millions of sides.
+/// The largest number of cells of the grid of sides. Too large: more memory. Too small: long lists in the
+/// cells of drawings with millions of sides.
 const MOST_CELLS: usize = 1 << 20;
 
 type Outline = Vec<Point>;
@@ -221,10 +226,10 @@ impl Drawing {
     /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
     /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area, which is
     /// opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers of
-    /// polygons. Polygons that are not opaque keep their outlines. So do edges without an opaque neighbour,
-    /// edges of polygons that are not convex and have many corners, and edges whose extension would have less
-    /// than a tenth of a square pixel. No path is added, removed or moved; outlines only gain corners. An
-    /// extended side is no longer an [edge](Path::edges) of its polygon.
+    /// polygons. Polygons that are not opaque are not extended. Edges without an opaque neighbour are not
+    /// extended either, nor edges whose neighbour is not convex and has many corners, nor edges whose
+    /// extension would have less than a tenth of a square pixel. No path is added, removed or moved; outlines
+    /// only gain corners. An extended side is no longer an [edge](Path::edges) of its polygon.
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. O(n log n)
     /// for n corners, unless they are spread very unevenly.
@@ -257,7 +262,7 @@ impl Drawing {
                         grid.find_near(ends, number, &mut near);
                         extend(&mut ring, &frame, &near, &parts);
                     }
-                    // An extended side has left its edge.
+                    // An extended side no longer lies on its edge.
                     trapped.edges.push(edge.filter(|_| ring.len() == start));
                     trapped.edges.resize(trapped.corners.len() + ring.len(), None);
                 }
@@ -347,7 +352,7 @@ impl Grid {
     fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
         let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
-        // Steps to the side for each downwards; along rows all at once.
+        // The change of x for each step down. Flat sides do not use it.
         let slope = (high[0] - low[0]) / (high[1] - low[1]).max(f64::MIN_POSITIVE);
         let mut passed = Vec::new();
         for row in place(low[1] - reach, self.rows)..=place(high[1] + reach, self.rows) {
@@ -374,8 +379,8 @@ impl Grid {
     }
 }
 
-/// Convex parts inside a path, each with its sides, that together have all sides of the path: the path itself
-/// if it is convex, otherwise a triangle on each side.
+/// Convex parts inside a path, each with the sides of the path that bound it. A convex path is its only part.
+/// Any other path has a triangle on each of its sides.
 fn parts_of(path: Path<'_>) -> Vec<(Outline, Vec<Segment>)> {
     let outlines: Vec<&[Point]> = path.outlines().collect();
     if let [only] = outlines[..]
@@ -398,7 +403,7 @@ fn is_convex(outline: &[Point]) -> bool {
     (0..n).all(|i| turn * area_of([0, 1, 2].map(|k| outline[(i + k) % n])) >= 0.0)
 }
 
-/// The highest triangle on a side whose apex is a corner and that no side enters.
+/// The highest triangle on a side. Its apex is a corner of the path, and no side of the path enters it.
 fn triangle_on([a, b]: Segment, turn: f64, sides: &[Segment]) -> Option<[Point; 3]> {
     let area = |p: Point| turn * area_of([a, b, p]);
     let mut apexes: Vec<[f64; 2]> = sides.iter().map(|side| side[0]).collect();
@@ -459,9 +464,9 @@ impl SideFrame {
         [0, 1].map(|axis| self.start[axis] + self.along[axis] * along + self.out[axis] * out)
     }
 
-    /// The range of this side along which a neighbour's side, given in local coordinates, lies on it or
-    /// inwards by less than a strip's width. There the neighbour's edge is blended with the paths below both
-    /// sides.
+    /// The range of this side along which a neighbour's side, in local coordinates, lies on this side or
+    /// inwards of it by less than a strip's width. In this range, viewers blend the neighbour's edge with the
+    /// paths below both sides.
     fn along(&self, [a, b]: Segment) -> Option<[f64; 2]> {
         let [low, high] = [a[0].min(b[0]).max(0.0), a[0].max(b[0]).min(self.length)];
         if high - low <= NEAR {
@@ -473,8 +478,8 @@ impl SideFrame {
     }
 }
 
-/// The extension of a path at a side into a convex neighbour, along their common edges: its corners in local
-/// coordinates, from the lower to the upper end along the side.
+/// The extension of a path at a side into a convex neighbour, along their common edges. Its corners are in
+/// local coordinates, from the lower to the upper end along the side.
 fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
     let strip = band(frame, &corners)?;
@@ -620,7 +625,7 @@ mod trap_tests {
         let triangle = [[1.0, 2.0], [5.0, 2.0], [3.0, 12.0]];
         assert_eq!(frame.along([[0.0, 0.0], [4.0, 0.0]]), Some([0.0, 4.0]));
         assert_eq!(frame.along([[4.0, 0.0], [2.0, 10.0]]), None);
-        // Inwards by less than a pixel, and outwards by more than a rounding.
+        // Inwards by less than a pixel, and outwards by more than rounding.
         assert_eq!(frame.along([[-4.0, -0.8], [3.0, -0.5]]), Some([0.0, 3.0]));
         assert_eq!(frame.along([[0.0, 0.5], [3.0, 0.5]]), None);
         let found = strip(&triangle).unwrap();
@@ -636,7 +641,7 @@ mod trap_tests {
         assert!(found.iter().all(|corner| corner[1] <= 0.3 + 1e-12), "{found:?}");
         assert_eq!(found.first(), Some(&[1.0, 0.0]));
         assert_eq!(found.last(), Some(&[3.0, 0.0]));
-        // A wedge along the side, whose tip is on the side and which leaves it behind the tip.
+        // A wedge whose tip is on the side. Beyond the tip, the wedge leaves the side.
         let wedge = [[0.9, 2.01], [4.0, 1.5], [30.0, 9.0], [3.0, 2.005]];
         let found = strip(&wedge).unwrap();
         assert!(found.iter().all(|corner| corner[1] < 0.01), "{found:?}");

@@ -24,7 +24,7 @@ pub(super) struct Item {
     pub(super) fragment: u32,
     /// The bounding box of the item's part in the picture.
     pub(super) around: Rect,
-    /// The range of the half-planes that bound it.
+    /// The range of the half-planes that bound the item.
     halves: [u32; 2],
 }
 
@@ -42,7 +42,7 @@ pub(super) struct View {
     pub(super) is_as_given: bool,
     /// The last item of the face, if any.
     pub(super) last: u32,
-    /// The range of the half-planes that bound it.
+    /// The range of the half-planes that bound the face.
     halves: [u32; 2],
 }
 
@@ -72,8 +72,8 @@ const FEW_CORNERS_AS_GIVEN: usize = 8;
 const LOOKED: usize = 16;
 
 impl<'t> Primitives<'t> {
-    /// The pieces of a tree that rays may meet, of polygons whose opacity is not 0. Without opacities, all
-    /// polygons are opaque. Takes one phase.
+    /// The pieces of a tree that rays may meet, except pieces of polygons with opacity 0. Without opacities,
+    /// all polygons are opaque. Takes one phase.
     pub(super) fn new(
         tree: &'t BspTree,
         rays: Rays,
@@ -128,8 +128,8 @@ impl<'t> Primitives<'t> {
                 continue;
             }
             watch.work(LINES)?;
-            // All edges of the face, because an edge that does not meet the box of a piece beside the picture
-            // may still be the only edge that excludes the piece. A face of n corners in m pieces takes 8 nm
+            // All edges of the face are needed. A piece beside the picture may be excluded by a single edge,
+            // even if that edge does not meet the piece's box. A face of n corners in m pieces takes 8·n·m
             // bytes here, and twice as much in lists of candidates. With a floor of 10 000 corners in 1 396
             // pieces, a process peaks at 346 MB.
             let start = place(self.halves.len())?;
