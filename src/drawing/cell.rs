@@ -13,7 +13,7 @@ use crate::progress::Watch;
 /// A side of a cell, and its first corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
-    /// The half that the cell lies in.
+    /// The half-plane that contains the cell.
     pub(super) half: HalfPlane,
     pub(super) start: Corner,
 }
@@ -30,11 +30,11 @@ pub(super) struct Corner {
 /// corners. Too large: integers decide more sides.
 const FINE: f64 = 1e-6;
 
-/// A convex polygon with area, by its sides. Each side begins at the end of the previous side; they turn in
-/// the direction from the x axis to the y axis, which is clockwise in the picture.
+/// A convex polygon with area, by its sides. Each side begins at the end of the previous side. The sides turn
+/// from the x axis towards the y axis, which is clockwise in the picture.
 ///
-/// A corner is defined by the two lines that meet there, and rounded only to be read. So a cell is as exact
-/// as its lines, however often it is cut.
+/// A corner is defined by the two lines that meet there; its rounded position is for output and for filters
+/// only. So a cell is as exact as its lines, however often it is cut.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub(super) sides: SmallVec<[Side; 5]>,
@@ -62,7 +62,7 @@ impl Cell {
         Self::rectangle(lines, low, high)
     }
 
-    /// The part of the cell in all halves, if any. The remaining parts are appended to `outside`, each
+    /// The part of the cell in all half-planes, if any. The remaining parts are appended to `outside`, each
     /// convex.
     pub(super) fn within(
         &self,
@@ -75,7 +75,7 @@ impl Cell {
         Ok(part.map(|part| part.unwrap_or_else(|| self.clone())))
     }
 
-    /// Whether any part of the cell is in all halves.
+    /// Whether any part of the cell is in all half-planes.
     pub(super) fn meets(
         &self,
         lines: &LineTable<'_>,
@@ -94,7 +94,7 @@ impl Cell {
         mut outside: Option<&mut Vec<Self>>,
         watch: &Watch<'_>,
     ) -> Result<Option<Option<Self>>, Error> {
-        // Most cells lie outside one of the halves: test this before any cut.
+        // Most cells lie outside one of the half-planes: test this before any cut.
         let mut near: SmallVec<[HalfPlane; 8]> = SmallVec::new();
         for &half in halves {
             watch.work(self.corners_work())?;
@@ -143,9 +143,10 @@ impl Cell {
         around
     }
 
-    /// The side of a half's line on which each corner lies. Floats decide if the line's value at the rounded
-    /// corner is larger than its error plus its possible change between the rounded and the exact corner:
-    /// their distance times the length of the slope.
+    /// For each corner, whether it lies inside a half-plane (`Greater`), on its line (`Equal`) or outside
+    /// (`Less`). Floats decide if the line's value at the rounded corner is larger than its error plus its
+    /// possible change between the rounded and the exact corner: their distance times the length of the
+    /// slope.
     pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
@@ -161,7 +162,7 @@ impl Cell {
         self.sides.iter().enumerate().map(|(i, side)| sign(i, side)).collect()
     }
 
-    /// The part of the cell whose corners have a sign, with a new side along the line.
+    /// The part of the cell whose corners have the sign `keep`, with a new side along the line.
     pub(super) fn part(
         &self,
         lines: &LineTable<'_>,
@@ -213,15 +214,15 @@ pub(super) fn side_on_line(signs: &[Ordering]) -> Option<usize> {
 impl Corner {
     /// Computes the corner where two lines meet.
     ///
-    /// Let a and b be the lines' slopes, and e the vector from the exact corner to the computed point. Then a·e
-    /// and b·e are the exact values of the lines at that point: at most α and β, the rounded values plus the
-    /// lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and
-    /// |e| ≤ (|α| |b| + |β| |a|) / |a × b|.
+    /// Let a and b be the lines' slopes, and e the vector from the exact corner to the computed point. Then
+    /// a·e and b·e are the exact values of the lines at that point. They are at most α and β, the rounded
+    /// values plus the lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and the length of e is at most
+    /// (|α| |b| + |β| |a|) / |a × b|.
     ///
-    /// The products of a × b and their difference are rounded: by 2 roundings of their sizes, where 8 are
-    /// subtracted. If parts of the slopes are off by s and t, a × b is off by
-    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two parts is at most 1.4 times a line's `slope`;
-    /// twice the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
+    /// Rounding the products of a × b and their difference adds an error of at most 2 roundings of their
+    /// sizes; 8 roundings are subtracted. If components of the slopes are off by s and t, a × b is off by
+    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two components is at most 1.4 times a line's
+    /// `slope`; twice the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);

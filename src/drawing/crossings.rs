@@ -20,12 +20,12 @@ use crate::{Error, parallel_map};
 /// A side of a cell on the line of a cut.
 #[derive(Clone, Copy, Debug)]
 struct CutSide {
-    /// The half on which the line is positive.
+    /// The half-plane on which the line is positive.
     line: HalfPlane,
     face: u32,
     /// The face's edge on this line, if the polygon continues across that edge.
     inner: Option<FaceEdge>,
-    /// Whether the cell is where the line is negative.
+    /// Whether the cell is on the negative side of the line.
     is_negative: bool,
     /// The ends, as places along the line and in the picture.
     places: [f64; 2],
@@ -36,15 +36,15 @@ struct CutSide {
 #[derive(Clone, Copy, Debug)]
 struct CommonSide {
     line: HalfPlane,
-    /// The faces, the lower number first. Of two faces of one polygon that meet at the line, this is the
-    /// lower number, even if the other face is visible.
+    /// The faces, the lower number first. If two faces of one polygon meet at the line, the face of the lower
+    /// number stands for both, even if only the other face is visible.
     faces: [u32; 2],
     /// The ends, as places along the line and in the picture.
     places: [f64; 2],
     ends: [[f64; 2]; 2],
 }
 
-/// Whether two faces cross each other in a line: by the line and the faces.
+/// Whether two faces cross each other in a line. The key is the line and the faces.
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
@@ -57,17 +57,17 @@ impl VisibilityMap<'_> {
     /// polygon crosses if it lies between the two triangles there. A corner no further from a plane than the
     /// tolerance is treated as on the plane.
     ///
-    /// Except with [`Hidden::Skip`], hidden runs are returned too: where each of two polygons has corners on
-    /// both sides of the other, further from it than the tolerance. If a polygon has several faces, each pair
-    /// of faces then has separate runs.
+    /// Except with [`Hidden::Skip`], hidden runs are returned too, if each of two polygons has corners on
+    /// both sides of the other polygon's plane, further from that plane than the tolerance. If a polygon has
+    /// several faces, each pair of faces then has separate runs.
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, n includes the parts in which
-    /// [`regions`](Self::regions) are found. With hidden runs, n includes the faces, and many overlapping
-    /// boxes of faces, as at the tip of a cone, take more time.
+    /// [`regions`](Self::regions) are found. With hidden runs, n includes the faces; if the bounding boxes of
+    /// many faces overlap, as at the tip of a cone, it takes more time.
     ///
     /// # Errors
     ///
-    /// If it was [cancelled](Self#progress).
+    /// If the operation was [cancelled](Self#progress).
     pub fn crossings(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         match hidden {
             Hidden::Skip => self.visible_crossings(),
@@ -109,7 +109,7 @@ impl VisibilityMap<'_> {
     }
 
     /// The common parts of sides of cells that lie on opposite sides of a line in which their faces cross
-    /// each other, line by line. Takes two phases.
+    /// each other, line by line. Counts as two phases of the progress.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -138,8 +138,8 @@ impl VisibilityMap<'_> {
     }
 
     /// All sides of cells on lines of cuts or of edges inside polygons, whatever made the sides. Several
-    /// planes may have cut along one line. Cells beyond a border of a tile or a third polygon's edge were not
-    /// cut again.
+    /// planes may have cut along one line. Cells that end there at a border of a tile or at a third polygon's
+    /// edge were not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -190,8 +190,8 @@ impl VisibilityMap<'_> {
         Ok(bends)
     }
 
-    /// The edges of faces that lie on some lines, by face and line; `None` for edges of outlines. Takes one
-    /// phase.
+    /// The edges of faces that lie on some lines, by face and line; `None` for edges of outlines. Counts as
+    /// one phase of the progress.
     fn edges_on(
         &self,
         is_wanted: impl Fn(HalfPlane) -> bool,
@@ -236,7 +236,7 @@ impl VisibilityMap<'_> {
         }
         *known.entry((a.line, [one, other])).or_insert_with(|| {
             if is_bent {
-                // Only edges on this line: others may end on it.
+                // Only edges on this line count: other edges may end on it.
                 let bend = |side: &CutSide, other: u32| inner.bend_at(faces, side.inner?, other);
                 return bend(a, b.face).or_else(|| bend(b, a.face)).is_some();
             }
@@ -327,7 +327,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// The crossings of pairs of faces in the picture. Takes one phase.
+/// The crossings of pairs of faces in the picture. Counts as one phase of the progress.
 fn crossings_of(
     pairs: &[Pair],
     primitives: &Primitives<'_>,
@@ -406,7 +406,7 @@ struct Block {
 }
 
 /// Pairs of faces of different polygons that may cross each other: each has corners on both sides of the
-/// other's plane, further from it than the tolerance. Takes one phase.
+/// other's plane, further from it than the tolerance. Counts as one phase of the progress.
 fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
@@ -516,16 +516,16 @@ pub(super) struct Bend {
     /// A face of the other polygon, and its edge there if the other polygon is bent, too.
     pub(super) other: u32,
     pub(super) other_edge: Option<u32>,
-    /// A face of each polygon, the lower number first. Of two faces of one polygon that meet there, this is
-    /// the lower number.
+    /// A face of each polygon, the lower number first. If two faces of one polygon meet at the edge, the face
+    /// of the lower number stands for both.
     pub(super) faces: [u32; 2],
 }
 
 impl InnerEdges {
     pub(super) fn of(faces: &Faces, watch: &Watch<'_>) -> Result<Self, Error> {
         let mut across = Table::default();
-        // Edges of which one face has been visited. Inner edges are first paired with inner edges. On the
-        // other side of an unpaired edge, the edge may belong to the outline.
+        // Edges of which one face has been visited. Inner edges are first paired with inner edges. The face
+        // on the other side of an unpaired inner edge may have the edge in its outline.
         let mut open: Table<(usize, [[u64; 3]; 2]), FaceEdge> = Table::default();
         for is_inner in [true, false] {
             for numbered in each(watch, VISITED, &faces.numbered) {
@@ -600,7 +600,7 @@ impl InnerEdges {
     }
 }
 
-/// The side of a face's plane on which a point lies, further from it than the tolerance.
+/// The side of a face's plane on which a point lies; `Equal` within the tolerance.
 fn side(faces: &Faces, face: u32, point: &[f64; 3]) -> Ordering {
     PreparedPlane::new(faces, PlaneId::face(face)).side_beyond(faces, point)
 }
@@ -617,8 +617,8 @@ fn third(faces: &Faces, (face, k): FaceEdge) -> [f64; 3] {
     corners[(k as usize + 2) % corners.len()]
 }
 
-/// Whether a half-plane that turns to the left around a line, from the first of two triangles at the line,
-/// reaches a third triangle before the second; `None` if the third triangle lies on one of the two.
+/// Whether a half-plane that turns to the left around a line, starting at the triangle `from`, reaches a
+/// third triangle before the triangle `to`; `None` if the third triangle lies on one of the two.
 fn is_between(
     faces: &Faces,
     along: DVec3,

@@ -31,7 +31,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If it was [cancelled](Self#progress).
+    /// If the operation was [cancelled](Self#progress).
     pub fn edges(&self, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(if hidden == Hidden::Count { 3 } else { 2 }, |watch| {
             let (mut edges, numbers) = self.shared_edges(watch)?;
@@ -54,7 +54,7 @@ impl VisibilityMap<'_> {
 
     /// The requested runs of a list, in which each run has the number of its segment. With [`Hidden::Count`],
     /// hidden runs are cut where the number of polygons in front changes, not counting the segment's own
-    /// faces. Takes one phase.
+    /// faces. Counts as one phase of the progress.
     pub(super) fn runs(
         &self,
         mut list: Vec<(EdgeRun, u32)>,
@@ -90,7 +90,7 @@ impl VisibilityMap<'_> {
         Ok(layered)
     }
 
-    /// Adds to each edge the places where it is visible. Takes one phase.
+    /// Adds to each edge the places where it is visible. Counts as one phase of the progress.
     fn collect(
         &self,
         all: &mut [SharedEdge],

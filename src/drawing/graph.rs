@@ -26,16 +26,17 @@ pub(super) struct Ordered {
 /// clipped, and restored one by one. Too large: components are searched many times.
 const CLIPPED_AT_ONCE: usize = 64;
 
-/// At least this many pairs are examined in each component to restore nodes, or this many times the number of
-/// its pairs. Too small: more nodes stay clipped. Too large: components of many thousand nodes take long.
+/// To restore nodes, this many pairs are examined in each component, or `EXAMINED_PER_PAIR` times the number
+/// of the component's pairs, if that is more. Too small: more nodes stay clipped. Too large: components of
+/// many thousand nodes take long.
 const EXAMINED: usize = 1 << 22;
 const EXAMINED_PER_PAIR: usize = 32;
 
 /// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle may consist of translucent
 /// nodes only.
 ///
-/// Cycles are opened by clipping nodes: greedily the nodes with the most pairs on both sides. Then nodes that
-/// close no cycle are restored, while the searches for cycles take time proportional to the number of pairs.
+/// Cycles are opened by clipping nodes: greedily, the nodes with the most pairs on both sides. Then nodes
+/// that close no cycle are restored, until the searches for cycles have examined a limited number of pairs.
 /// (Clipping a minimal number of nodes is NP-hard: R. M. Karp, "Reducibility among combinatorial problems",
 /// 1972.)
 pub(super) fn order(
@@ -51,8 +52,8 @@ pub(super) fn order(
     Ok(Ordered { order, is_clipped: graph.is_clipped })
 }
 
-/// For each node, given sorted pairs: whether it is in a cycle, and the number of its strongly connected
-/// component, which is the number of one of its nodes.
+/// For each node, given sorted pairs, the number of its strongly connected component; `None` if the node is
+/// in no cycle. A component has the number of one of its nodes.
 pub(super) fn cycles(
     nodes: usize,
     pairs: &[Pair],
@@ -94,12 +95,13 @@ impl Ranks {
 /// Orders opaque polygons by the places of their pieces in the tree's order. `pairs` finds the requested
 /// pairs.
 ///
-/// If `below` has to be drawn before `above`, one of its pieces is behind a visible piece of `above`. Then
-/// all its pieces are behind (`is_before`), or the places of the two polygons interleave (`is_around`). Pairs
-/// of the first kind need not be found: a chain of nodes, one for each place in the tree's order at which a
-/// polygon ends, implies all of them. It implies more pairs than necessary, because most of these polygons do
-/// not overlap. The chain alone has no cycle, because the place of the last piece increases along it. Pairs
-/// of the second kind are found. One of their polygons has several pieces.
+/// If `below` has to be drawn before `above`, a piece of `below` is behind a visible piece of `above`. Then
+/// all pieces of `below` are behind (`is_before`), or the places of the two polygons interleave
+/// (`is_around`). Pairs of the first kind need not be found: a chain of nodes, one for each place in the
+/// tree's order at which a polygon ends, implies all of them. The chain implies more pairs than necessary,
+/// because most of these polygons do not overlap. The chain alone has no cycle, because the place of the last
+/// piece increases along it. Pairs of the second kind are found. In each such pair, one polygon has several
+/// pieces.
 ///
 /// An order of the strongly connected components of both kinds together keeps all pairs between components.
 /// Inside a component, the chain may demand more pairs than the picture needs, so there all pairs are found
@@ -202,7 +204,7 @@ impl Graph<'_> {
                 nodes.retain(|&node| !self.is_last(node));
                 open.append(&mut self.components(&nodes)?);
             }
-            self.give_back(&nodes, clipped)?;
+            self.restore(&nodes, clipped)?;
         }
         Ok(())
     }
@@ -233,8 +235,8 @@ impl Graph<'_> {
         Ok(degrees)
     }
 
-    /// Restores the clipped nodes that close no cycle: all cycles are inside `nodes`.
-    fn give_back(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
+    /// Restores the clipped nodes that close no cycle. All cycles are inside `nodes`.
+    fn restore(&mut self, nodes: &[u32], mut clipped: Vec<u32>) -> Result<(), Error> {
         for &node in nodes {
             self.component[node as usize] = nodes[0];
         }
@@ -330,7 +332,7 @@ struct Graph<'p> {
     is_opaque: &'p dyn Fn(u32) -> bool,
     /// Whether a translucent node has to follow each node.
     is_seen_through: Vec<bool>,
-    /// The strongly connected component of each node, among those that are searched.
+    /// The strongly connected component of each node that is searched.
     component: Vec<u32>,
     search: Search,
     watch: &'p Watch<'p>,
@@ -350,9 +352,9 @@ struct Search {
     counts: Vec<[u32; 2]>,
 }
 
-/// No component; for nodes that are not searched, no number.
+/// Stands for no component; also for the number of a node that is not searched.
 const NONE: u32 = u32::MAX;
-/// The number of nodes that are searched, but were not visited yet.
+/// Stands for the number of a node that is searched but was not visited yet.
 const UNMET: u32 = u32::MAX - 1;
 
 impl<'p> Graph<'p> {
@@ -399,8 +401,8 @@ impl Graph<'_> {
         self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
 
-    /// Whether the order has to keep a pair. It need not for a clipped node below an opaque node, because the
-    /// clipped node's visible part lies under no opaque node.
+    /// Whether the order has to keep a pair. It need not keep a pair of a clipped node below an opaque node,
+    /// because the clipped node's visible part lies under no opaque node.
     fn holds(&self, Pair { below, above }: Pair) -> bool {
         !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
@@ -479,7 +481,7 @@ impl Graph<'_> {
 /// The pairs of polygons to find.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'w> {
-    /// Only pairs with a marked polygon, so that most are not compared.
+    /// Only pairs with a marked polygon are wanted, so that most pairs are not compared.
     pub(super) is_marked: &'w (dyn Fn(u32) -> bool + Sync),
     /// Whether both polygons of a pair must be marked.
     pub(super) needs_both: bool,
@@ -499,7 +501,7 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// The pair of the results of a function.
+    /// Applies a function to both numbers.
     pub(super) fn map(self, of: impl Fn(u32) -> u32) -> Self {
         Self { below: of(self.below), above: of(self.above) }
     }
@@ -522,7 +524,7 @@ pub(super) fn contracted<'p>(
 /// directed acyclic graphs", 2006).
 #[derive(Debug)]
 pub(super) struct Groups {
-    /// For each node, a node on the path to the node that names its group.
+    /// For each node, its parent in a union-find forest. A group has the number of its root.
     leader: Vec<u32>,
     /// The place of each group in the order.
     place: Vec<u32>,
@@ -535,7 +537,7 @@ pub(super) struct Groups {
     search: u64,
 }
 
-/// Searches for joins end after this many groups, without a join. Too small: more pieces. Too large: a
+/// A search for a join ends without a join after this many groups. Too small: more pieces. Too large: a
 /// multiple of the time for many crossing polygons, with up to a sixth fewer pieces; other scenes do not
 /// change.
 const BUDGET: usize = 300;
@@ -547,7 +549,7 @@ enum Way {
 }
 
 impl Groups {
-    /// A group for each node, in the order of their numbers: in each pair, `below` is the lower number.
+    /// One group for each node, in the order of node numbers. In each pair, `below` must be the lower number.
     pub(super) fn new(nodes: usize, pairs: impl Iterator<Item = Pair>) -> Self {
         let numbers: Vec<u32> = (0..nodes as u32).collect();
         let (mut after, mut before) = (vec![vec![]; nodes], vec![vec![]; nodes]);
@@ -591,9 +593,10 @@ impl Groups {
         Ok(())
     }
 
-    /// Adds a pair of nodes, unless `above` has to precede `below`. Returns whether it was added. The search
-    /// has no limit: in a grid of 900 crossing triangles, the limit of joins would reject a third of 39 000
-    /// pairs, nearly all without need. All searches take less than a sixtieth of the drawing's time.
+    /// Adds a pair of nodes, unless `above` has to precede `below`. Returns whether the pair was added. The
+    /// search has no limit: in a grid of 900 crossing triangles, the limit of joins would reject a third of
+    /// 39 000 pairs, although nearly all of these can be added. All searches take less than a sixtieth of the
+    /// drawing's time.
     pub(super) fn add(&mut self, pair: Pair, watch: &Watch<'_>) -> Result<bool, Error> {
         watch.work(VISITED)?;
         let [below, above] = [self.group(pair.below), self.group(pair.above)];
@@ -715,10 +718,10 @@ mod order_tests {
         pairs.push(Pair { below: nodes - 1, above: 0 });
         let ranks: Vec<u32> = (0..nodes).collect();
         let (looked, most, calls) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicUsize::new(0));
-        let hear = || most.fetch_max(looked.swap(0, Relaxed), Relaxed);
+        let record = || most.fetch_max(looked.swap(0, Relaxed), Relaxed);
         let callback = |_: &Watch<'_>| {
             calls.fetch_add(1, Relaxed);
-            hear();
+            record();
             ControlFlow::Continue(())
         };
         let is_opaque = |_: u32| {
@@ -727,7 +730,7 @@ mod order_tests {
         };
         let watch = Watch::new(&callback);
         let found = order(nodes as usize, &pairs, &ranks, &is_opaque, &watch).unwrap();
-        hear();
+        record();
         assert_eq!(found.order.len(), nodes as usize);
         assert_eq!(found.is_clipped.iter().filter(|&&is_clipped| is_clipped).count(), 1);
         let (most, calls) = (most.into_inner(), calls.into_inner());
@@ -755,7 +758,7 @@ mod join_tests {
     }
 
     #[test]
-    fn groups_are_joined_unless_that_closes_a_circle() {
+    fn groups_are_joined_unless_that_closes_a_cycle() {
         let mut random = SplitMix64::new(1);
         let (mut joined, mut refused) = (0, 0);
         for round in 0..300 {
@@ -789,7 +792,7 @@ mod join_tests {
     }
 
     #[test]
-    fn pairs_are_added_unless_they_close_a_circle() {
+    fn pairs_are_added_unless_they_close_a_cycle() {
         let mut random = SplitMix64::new(2);
         let (mut added, mut moved, mut refused) = (0, 0, 0);
         for round in 0..300 {

@@ -2,12 +2,14 @@
 //! two other lines meet.
 //!
 //! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
-//! k₀ + x·k₁ + y·k₂ = 0. The edge between two points is the plane through both points and the eye. The cut of a
-//! face f by a plane h consists of the rays that meet both in one point. With κ the value of a plane at the
-//! eye (for parallel rays, its slope along them) and φ its value along a ray, k = κ_f φ_h − κ_h φ_f.
+//! k₀ + x·k₁ + y·k₂ = 0. The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the
+//! picture, is called a half of the line. The edge between two points is the plane through both points and
+//! the eye. The cut of a face f by a plane h consists of the rays that meet both in one point. Let κ be the
+//! value of a plane at the eye (for parallel rays, its slope along them), and φ its value along a ray. Then
+//! k = κ_f φ_h − κ_h φ_f.
 //!
-//! With corners below 2⁵², rays below 2⁶⁰ and an eye below 2⁸¹, an edge has 197 bits and a cut 361 bits; the
-//! determinant of three lines has less than 1088 bits.
+//! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
+//! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -22,29 +24,29 @@ use crate::exact::{Faces, Int, Plane, PlaneId, PlaneKind, dot};
 use crate::random::mix;
 use crate::raster::{RayOrigin, Rays, Sheet, edge};
 
-/// The number of no point.
+/// The number that stands for a missing point.
 pub(super) const NO_POINT: u32 = u32::MAX;
-/// Faces with more corners are not searched for a corner that a line goes through. Too small: more
+/// Faces with more corners than this are not searched for corners that a cut goes through. Too small: more
 /// intersections are computed in integers. Too large: the search takes longer.
 const FEW: usize = 8;
 /// More than the distance of any tile's border from the origin, in steps.
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
-/// The lines of a picture: of the edges of all faces that it may show, and of the cuts of their pieces.
+/// The lines of a picture: the edges of all faces that the picture may show, and the cuts of their pieces.
 #[derive(Debug)]
 pub(super) struct LineTable<'t> {
     pub(super) frame: ViewFrame<'t>,
-    /// The largest coordinates in the picture.
+    /// The largest coordinates in the picture, plus one pixel.
     pub(super) reach: [f64; 2],
     keys: Vec<Key>,
     rounded: Vec<Rounded>,
     /// Points that each line is known to go through; [`NO_POINT`] for a missing point.
     pub(super) through: Vec<[u32; 2]>,
-    /// For each key, the half on which it is positive.
+    /// For each key, the half on which its line is positive.
     halves: Table<Key, HalfPlane>,
-    /// All lines, by where they are.
+    /// The numbers of all lines, by position.
     feet: LineIndex,
-    /// The lines of cuts, by their halves that are positive.
+    /// The lines of cuts, by their positive halves.
     cuts: Table<HalfPlane, ()>,
     /// Equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
@@ -73,8 +75,8 @@ impl<'t> LineTable<'t> {
         }
     }
 
-    /// The half of a line on which its key is positive. The line is added if it is new; it goes through the
-    /// given points.
+    /// The half on which a key's line is positive. The line is added if it is new. It goes through the given
+    /// points.
     fn half(&mut self, key: Key, points: [u32; 2]) -> Result<HalfPlane, Error> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);
@@ -82,7 +84,7 @@ impl<'t> LineTable<'t> {
         self.new_half(key, self.rounded_of(key), points)
     }
 
-    /// The half of a key that is new.
+    /// Like [`half`](Self::half), for a key that is new.
     fn new_half(
         &mut self,
         key: Key,
@@ -97,8 +99,8 @@ impl<'t> LineTable<'t> {
         Ok(half)
     }
 
-    /// The half of a line that has no key yet. Collinear edges, cuts and borders of tiles share one half, for
-    /// instance edges of walls side by side. Otherwise sides of cells would not be known to be collinear, and
+    /// The half of a new key's line. Collinear edges, cuts and borders of tiles share one line, for instance
+    /// the edges of walls side by side. Otherwise sides of cells would not be known to be collinear, and
     /// integers would have to decide this repeatedly.
     fn half_of_line(
         &mut self,
@@ -129,7 +131,7 @@ impl<'t> LineTable<'t> {
         }
     }
 
-    /// The border on which a line may lie.
+    /// The border of tiles on which a line may lie.
     fn near_border(&self, line: &Rounded) -> Option<HalfPlane> {
         let [k0, kx, ky] = line.k;
         let (axis, [along, across]) =
@@ -154,7 +156,7 @@ impl<'t> LineTable<'t> {
     }
 
     fn add(&mut self, key: Key, rounded: Rounded, through: [u32; 2]) -> Result<u32, Error> {
-        // A number takes less memory than its line.
+        // Memory for lines runs out before their numbers do.
         let number = u32::try_from(self.keys.len()).map_err(|_| Error::out_of_memory())?;
         self.keys.push(key);
         self.rounded.push(rounded);
@@ -162,7 +164,8 @@ impl<'t> LineTable<'t> {
         Ok(number)
     }
 
-    /// The half of a face's edge `k` on which the face lies, given whether its κ is positive.
+    /// The half of a face's edge `k` on which the face lies. `is_positive` is whether the face's κ is
+    /// positive.
     pub(super) fn edge(
         &mut self,
         face: u32,
@@ -207,8 +210,8 @@ impl<'t> LineTable<'t> {
         Ok(self.half(Key::Edge(points), points)?.flipped(a > b))
     }
 
-    /// The half of a face's cut by a plane on which a piece behind the plane, or in front of it, lies, given
-    /// whether the face's κ is positive.
+    /// The half of a face's cut by a plane on which a piece of the face lies. `behind` is whether the piece
+    /// is behind the plane, and `is_positive` whether the face's κ is positive.
     pub(super) fn cut(
         &mut self,
         face: u32,
@@ -232,8 +235,7 @@ impl<'t> LineTable<'t> {
     }
 
     /// Corners of a face that are known to lie on a plane that cuts it: corners shared with the plane's face,
-    /// or with the coordinate of an axis plane. (Only for faces with few corners that all lie on their
-    /// planes.)
+    /// or corners on an axis plane. (Only for faces with few corners, none of which was moved.)
     fn on_cut(&mut self, face: u32, plane: PlaneId) -> [u32; 2] {
         let faces = self.frame.faces;
         let own = faces.corners(face);
@@ -286,14 +288,13 @@ impl<'t> LineTable<'t> {
         self.cuts.contains_key(&half.positive())
     }
 
-    /// Whether the cut of a face by another face's plane, the lower number first, is known to have been made
-    /// along a half's line.
+    /// Whether the cut of two faces, the lower number first, is known to lie on a half's line.
     pub(super) fn is_cut_of(&self, half: HalfPlane, [one, other]: [u32; 2]) -> bool {
         let cut = self.halves.get(&Key::Cut(one, PlaneId::face(other)));
         cut.is_some_and(|cut| cut.line() == half.line())
     }
 
-    /// The first origin of a line.
+    /// The key that a line was first made for.
     fn key(&self, line: u32) -> Key {
         self.keys[line as usize]
     }
@@ -324,7 +325,7 @@ impl LineTable<'_> {
         }
     }
 
-    /// The largest error of the parts of a line's slope.
+    /// The largest error of the components of a line's slope.
     pub(super) fn slope_error(&self, line: &Rounded) -> f64 {
         line.error / self.reach[0].min(self.reach[1])
     }
@@ -339,7 +340,7 @@ impl LineTable<'_> {
         Rounded::new(exact, self.reach)
     }
 
-    /// Whether a point is in the picture or at most a pixel beyond it: there errors are bounded.
+    /// Whether a point is in the picture or at most a pixel beyond it. Errors are bounded only there.
     pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
     }
@@ -358,8 +359,8 @@ impl LineTable<'_> {
     }
 }
 
-/// The origin of a line. Equal keys are equal lines, up to their direction. Lines of different keys may be
-/// equal too, except lines of edges: all collinear edges have the same key.
+/// The origin of a line. Equal keys have equal lines, up to their direction. Different keys may also have
+/// equal lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
@@ -367,8 +368,8 @@ pub(super) enum Key {
     /// A face's edge from a corner to the next, if one of the two was moved onto the face's plane, or may
     /// have been moved.
     Upright(u32, u32),
-    /// The cut of a face by a plane. If the plane is a face's, the face of the lower number is cut by the
-    /// plane of the higher.
+    /// The cut of a face by a plane. If the plane is the plane of another face, the face of the lower number
+    /// comes first.
     Cut(u32, PlaneId),
 }
 
@@ -391,7 +392,7 @@ impl Key {
             }
             Self::Cut(face, plane) => sheet(PlaneId::face(face)).cut(&sheet(plane)),
         };
-        // Lines are evaluated up to a pixel beyond the picture that the error is for.
+        // The error is for the picture alone, but lines are evaluated up to a pixel beyond it.
         let rounded = Rounded::scaled(k, 4.0 * error);
         if rounded.is_fine() { rounded } else { Rounded::new(&self.exact(frame, corners), reach) }
     }
@@ -429,13 +430,13 @@ fn upright(frame: &ViewFrame<'_>, face: u32, k: u32) -> ([[f64; 3]; 2], usize) {
     ([corners[k as usize], corners[next]], axis)
 }
 
-/// A table whose keys consist of numbers. Nothing depends on the order of its entries.
+/// A hash table whose keys consist of numbers. Nothing depends on the order of its entries.
 pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Mixes the numbers of a key.
+/// Hashes the numbers of a key.
 #[derive(Debug, Default)]
 pub(super) struct Mixer(u64);
 
@@ -528,8 +529,8 @@ impl Foot {
 }
 
 impl LineIndex {
-    /// Returns the line with this foot that is equal to the sought line, by a comparison of lines; otherwise
-    /// the place at which to [`add`](Self::add) the sought line.
+    /// Returns the line with this foot that is equal to the sought line; otherwise the place at which to
+    /// [`add`](Self::add) the sought line. `compare` compares a line with the sought line.
     pub(super) fn search(
         &self,
         foot: &Foot,
@@ -616,8 +617,8 @@ impl HalfPlane {
 }
 
 impl LineTable<'_> {
-    /// The exact side of a half's line on which two other lines meet; the second turns to the left of the
-    /// first as seen from their halves.
+    /// The exact side of a half's line on which the lines of two other halves meet. These two must be
+    /// consecutive sides of a convex cell.
     #[cold]
     pub(super) fn exact_side(&self, half: HalfPlane, [first, second]: [HalfPlane; 2]) -> Ordering {
         let lines = [first, second, half];
@@ -823,14 +824,14 @@ pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// more lines. Too large: integers decide more sides.
 const FINE: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// A line in floats, scaled so that the longer part of its slope is near 1.
+/// A line in floats, scaled so that the larger component of its slope is near 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// The largest error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`; also of
-    /// its slope, times the picture's size.
+    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`; also
+    /// on the error of each component of its slope, times the picture's shorter side.
     pub(super) error: f64,
-    /// At least the length of the line's slope.
+    /// An upper bound on the length of the line's slope.
     pub(super) slope: f64,
 }
 

@@ -1,8 +1,8 @@
 //! The visibility map: the visible parts of polygons in a picture, found tile by tile.
 //!
 //! A tile has a list of the pieces that may be visible in it, front to back. The list ends with the first
-//! piece that covers the tile. If it is short, the tile is a leaf, and each piece is subtracted from the
-//! uncovered part; otherwise the tile is halved.
+//! piece that covers the tile. If the list is short, the tile is a leaf, and each piece is subtracted from
+//! the uncovered part; otherwise the tile is halved.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -19,18 +19,18 @@ use crate::tree::BspTree;
 use crate::view::Camera;
 
 /// The visible parts of polygons in one view: convex cells side by side, each a part of one polygon.
-/// [`BspTree::visibility`] makes it.
+/// [`BspTree::visibility`] computes a map.
 ///
 /// The map is exact and adds no tolerance. Lines of the picture are planes through the eye in integers. A
 /// corner is the intersection of two lines, never a rounded point. A polygon is in the map if and only if a
 /// part of it is visible, however small. Where two polygons in one plane overlap, the map contains the
 /// polygon that the tree's order paints last.
 ///
-/// The edges of a polygon go through its given corners if no corner was moved by more than 2⁻³² of the
-/// extent, which is more than the rounding of `f64`. So there is no crack between neighbours that share an
-/// edge. The planes onto which corners were moved decide which polygon is in front. Edges go through the
-/// moved corners if a corner was moved further, if the given corners are not convex in the picture, or if
-/// there are more than eight.
+/// If corners of a polygon were moved onto a common plane, that plane decides which polygon is in front. The
+/// edges still go through the given corners if no corner was moved by more than 2⁻³² of the extent, which is
+/// more than the rounding of `f64`. So there is no crack between neighbours that share an edge. The edges go
+/// through the moved corners if a corner was moved further, if the given corners do not form a convex polygon
+/// in the picture, or if the polygon has more than eight corners.
 ///
 /// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of the edges of hidden
 /// polygons in the frustum. With the feature `parallel`, all threads share the tiles of the picture; the map
@@ -45,11 +45,11 @@ use crate::view::Camera;
 /// reports to the same callback. Each operation, including the making of the map, counts separately. `total`
 /// is the number of its parts; it does not change during the operation. `done` begins with 0, never
 /// decreases, and is `total` in the last call, when the result is ready. Parts do not take equally long. The
-/// callback is called about once per millisecond, by any thread, one call at a time. Only sorting and reading
-/// a long list take longer (a tenth of a second for a million items). If the callback returns `Break`, the
-/// operation ends with an error whose [kind](Error::kind) is `Cancelled`. The map is not changed, and its
-/// next operation starts from the beginning. If several threads use one map at once, their operations take
-/// turns to call the callback, and the last call of an operation may be missing.
+/// callback is called about once per millisecond, by any thread, one call at a time. Only while a long list
+/// is sorted or read, a call may be late (by a tenth of a second for a million items). If the callback
+/// returns `Break`, the operation ends with an error whose [kind](Error::kind) is `Cancelled`. The map is not
+/// changed, and its next operation starts from the beginning. If several threads use one map at once, their
+/// operations take turns to call the callback, and the last call of an operation may be missing.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -71,14 +71,14 @@ pub struct VisibilityMap<'t> {
 #[derive(Clone, Default)]
 #[non_exhaustive]
 pub struct ViewOptions<'a> {
-    /// Whether polygons that are seen from behind are left out: their corners run clockwise in the picture.
-    /// Default: `false`.
+    /// Whether polygons that are seen from behind are left out. The corners of such polygons run clockwise in
+    /// the picture. Default: `false`.
     pub front_faces_only: bool,
     /// The opacity of each polygon, from 0 to 1, in input order. Polygons with an opacity of less than 1 hide
     /// nothing, and polygons with opacity 0 are left out. Default: an empty list, all polygons are opaque.
     pub opacities: Vec<f64>,
-    /// Drawings leave out polygons, and the list of regions leaves out regions, whose visible area in square
-    /// pixels is less. Default: 0, all polygons are drawn, as with NaN.
+    /// The least visible area, in square pixels. Drawings leave out polygons, and lists of regions leave out
+    /// regions, with a smaller visible area. Default: 0, nothing is left out. NaN counts as 0.
     pub least_area: f64,
     /// A callback that receives the progress and can cancel the work: see [Progress](VisibilityMap#progress).
     /// Default: `None`.
@@ -134,7 +134,8 @@ pub enum Hidden {
     Skip,
     /// Returns hidden parts as runs that are not visible.
     Keep,
-    /// Like `Keep`, with hidden runs cut where the number of polygons in front changes: a run's `layers`.
+    /// Like `Keep`, but cuts hidden runs where the number of polygons in front changes. A run's `layers` is
+    /// this number.
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
     /// have the edge do not count, but another face of a polygon that is not planar may be in front and
@@ -175,7 +176,7 @@ impl BspTree {
     /// If the camera is too far from the scene or its view too narrow, as for [`Rays::new`]; if the tree is
     /// the tree of one cell of a partition; if the number of opacities is not the number of polygons; if an
     /// opacity is not a number from 0 to 1 ([`Error::polygon`] is the first such polygon); if memory runs
-    /// out; or if it was cancelled.
+    /// out; or if the callback cancels the work.
     pub fn visibility<'t>(
         &'t self,
         camera: &Camera,
@@ -280,7 +281,7 @@ impl MapCell<'_> {
     }
 }
 
-/// The visible parts of all items, in the order of the tiles. Takes one phase.
+/// The visible parts of all items, in the order of the tiles. Counts as one phase of the progress.
 pub(super) fn visible<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,
@@ -301,7 +302,7 @@ pub(super) fn visible<'p>(
     Ok(parts.into_iter().flatten().collect())
 }
 
-/// The number of parts of each phase of an operation.
+/// The number of parts that each phase of an operation adds to the progress.
 const PARTS: usize = 64;
 /// Loops poll for cancellation after this much work, in pieces that a build examines: a tenth of a
 /// millisecond. Too small: polling takes time. Too large: cancelling takes longer.
@@ -314,7 +315,7 @@ const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
-/// Reports the progress of operations to a callback, if there is one, and lets it cancel them.
+/// Reports the progress of operations to a callback, if any. The callback can cancel the operations.
 #[derive(Default)]
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 
@@ -323,7 +324,8 @@ impl<'c> Reporter<'c> {
         Self(progress.map(|progress| Box::new(one_at_a_time(progress)) as Box<Report<'c>>))
     }
 
-    /// Runs an operation of `phases` phases. The last part is reported only when the operation ends.
+    /// Runs an operation of `phases` phases, each of which counts `PARTS` parts. The last part is reported
+    /// only when the operation ends.
     pub(super) fn watch<T>(
         &self,
         phases: usize,
@@ -367,20 +369,20 @@ pub(super) fn each<T>(
         let item = items.next();
         done.work += pieces;
         if done.work >= STRETCH || item.is_none() {
-            return done.tell().err().map(Err).or(item.map(Ok));
+            return done.report().err().map(Err).or(item.map(Ok));
         }
         item.map(Ok)
     })
 }
 
-/// Work that is done but not yet counted. If a loop ends early, it is counted too.
+/// Work that is done but not yet counted. If a loop ends early, `drop` counts this work.
 struct Done<'w, 'c> {
     watch: &'w Watch<'c>,
     work: usize,
 }
 
 impl Done<'_, '_> {
-    fn tell(&mut self) -> Result<(), Error> {
+    fn report(&mut self) -> Result<(), Error> {
         self.watch.work(std::mem::take(&mut self.work))
     }
 }
@@ -388,12 +390,12 @@ impl Done<'_, '_> {
 impl Drop for Done<'_, '_> {
     fn drop(&mut self) {
         // After a cancellation, the next poll returns the error.
-        let _ = self.tell();
+        let _ = self.report();
     }
 }
 
-/// Sorts a list, stably, unless it is cancelled. Parts are sorted first, so that sorting the whole list is
-/// fast.
+/// Sorts a list, stably, unless the operation is cancelled. Parts are sorted first, so that sorting the whole
+/// list is fast.
 pub(super) fn sort_by<T>(
     list: &mut [T],
     watch: &Watch<'_>,

@@ -78,7 +78,7 @@ impl VisibilityMap<'_> {
     /// # Errors
     ///
     /// If the overlay was made for another tree; if it has polygons ([`Error::polygon`] is the first); or if
-    /// it was [cancelled](Self#progress).
+    /// the operation was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay, hidden: Hidden) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         let (primitives, counts) = (&self.primitives, hidden == Hidden::Count);

@@ -474,7 +474,7 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If it was [cancelled](Self#progress).
+    /// If the operation was [cancelled](Self#progress).
     pub fn drawing(&self) -> Result<Drawing, Error> {
         self.reporter.watch(2, |watch| self.drawn(watch))
     }

@@ -101,7 +101,7 @@ fn painted(picture: &VectorPicture) -> Vec<u8> {
         page.set_fill(colour, 1.0);
         page.content.rect(0.0, 0.0, width, height).fill_nonzero();
     }
-    // Pages are measured upwards from below.
+    // The coordinates of a page grow upwards.
     page.content.transform([1.0 / units, 0.0, 0.0, -1.0 / units, 0.0, height]);
     for item in items(picture) {
         let paint = item.own_paint();
@@ -153,7 +153,7 @@ impl Page {
         let show = |page: &mut Self, mode: TextRenderingMode| {
             let content = page.content.begin_text();
             content.set_font(FONT, size).set_text_rendering_mode(mode);
-            // Letters stand upright in coordinates that grow downwards.
+            // Flips y, so that letters are upright although coordinates grow downwards.
             content.set_text_matrix([1.0, 0.0, 0.0, -1.0, x - 0.5 * width, y]);
             content.show(Str(&text)).end_text();
         };
@@ -274,7 +274,7 @@ fn width(code: u8) -> u16 {
     usize::from(code).checked_sub(0x20).map_or(0, |at| WIDTHS[at])
 }
 
-/// The widths from 0x20 on, from Adobe's font metrics. Codes without a character are bullets.
+/// The widths from 0x20 on, from Adobe's font metrics. Codes without a character have the width of a bullet.
 #[rustfmt::skip]
 const WIDTHS: [u16; 224] = [
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
@@ -366,7 +366,7 @@ mod tests {
 
     /// Letters with and without an accent are equally wide, and so are all digits.
     #[test]
-    fn widths_are_those_of_the_characters() {
+    fn widths_match_the_characters() {
         let of = |text: &str| win_ansi(text).into_iter().map(width).collect::<Vec<_>>();
         assert_eq!(of("ÀÁÅÇÈËÌÏÑÒÖÙÜÝàåçèëñòöùüýÿŠšŽž"), of("AAACEEIINOOUUYaaceenoouuyySsZz"));
         assert_eq!(of("0123456789"), [556; 10]);

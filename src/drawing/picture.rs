@@ -129,7 +129,8 @@ impl Paint {
         self.fill.is_some() && self.opacity >= 1.0
     }
 
-    /// The paint with numbers that can be written and compared, without fills and strokes that are not visible.
+    /// The paint without fills and strokes that are not visible, and with numbers that can be written and
+    /// compared.
     fn tidy(self) -> Self {
         // Four decimals are finer than 256 levels.
         let share = |opacity: f64| (1e4 * bounded(opacity, 1.0)).round() / 1e4;

@@ -73,7 +73,7 @@ const LOOKED: usize = 16;
 
 impl<'t> Primitives<'t> {
     /// The pieces of a tree that rays may meet, except pieces of polygons with opacity 0. Without opacities,
-    /// all polygons are opaque. Takes one phase.
+    /// all polygons are opaque. Counts as one phase of the progress.
     pub(super) fn new(
         tree: &'t BspTree,
         rays: Rays,
@@ -102,7 +102,8 @@ impl<'t> Primitives<'t> {
         Ok(primitives)
     }
 
-    /// Makes the lines of all faces and items that may be visible in the picture. Takes one phase.
+    /// Makes the lines of all faces and items that may be visible in the picture. Counts as one phase of the
+    /// progress.
     fn add_halves(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
         let faces = self.lines.frame.faces;
         for face in 0..faces.len() {

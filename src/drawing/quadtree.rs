@@ -28,7 +28,7 @@ pub(super) struct Tile {
     pub(super) high: [i64; 2],
 }
 
-/// The position of a box relative to a line.
+/// The position of a box relative to a half-plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Across {
     Inside,
@@ -44,9 +44,9 @@ pub(super) const TINY: i64 = 1 << 20;
 /// are halved many times. Too large: long lists remain.
 pub(super) const TINIEST: i64 = 1 << 6;
 
-/// The growth of the number of pieces by halving. When a tile is halved, its parts together have more pieces
-/// than the tile, because pieces that reach into both parts are in both. The growth of a part is the product
-/// of these ratios over all its halvings.
+/// The growth of the number of pieces by halving. When a tile is halved, its two parts together have more
+/// pieces than the tile, because pieces that reach into both parts are counted twice. The growth of a part is
+/// the product of the ratios of these two numbers, over all halvings that led to the part.
 ///
 /// All parts of a picture together have at most as many pieces as the picture, times their largest growth.
 /// Proof: divide the number of pieces of each part by its growth; halving a part does not increase the sum.
@@ -54,8 +54,8 @@ pub(super) const TINIEST: i64 = 1 << 6;
 pub(super) struct Growth(f64);
 
 /// Parts of this growth are not halved again. Many pieces may meet in a point, as at the tip of a cone, or
-/// along a line, like the columns of a terrain seen along its rows: halving would not end around it. Too
-/// small: long lists remain. Too large: many parts with the same pieces.
+/// along a line, like the columns of a terrain seen along its rows. Around such a point or line, halving
+/// would not end. Too small: long lists remain. Too large: many parts with the same pieces.
 const MOST: f64 = 4.0;
 
 impl Growth {
@@ -116,7 +116,7 @@ impl Tile {
 }
 
 impl LineTable<'_> {
-    /// The position of a box relative to a half.
+    /// The position of a box relative to a half-plane.
     pub(super) fn across(&self, half: HalfPlane, [low, high]: &Rect) -> Across {
         let line = self.rounded(half);
         let [x, y] = [0, 1].map(|axis: usize| 0.5 * (low[axis] + high[axis]));
@@ -145,9 +145,9 @@ pub(super) const LINES: usize = 64;
 /// The cost of visiting a node of a graph.
 pub(super) const VISITED: usize = 4;
 
-/// Halves a part repeatedly, until `halves` returns `None`, and calls `leaf` to add its findings there.
-/// Returns one collection for each part that threads share. The result and its order do not depend on the
-/// number of threads. It is one phase of the watched operation.
+/// Halves a part repeatedly, until `halves` returns `None`, and calls `leaf` with each part that is not
+/// halved, to add its results. Returns one collection for each part that threads share. The result and its
+/// order do not depend on the number of threads. Counts as one phase of the progress.
 pub(super) fn found_in<P: Send, F: Send + Default>(
     all: P,
     halves: impl Fn(&P) -> Result<Option<[P; 2]>, Error> + Sync,
@@ -157,8 +157,8 @@ pub(super) fn found_in<P: Send, F: Send + Default>(
     shared(all, 0..1 << SHARED, &halves, &leaf, watch)
 }
 
-/// Searches a part that has these shares. Any free thread continues with each half, so no thread waits until
-/// all parts of a size are halved.
+/// Searches a part. `shares` are the items of the phase that count as done with it. Any free thread continues
+/// with each half, so no thread waits until all parts of a size are halved.
 fn shared<P: Send, F: Send + Default>(
     part: P,
     shares: Range<usize>,
@@ -185,8 +185,8 @@ fn shared<P: Send, F: Send + Default>(
     Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
 }
 
-/// At most this many opaque faces, the nearest, are tested for whether all their items together cover a tile.
-/// Too small: more hidden items stay in the lists. Too large: more tests without success.
+/// The number of opaque faces, the nearest first, that are tested for whether all items of the face together
+/// cover a tile. Too small: more hidden items stay in the lists. Too large: more tests without success.
 const FACES: usize = 8;
 
 /// The kind of a list's candidates: numbers of items, front to back, or of whole faces.
@@ -224,7 +224,7 @@ pub(super) struct Candidates<'p> {
 }
 
 impl<'p> Candidates<'p> {
-    /// The candidates for some items.
+    /// The candidates for the items that `keep` accepts.
     pub(super) fn items(
         primitives: &'p Primitives<'p>,
         keep: impl Fn(u32) -> bool,
@@ -236,7 +236,7 @@ impl<'p> Candidates<'p> {
         Ok(all)
     }
 
-    /// The candidates for some faces that may be visible in the picture.
+    /// The candidates for the faces that may be visible in the picture and that `keep` accepts.
     pub(super) fn faces(
         primitives: &'p Primitives<'p>,
         keep: impl Fn(u32) -> bool,
@@ -254,7 +254,8 @@ impl<'p> Candidates<'p> {
         Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
     }
 
-    /// The same items, without those hidden behind an opaque item that covers a part of the picture.
+    /// Sets that lists of items end at an opaque item that covers the part of the picture: items behind it
+    /// are hidden.
     pub(super) fn ending_at_covers(self) -> Self {
         Self { ends_at_cover: true, ..self }
     }
@@ -331,7 +332,8 @@ impl<'p> Candidates<'p> {
         Ok(part)
     }
 
-    /// Ends a list of items with the last item of a face that covers the box, in one or more items.
+    /// Ends the list of items with the last item of an opaque face that covers the box. One or more items of
+    /// the face cover it together.
     fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
         let primitives = self.primitives;
         let mut end = self.limit;
@@ -382,7 +384,7 @@ impl<'p> TileList<'p> {
         self.candidates.list.iter().filter(|candidate| !candidate.covers()).count()
     }
 
-    /// Whether halving the tile is useless, or it is no larger than `least` steps.
+    /// Whether halving the tile is useless, or the tile is no larger than `least` steps.
     pub(super) fn is_small(&self, least: i64) -> bool {
         self.growth.is_too_much() || self.tile.is_within(least)
     }
@@ -416,9 +418,9 @@ pub(super) struct Leaf {
     pub(super) cells: Vec<Visible>,
 }
 
-/// Longer lists are divided. Too small: more tiles, and more cells cut by their borders (16: a drawing of a
-/// scan takes 1.5 times as long). Too large: more cells compared with more items, though 128 would save
-/// another 2 to 4 %.
+/// Lists longer than this are divided. Too small: more tiles, and more cells cut by their borders (16: a
+/// drawing of a scan takes 1.5 times as long). Too large: more cells compared with more items, though 128
+/// would save another 2 to 4 %.
 pub(super) const SHORT: usize = 64;
 
 impl Leaf {
@@ -451,7 +453,8 @@ impl Leaf {
 pub(super) struct SubTile<'l, 'p> {
     pub(super) candidates: &'l Candidates<'p>,
     pub(super) cell: Cell,
-    /// The candidates, front to back and clipped to the part. For faces, item numbers are face numbers.
+    /// The candidates, front to back and clipped to the part. If the candidates are faces, `item` is the
+    /// number of a face.
     pub(super) pieces: Vec<Visible>,
     pub(super) passing: Passing<'l>,
     growth: Growth,
@@ -461,7 +464,7 @@ pub(super) struct SubTile<'l, 'p> {
 /// unevenly, or not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
 /// The number of pieces that each of these edges is compared with. Too small: the choice is poor. Too large:
-/// it takes long.
+/// choosing takes longer.
 const SAMPLE: usize = 48;
 
 impl<'l, 'p> SubTile<'l, 'p> {
@@ -571,7 +574,7 @@ impl<'l, 'p> SubTile<'l, 'p> {
                 counts[0] += usize::from(signs.contains(&sign(false)));
                 counts[1] += usize::from(signs.contains(&sign(true)));
             }
-            // Subtracting takes time up to the square of the number of pieces.
+            // Subtracting takes up to quadratic time.
             let cost = counts[0] * counts[0] + counts[1] * counts[1];
             if cost * 10 < all * all * 9 && best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, half));

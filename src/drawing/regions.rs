@@ -28,12 +28,12 @@ impl VisibilityMap<'_> {
     ///
     /// If all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
     /// polygons behind them: n overlapping polygons have up to O(n²) regions, with up to n polygons each. To
-    /// avoid seams, fill each region with one blended colour and add the regions instead of painting them
-    /// over one another.
+    /// avoid seams, fill each region with one blended colour, in a group whose areas are [added
+    /// up](super::VectorPicture::added_up).
     ///
     /// # Errors
     ///
-    /// If it was [cancelled](Self#progress).
+    /// If the operation was [cancelled](Self#progress).
     pub fn regions(&self) -> Result<Vec<Region>, Error> {
         self.reporter.watch(2, |watch| {
             let mut regions = self.stacks(watch)?.regions(&self.primitives.lines, watch)?;
@@ -43,7 +43,7 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The visible parts of polygons that lie one behind the other. Takes one phase.
+    /// The visible parts of polygons that lie one behind the other. Counts as one phase of the progress.
     fn stacks(&self, watch: &Watch<'_>) -> Result<Stacks, Error> {
         let mut stacks = Stacks::default();
         stacks.layers.push(PolygonLayer { polygon: usize::MAX, before: 0 });
@@ -60,13 +60,13 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// A visible polygon behind another layer, or in front if that is the first layer.
+/// A visible polygon, and the layer in front of it. The first layer stands for no polygon.
 struct PolygonLayer {
     polygon: usize,
     before: u32,
 }
 
-/// All regions, each by its last layer.
+/// All regions, each given by its rearmost layer.
 #[derive(Default)]
 struct Stacks {
     layers: Vec<PolygonLayer>,
@@ -103,7 +103,7 @@ impl Stacks {
         Ok(())
     }
 
-    /// The regions, in the order of their polygons. Takes one phase.
+    /// The regions, in the order of their polygons. Counts as one phase of the progress.
     fn regions(self, lines: &LineTable<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
         let Self { layers, parts, of_parts, .. } = self;
         let layer = |part: u32| of_parts[part as usize];
@@ -169,7 +169,7 @@ fn area(outline: &[[f64; 2]]) -> f64 {
     halves.sum()
 }
 
-/// A tile in convex parts.
+/// A tile that is divided into convex parts.
 pub(super) struct Divided {
     pub(super) cells: Vec<LayeredCell>,
     /// Each layer follows the layer in front of it. The first layer has no item.
@@ -180,7 +180,7 @@ pub(super) struct Divided {
 pub(super) struct LayeredCell {
     pub(super) cell: Cell,
     around: Rect,
-    /// The last of its layers; the first layer, which has no item, if nothing is visible.
+    /// The rearmost of its layers; the first layer, which has no item, if nothing is visible.
     pub(super) layer: u32,
 }
 
@@ -265,8 +265,8 @@ impl Divided {
 }
 
 impl VisibilityMap<'_> {
-    /// Calls a function with each convex part of the picture, once for each item that is visible there. Takes
-    /// one phase.
+    /// Calls a function once for each item that is visible in each convex part of the picture. Counts as one
+    /// phase of the progress.
     pub(super) fn for_each_part(
         &self,
         mut see: impl FnMut(u32, &Cell) -> Result<(), Error>,

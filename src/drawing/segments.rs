@@ -30,7 +30,7 @@ pub(super) struct ProjectedSegment {
     /// The side of the segment's line on which the picture lies, if the line is a border of the picture;
     /// otherwise `Equal`.
     pub(super) picture: Ordering,
-    /// A box around this part.
+    /// A box around the part in the picture.
     around: Rect,
 }
 
@@ -42,16 +42,16 @@ pub(super) struct ImageLine {
     foot: [f64; 2],
     /// The direction of the line, of length 1.
     direction: [f64; 2],
-    /// The places of its start and its end in the picture.
+    /// The places of the segment's start and end in the picture.
     pub(super) places: [f64; 2],
 }
 
 /// The origin of a segment.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// It leads from one lattice point to another.
+    /// The segment leads from one lattice point to another.
     Points([[f64; 3]; 2]),
-    /// These faces cross each other there.
+    /// The segment is a part of the line in which these faces cross each other.
     Crossing([u32; 2]),
 }
 
@@ -219,9 +219,9 @@ impl ProjectedSegment {
         }
     }
 
-    /// Like [`behind`](Self::behind) for a crossing, by one of its faces: the face and another plane are
-    /// equally far away in the line of the rays that meet both in one point. (No tolerance: the ends are no
-    /// lattice points.)
+    /// Like [`behind`](Self::behind) for a crossing, one of whose faces is `own`. Along the cut of `own` by
+    /// the plane of `face`, both planes are equally far away. (There is no tolerance, because the ends are
+    /// not lattice points.)
     fn crossing_behind(
         &self,
         lines: &LineTable<'_>,
@@ -230,7 +230,8 @@ impl ProjectedSegment {
         seen: Ordering,
     ) -> Option<[f64; 2]> {
         let [line, cut] = [self.exact(lines), cut(lines, [own, face])];
-        // Where the cut is positive, the own face is in front of the other face's plane if its κ is positive.
+        // Where the cut is positive, `own` is in front of the other face's plane if the κ of `own` is
+        // positive.
         let side = lines.frame.sheet(PlaneId::face(own)).side();
         let is_behind = |sign: Ordering| {
             let at = if side.is_gt() { sign } else { sign.reverse() };
@@ -249,7 +250,7 @@ impl ProjectedSegment {
                 .filter(|_| after || is_behind(rise.reverse()));
         }
         // The cut is constant along the line: subtract the multiple of the line that has the cut's slope. The
-        // difference has the sign.
+        // difference has the sign of the cut.
         let axis = if line[1].sign().is_ne() { 1 } else { 2 };
         let sign = if line[axis].sign().is_gt() { minor(0, axis) } else { minor(axis, 0) };
         is_behind(sign).then_some(ALL)
@@ -269,7 +270,7 @@ impl ProjectedSegment {
         if is_behind == [false; 2] || sides[0] != sides[1].reverse() {
             return (is_behind != [false; 2]).then_some(ALL);
         }
-        // The segment crosses the plane, at a mean of its ends.
+        // The segment crosses the plane, at a weighted mean of its ends.
         let plane = faces.plane(PlaneId::face(face));
         let [a, b] = ends.map(|end| lines.frame.image(end));
         let weights = [ends[1], ends[0]].map(|end| {
@@ -284,7 +285,8 @@ impl ProjectedSegment {
             let place = self.course.place(point_of(&mean));
             return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
-        // Behind the eye: the part ahead lies on the side of the end that is ahead.
+        // It crosses the plane behind the eye: the part ahead of the eye lies on the side of the end that is
+        // ahead.
         let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
         is_behind[ahead].then_some(ALL)
     }
@@ -373,15 +375,16 @@ impl ProjectedPoint {
     }
 }
 
-/// A part of a segment that passes an item or a face in the picture, over its inside or along its border.
+/// A part of a segment that passes in front of or behind an item or a face, over its inside or along its
+/// border in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The segment and the item or face, by their numbers.
     pub(super) segment: u32,
     pub(super) piece: u32,
-    /// Whether the piece is in front of it.
+    /// Whether the segment is behind the piece.
     pub(super) is_behind: bool,
-    /// The places along the segment between which it passes.
+    /// The places along the segment at which the part begins and ends.
     pub(super) places: [f64; 2],
 }
 
@@ -390,11 +393,11 @@ pub(super) struct Pass {
 pub(super) struct PointPass {
     pub(super) point: u32,
     pub(super) piece: u32,
-    /// Whether the piece is in front of it.
+    /// Whether the point is behind the piece.
     pub(super) is_behind: bool,
 }
 
-/// Segments and points, with the numbers of those that may be in a part of the picture.
+/// Segments and points, and the numbers of the segments and points that may be in a part of the picture.
 #[derive(Clone)]
 pub(super) struct Passing<'a> {
     segments: &'a [ProjectedSegment],
@@ -452,8 +455,8 @@ pub(super) struct Passes {
 /// segments are compared with more pieces (128: up to a sixth less time).
 const FEW: usize = 64;
 
-/// The passes of segments and points behind candidates; on request, also the passes in front of candidates.
-/// Takes one phase.
+/// The passes of segments and points behind candidates and, unless `wants_behind_only`, in front of
+/// candidates. Counts as one phase of the progress.
 pub(super) fn passes<'p>(
     candidates: Candidates<'p>,
     passing: Passing<'p>,
@@ -498,7 +501,7 @@ impl Passes {
         joined
     }
 
-    /// Adds the passes over or behind pieces, which have the numbers of items or faces.
+    /// Adds the passes in front of or behind pieces. Pieces have the numbers of items or faces.
     fn add<'c>(
         &mut self,
         primitives: &Primitives<'_>,
@@ -551,7 +554,7 @@ impl Passes {
     }
 }
 
-/// The number of polygons in front of a segment from a place on.
+/// The number of polygons in front of a segment, from the place `from` to the next place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     from: f64,
@@ -614,7 +617,8 @@ pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] 
 
 impl VisibilityMap<'_> {
     /// The passes of segments behind faces, sorted by segments, polygons and places, and the passes of
-    /// points. Hidden and translucent faces are included only on request. Takes one phase.
+    /// points. Hidden and translucent faces are included only if `wants_all`. Counts as one phase of the
+    /// progress.
     pub(super) fn in_front<'l>(
         &'l self,
         passing: Passing<'l>,
@@ -633,7 +637,8 @@ impl VisibilityMap<'_> {
         Ok(passes)
     }
 
-    /// The passes of segments and points behind visible parts of opaque faces. Takes one phase.
+    /// The passes of segments and points behind visible parts of opaque faces. Counts as one phase of the
+    /// progress.
     fn behind_visible<'l>(
         &'l self,
         passing: Passing<'l>,
@@ -716,7 +721,7 @@ pub(super) fn in_layers(
     };
     let [a, b] = ends.map(|end| segment.course.place(end));
     let (low, high) = (a.min(b), a.max(b));
-    // The start of each part, as a share of the run.
+    // The start of each part, as a place along the segment, and its layers.
     let mut parts: Vec<(f64, u32)> = Vec::new();
     let first = depths.partition_point(|depth| depth.from <= low);
     let before = first.checked_sub(1).map_or(0, |before| depths[before].layers);

@@ -1,7 +1,8 @@
 //! Vector pictures as SVG.
 //!
-//! Coordinates are whole numbers of a small unit, relative to the previous point, so that they are short.
-//! Consecutive shapes of one look share it in a group.
+//! Coordinates are whole numbers of a small unit, relative to the previous point, so that they are short. The
+//! look of a shape is its paint and the size of its font. Consecutive shapes with the same look are written
+//! as a group, which states the look once.
 
 use std::borrow::Cow;
 use std::fmt::{self, Write};
@@ -13,7 +14,7 @@ use super::picture::{
 impl VectorPicture {
     /// Returns the picture as the text of an SVG file.
     ///
-    /// Labels are text, in the fonts of the viewer. [Groups](Self::group) have their attributes.
+    /// Labels are text, in the fonts of the viewer. [Groups](Self::group) are written with their attributes.
     pub fn to_svg(&self) -> String {
         let mut out = String::new();
         // Writing to a string does not fail.
@@ -65,7 +66,7 @@ pub(super) enum Written<'a> {
     End,
 }
 
-/// A group that is being written: its end, and the look of its contents, if the group states it.
+/// A group that is being written: its end, and the look of its contents, if the group states their look.
 struct Open {
     end: usize,
     look: Option<Look>,
@@ -287,8 +288,8 @@ fn push(text: &mut String, number: u64) {
     let _ = write!(text, "{number}");
 }
 
-/// A text as the value of an attribute or as the text of an element. Characters that XML does not allow are
-/// replaced.
+/// Escapes a text for the value of an attribute or the text of an element. Characters that XML does not allow
+/// are replaced.
 pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     let is_plain =
         |c: char| !matches!(c, '<' | '>' | '&' | '"' | '\u{fffe}' | '\u{ffff}') && c >= ' ';
@@ -353,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_small_keeps_an_area() {
+    fn small_shapes_keep_an_area() {
         let speck = [[3.0, 3.0], [3.001, 3.0], [3.0, 3.0003]];
         assert_eq!(filled(&[&speck], 100), "m300 300 .1 0-.1.03z");
         // Smaller than all steps, but still a path.

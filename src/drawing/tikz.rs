@@ -7,8 +7,8 @@ use super::svg::{Look, Written, write_nodes};
 
 /// The largest coordinate, in big points: TeX has no length beyond 16 383.99 of its points.
 const FURTHEST: f64 = 16_000.0;
-/// The number of corners in a line of the file. Too large: pdfLaTeX refuses lines of 200 000 bytes. Too small:
-/// files are longer.
+/// The largest number of corners in one line of the file. Too large: pdfLaTeX refuses lines of 200 000 bytes.
+/// Too small: files are longer.
 const CORNERS: usize = 50;
 
 /// The beginning of a file that LaTeX compiles alone or includes in a document.
@@ -40,12 +40,13 @@ impl VectorPicture {
     /// ```
     ///
     /// A pixel is a big point, 1/72 inch. Each word of the `class` of a [group](Self::group) is a style that
-    /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`; it overrides the
-    /// colours and lines of a group whose shapes all have the same paint. In other groups, shapes override the
-    /// style. Labels override it in all groups of several shapes. Words with characters other than letters,
-    /// digits and hyphens, and other attributes, are left out. Labels are in the document's font, which must have their characters.
-    /// Strokes of labels are left out. Shapes that reach further than 16 000 pixels, and shapes with a wider
-    /// stroke or longer dashes, are left out, because TeX has no such length.
+    /// the document may define, for example `\tikzset{binspace/axis/.style={draw=red}}`. A style overrides
+    /// the colours and lines of a group whose shapes all have the same paint. In other groups, shapes
+    /// override the style. Labels override the style in all groups of several shapes. Words with characters
+    /// other than letters, digits and hyphens, and other attributes, are left out. Labels are in the
+    /// document's font, which must contain their characters. Strokes of labels are left out. Shapes that
+    /// reach further than 16 000 pixels, and shapes with a wider stroke or longer dashes, are left out,
+    /// because TeX has no such length.
     pub fn to_tikz(&self) -> String {
         let mut out = HEAD.to_owned();
         // Writing to a string does not fail.
@@ -91,7 +92,7 @@ fn write_item(
     }
     let (command, options) = match (label, paint.fill, paint.stroke) {
         (Some(_), None, _) => return Ok(()),
-        // A node that is filled is a bar, and a node that is drawn has a frame.
+        // A filled node would be a bar, and a drawn node would have a frame.
         (Some(size), Some(colour), _) => ("\\node", label_options(size, colour, paint.opacity)),
         (None, Some(_), Some(_)) => ("\\filldraw", paint_options(look.map(|_| paint))),
         (None, Some(_), None) => ("\\fill", paint_options(look.map(|_| paint))),
@@ -162,7 +163,7 @@ fn label_options(size: f64, colour: [u8; 3], opacity: f64) -> Vec<String> {
 
 fn paint_options(paint: Option<Paint>) -> Vec<String> {
     let mut options = Vec::new();
-    // All shapes with another stroke are left out.
+    // Shapes whose stroke does not fit are left out.
     let Some(paint) = paint.filter(stroke_fits) else { return options };
     let Paint { fill, opacity, stroke } = paint;
     options.extend(fill.map(|colour| format!("fill={}", rgb(colour))));
@@ -181,7 +182,7 @@ fn paint_options(paint: Option<Paint>) -> Vec<String> {
 
 /// Writes the options of a scope or a shape, and the styles of its classes, which override them.
 fn write_options(out: &mut String, mut options: Vec<String>, attributes: &str) -> fmt::Result {
-    // Other attributes have no such characters: quotation marks in their values are escaped.
+    // Values of other attributes do not contain these characters, because their quotation marks are escaped.
     let classes = attributes.split_once(" class=\"").and_then(|(_, rest)| rest.split_once('"'));
     let is_plain = |word: &&str| word.chars().all(|c| c.is_ascii_alphanumeric() || c == '-');
     let words = classes.map_or("", |(classes, _)| classes).split_whitespace().filter(is_plain);
@@ -198,7 +199,7 @@ fn rgb([r, g, b]: [u8; 3]) -> String {
     format!("{{rgb,255:red,{r};green,{g};blue,{b}}}")
 }
 
-/// A text without characters that are commands of TeX.
+/// Escapes the characters of a text that are commands of TeX.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
@@ -207,11 +208,11 @@ fn escaped(text: &str) -> String {
             '^' => escaped += "\\textasciicircum{}",
             '~' => escaped += "\\textasciitilde{}",
             '{' | '}' | '$' | '&' | '#' | '%' | '_' => escaped.extend(['\\', c]),
-            // The font encoding OT1 has other characters in their places.
+            // In the font encoding OT1, other characters have the codes of these three.
             '<' => escaped += "\\textless{}",
             '>' => escaped += "\\textgreater{}",
             '|' => escaped += "\\textbar{}",
-            // Packages for languages define it as a command.
+            // Packages for languages define the quotation mark as a command.
             '"' => escaped += "\\symbol{34}",
             '\u{2212}' => escaped += "$-$",
             c if c.is_control() => escaped.push(' '),
@@ -249,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_reaches_too_far_for_tex_is_left_out() {
+    fn shapes_that_reach_too_far_for_tex_are_left_out() {
         let shapes = |far: f64| {
             let mut picture = VectorPicture::new([640, 480]);
             let stroke = Stroke::new(1.0, [0; 3]);

@@ -49,9 +49,9 @@ impl Drawing {
     /// An overlay does not change the paths, with one exception: a line along the border of two polygons that
     /// only touch there, one behind the line and the other in front. Then these two polygons are painted in
     /// that order, which may change the number of paths of polygons. If such pairs close a cycle, or are not
-    /// all found in a few rounds, a part is painted after all polygons behind it, but polygons in front may
-    /// be painted before it. The same is true of a bent polygon that has one face behind a line and another
-    /// in front, because it is one path.
+    /// all found in a few rounds, a part of a line is painted after all polygons behind it, but polygons in
+    /// front may be painted before it. The same applies to a bent polygon with one face behind a line and
+    /// another face in front, because the polygon is one path.
     ///
     /// # Errors
     ///
@@ -106,8 +106,8 @@ impl Drawing {
 }
 
 /// The drawing of a map with translucent polygons: opaque polygons have one path each, and translucent
-/// polygons have paths as in [`Drawing::translucent`]. Hidden polygons and the polygons of a list are left
-/// out. Takes two phases.
+/// polygons have paths as in [`Drawing::translucent`]. Hidden polygons and the polygons in `left_out` are
+/// left out. Counts as two phases of the progress.
 pub(super) fn mixed(
     primitives: &Primitives<'_>,
     leaves: &[Leaf],
@@ -147,8 +147,9 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Joins items to parts that still have an order which keeps all pairs of overlapping items, and as many
-    /// as possible of the pairs that only touch, which the tree's order may not keep.
+    /// Joins items to parts. The parts still have an order that keeps all pairs of overlapping items, and as
+    /// many as possible of the pairs that only touch. The tree's order may not keep the pairs that only
+    /// touch.
     pub(super) fn new(
         primitives: &Primitives<'_>,
         overlaps: &[Pair],
@@ -234,8 +235,8 @@ impl Parts {
         self.of_item.iter().map(|&part| places[part as usize]).collect()
     }
 
-    /// The parts in order, as filled outlines, and for each number of parts, the number of paths of the first
-    /// parts. Takes one phase.
+    /// Draws the parts in order, as filled outlines. Also returns, for each `k`, the number of paths of the
+    /// first `k` parts. Counts as one phase of the progress.
     pub(super) fn drawing(
         &self,
         primitives: &Primitives<'_>,
@@ -284,7 +285,7 @@ impl Parts {
         Ok((drawing, paths))
     }
 
-    /// The visible part of each part.
+    /// The visible cells of each part.
     fn cells<'l>(&self, leaves: &'l [Leaf]) -> Vec<Vec<&'l Cell>> {
         let mut cells: Vec<Vec<&Cell>> = vec![vec![]; self.items.len()];
         for Visible { item, cell } in leaves.iter().flat_map(|leaf| &leaf.cells) {
@@ -294,7 +295,7 @@ impl Parts {
     }
 }
 
-/// Numbers of items.
+/// The number of items of each face and of each polygon.
 struct Counts {
     of_face: Vec<u32>,
     of_polygon: Vec<u32>,
@@ -333,7 +334,8 @@ impl Counts {
     }
 }
 
-/// For each item, the number of its polygon, or of its face if the polygon lies over itself.
+/// For each item, the number of its unit. A unit is a polygon, or a face of a polygon that overlaps itself in
+/// the picture.
 fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     let polygon = |item: u32| primitives.polygon(item);
     let mut is_folded = vec![false; primitives.polygon_count()];
@@ -355,8 +357,8 @@ fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     (0..primitives.items.len() as u32).map(unit).collect()
 }
 
-/// Pairs of nodes of one unit, the nearest in the order first, because they have the fewest nodes between
-/// them. (The number of remaining parts hardly depends on the sequence of joins.)
+/// Pairs of nodes of one unit. Pairs whose nodes are nearest in the order come first, because they have the
+/// fewest nodes between them. (The number of remaining parts hardly depends on the sequence of joins.)
 fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
     let unit = |node: u32| units[nodes[node as usize] as usize];
     let mut by_unit: Vec<u32> = (0..nodes.len() as u32).collect();

@@ -30,8 +30,9 @@ type Points = SmallVec<[Point; MOST_CORNERS]>;
 /// visible.
 ///
 /// Rounding may put a corner slightly outside the box. The corner is moved onto the sides that lie in
-/// `viewport`, but not onto sides that are a million sizes of the viewport away. There the last bit of its
-/// place in the layer is a tenth of a pixel on the screen, so the move would put it off its plane by as much.
+/// `viewport`, but not onto sides that are a million sizes of the viewport away. At such a side, the last bit
+/// of the corner's place in the layer is a tenth of a pixel on the screen, so a move would put the corner off
+/// its plane by as much.
 ///
 /// The layer is clipped in its own plane, where every side of the box is a half-plane. So all corners lie in
 /// one plane up to the rounding of their last computation, whichever sides clipped them.
@@ -52,7 +53,7 @@ pub(super) fn clip(
     for Point { local, edge } in points {
         let at = local.extend(1.0);
         let [x, y, z, w] = rows.map(|row| row.dot(at));
-        // Only rounding decides such a w: the layer is in the eye's own plane.
+        // Such a w is due to rounding: the layer is in the plane of the eye.
         if w <= 0.0 || !(w / scale).is_normal() {
             corners.truncate(begin);
             return None;
@@ -132,7 +133,8 @@ fn keep_inside(points: Points, side: DVec3, made: Option<u8>) -> Points {
             kept.push(here);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            // Weighted by the distances, not stepped from one end: the result is the same from either end.
+            // A mean weighted by the distances, not a step from one end: the result is the same from either
+            // end.
             let mut local = here.local * (b / (b - a)) + next.local * (a / (a - b));
             // Points on sides along u or v are exact.
             if side.y == 0.0 {

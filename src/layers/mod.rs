@@ -87,7 +87,7 @@
 //! Points in the box have a positive w. The limit of depth is the near plane. With the perspective d of CSS,
 //! the near plane is where w, the distance from the eye as a share of d, equals d / (2²⁰ longer sides). There
 //! a layer appears about a million times enlarged. Inside the viewport, only a layer that nearly passes
-//! through the eye, and so is seen edge-on, is as near as that.
+//! through the eye is that near, and such a layer is seen edge-on.
 //!
 //! | layer | result |
 //! |---|---|
@@ -137,8 +137,8 @@
 //! largest rounding error of a corner's distance from its layer's plane. Each number of a matrix is assumed
 //! to be off by 2⁻⁵² of itself, or 2⁻²³ if the layer is made by [`Layer::from_f32`]. The tolerance is at
 //! least 10⁻⁹ of the viewport's longer side. It is also at least 2⁻⁴⁵ of the largest coordinate (x, y or
-//! depth) of any corner, which is more only if a layer reaches further than 35 000 times that side. It is
-//! at most 10⁻⁵ of that side.
+//! depth) of any corner; this is more only if a layer reaches further than 35 000 times the longer side. The
+//! tolerance is at most 10⁻⁵ of the longer side.
 //!
 //! The order of two layers where they overlap:
 //!

@@ -30,7 +30,7 @@ const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
 /// through between pieces. Too large: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
 
-/// The layers of a page, cut and in paint order, reused from frame to frame.
+/// The layers of a page, cut and in paint order. Their memory is reused from frame to frame.
 ///
 /// Pass every frame's layers to [`update`](Self::update), then read the pieces. Unchanged frames take no
 /// time; other frames take the time of building a [`BspTree`](crate::BspTree) of as many polygons. [The
@@ -55,7 +55,7 @@ pub struct Layers {
     visible: usize,
 }
 
-/// A layer as clipped, the input polygon of a tree.
+/// A clipped layer: an input polygon of the tree.
 #[derive(Clone, Debug)]
 struct Outline {
     layer: usize,
@@ -110,8 +110,8 @@ impl Layers {
     /// # Errors
     ///
     /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the error is
-    /// the layer's index), if a tree may not have as many pieces, or if memory runs out. After an error the
-    /// page has no pieces.
+    /// the layer's index), if there are more pieces than a tree may have, or if memory runs out. After an
+    /// error the page has no pieces.
     pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
         if self.is_built && self.layers == layers {
             return Ok(false);
@@ -288,7 +288,7 @@ fn corners_of<'a>(
     &corners[outlines[outline].corners..end]
 }
 
-/// A layer as clipped.
+/// A clipped layer, as a polygon for the builder.
 struct Clipped<'p>(&'p [ClippedCorner]);
 
 impl Polygon for Clipped<'_> {
@@ -298,7 +298,7 @@ impl Polygon for Clipped<'_> {
         self.0.iter().map(|corner| corner.vertex.position)
     }
 
-    /// Returns 0: the tolerance of a page is set, and needs no default.
+    /// Returns 0: a page sets its own tolerance, so the default is not used.
     fn precision(&self) -> f64 {
         0.0
     }

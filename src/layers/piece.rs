@@ -1,4 +1,4 @@
-//! Layers, the pieces that a page is painted by, and the vertices of pieces.
+//! Layers, the pieces that a page is painted with, and the vertices of pieces.
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
@@ -26,11 +26,11 @@ impl<'p> LayerPiece<'p> {
         self.is_whole
     }
 
-    /// Returns the vertices, in the layer's own orientation: like the rotation from u to v, clockwise on the
-    /// screen if the layer is seen from its front.
+    /// Returns the vertices, in the sense of the rotation from u to v. This is clockwise on the screen if the
+    /// layer is seen from its front.
     ///
-    /// Pieces of one layer that share a vertex have the same bits for its position. The place in the layer
-    /// is u = Σ λ u/w ÷ Σ λ/w, with the weights λ of the vertex over the corners on the screen.
+    /// Pieces of one layer that share a vertex have the same bits for its position. The place in the layer is
+    /// u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the screen.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = LayerVertex> + use<'p> {
         let Self { layer, outline, fragment, .. } = *self;
         fragment.vertices().zip(fragment.weights()).map(move |(position, weights)| {
@@ -46,9 +46,9 @@ impl<'p> LayerPiece<'p> {
     /// of one layer meet, antialiasing would let the background through.
     ///
     /// Edge 0 leads from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
-    /// belong to the [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Each
-    /// further ancestor that cuts has the next four numbers, in the order of the calls.
-    /// Edges of the 64th and later ancestors are `None`.
+    /// belong to the first [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Each further
+    /// ancestor that cuts has the next four numbers, in the order of the calls. Edges of the 64th and later
+    /// ancestors are `None`.
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
@@ -115,7 +115,8 @@ impl LayerVertex {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedCorner {
     pub(super) vertex: LayerVertex,
-    /// The edge of the rectangle that begins here, if clipping did not make it.
+    /// The edge of the rectangle or of an ancestor's rectangle that begins here; `None` if the box made the
+    /// edge.
     pub(super) edge: Option<u8>,
 }
 
@@ -127,7 +128,7 @@ pub(super) fn interpolated(
     weights: &[(u32, f64)],
 ) -> LayerVertex {
     let corner = |k: u32| outline[k as usize].vertex;
-    // As multiples of one corner's w, so that no w is too small or too large.
+    // Each w is a multiple of one corner's w, so that no w is too small or too large.
     let unit = weights.first().map_or(1.0, |&(k, _)| corner(k).w);
     let term =
         |&(k, weight): &(u32, f64)| corner(k).local.extend(1.0) * (weight * (unit / corner(k).w));
@@ -152,8 +153,9 @@ pub struct Layer {
     clips: Vec<DVec3>,
 }
 
-/// Returns the matrix of CSS `perspective` for the children of an element: the eye is `distance` in front of the
-/// point `origin` of the element (CSS `perspective-origin`, by default its middle). The distance must be positive.
+/// Returns the matrix of CSS `perspective` for the children of an element: the eye is `distance` in front of
+/// the point `origin` of the element (CSS `perspective-origin`, by default its middle). The distance must be
+/// positive.
 pub fn perspective(distance: f64, origin: [f64; 2]) -> DMat4 {
     let mut matrix = DMat4::IDENTITY;
     matrix.z_axis.w = -1.0 / distance;
@@ -260,7 +262,7 @@ impl Layer {
     /// Without perspective, u and v are linear over the screen; otherwise u/w, v/w and 1/w are linear.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let [of_x, of_y, _, of_w] = self.rows;
-        // Both factors are 0 at (u, v, 1): their lines meet in the point.
+        // The products of both factors with (u, v, 1) are 0: the two lines meet in the point.
         let point = (of_x - of_w * x).cross(of_y - of_w * y);
         let local = point.truncate() / point.z;
         let is_seen = of_w.dot(local.extend(1.0)) > 0.0 && local.is_finite();
@@ -323,7 +325,7 @@ impl Layer {
         (self.rows.map(|row| row * scale), scale)
     }
 
-    /// Bounds on the terms of a row that is centred.
+    /// Bounds on the terms of a [centred](Self::centred) row.
     pub(super) fn terms(&self, row: DVec3) -> DVec3 {
         let half = self.high * 0.5 - self.low * 0.5;
         (row.truncate().abs() * half).extend(self.size_of(row))

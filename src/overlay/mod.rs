@@ -115,9 +115,9 @@ use crate::viewpoint::Ray;
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
-///   point, and planes through segments. A segment's plane contains the next corner of the line, or otherwise
-///   the corner before, if it is not collinear with the segment. If both are collinear, the plane is parallel
-///   to the z axis, or for a segment along z to the x axis.
+///   point, and planes through segments. A segment's plane contains the next corner of the line, or, if that
+///   corner is collinear with the segment, the corner before the segment. If both corners are collinear with
+///   the segment, the plane is parallel to the z axis, or for a segment along z to the x axis.
 ///
 /// The exception never occurs for an eye that lies in no plane of a polygon or segment and shares no x, y or
 /// z coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
@@ -137,9 +137,9 @@ use crate::viewpoint::Ray;
 /// - a segment or point that reaches no further from a plane than the tolerance lies on the plane;
 /// - a segment that reaches further on only one side lies entirely on that side.
 ///
-/// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. If a wide line
-/// extends over a polygon that the line itself only touches, such as one of two walls that meet at the line,
-/// that polygon may be painted over the line's border.
+/// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. A wide line may
+/// extend over a polygon that the line itself only touches, such as one of two walls that meet at the line.
+/// That polygon may be painted over the line's border.
 ///
 /// | | time |
 /// |---|---|
@@ -149,7 +149,7 @@ use crate::viewpoint::Ray;
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
 /// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these
-/// faces are moved there at once. So a body reaches its leaf in little time, if you pass its faces
+/// faces are moved there at once. So a body reaches its leaf in little time if its faces are passed
 /// consecutively. The small tree of the body is built again each time, so a body of thousands of faces takes
 /// milliseconds.
 ///
@@ -287,9 +287,9 @@ impl Overlay {
     }
 
     /// Returns the pieces of polygons as vertices and triangles, without T-junctions between them. The mesh
-    /// is like the mesh of a tree. Its pieces have the numbers that [orders](Self::order) list, so the first is
-    /// the tree's [`len`](BspTree::len); polygon numbers begin after the tree's last. It shares no vertices with the tree's mesh, and no edge is
-    /// welded with the tree's edges.
+    /// is like the mesh of a tree. Its pieces have the numbers that [orders](Self::order) list, from the
+    /// tree's [`len`](BspTree::len) on. Its polygons are numbered after the tree's polygons. The mesh shares
+    /// no vertices with the tree's mesh, and no edge is welded with the tree's edges.
     ///
     /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices for
     /// both meshes:

@@ -19,8 +19,8 @@ use crate::tree::parts::{Parts, RawChild};
 use crate::tree::{BspTree, Culling, Order};
 use crate::viewpoint::Viewpoint;
 
-/// The planes of the tree that lead to the overlay's pieces, and the planes of the small trees in its cells.
-/// A branch is stored after the branch that it is attached to.
+/// The planes of the tree that lead to the overlay's pieces, and the planes of the small trees in the tree's
+/// cells. A branch is stored after the branch that it is attached to.
 #[derive(Debug)]
 pub(super) struct InsertionTree {
     root: SlotSide,
@@ -56,7 +56,7 @@ pub(super) struct SlotSide {
 
 /// The slot of sides without pieces, whose beginning is never read.
 const EMPTY: u32 = 0;
-/// The remainder of a group's slot while the tree grows.
+/// A group's slot modulo 2, while the tree grows.
 const GROUP: u32 = 1;
 
 impl SlotSide {
@@ -93,7 +93,7 @@ impl InsertionTree {
         self.groups.clear();
     }
 
-    /// A side of these pieces alone.
+    /// A side that consists of these pieces alone.
     pub(super) fn group(&mut self, pieces: Range<u32>) -> SlotSide {
         if pieces.is_empty() {
             return SlotSide::empty(0);
@@ -148,7 +148,8 @@ impl InsertionTree {
         }
     }
 
-    /// Computes the lengths of all sides, and numbers the slots: of no pieces, of branches, of groups.
+    /// Computes the lengths of all sides, and numbers the slots: first the slot of sides without pieces, then
+    /// the slots of branches, then the slots of groups.
     pub(super) fn finish(&mut self) {
         // From the last to the first, so that the lengths of all branches below are known.
         for i in (0..self.branches.len()).rev() {
@@ -224,7 +225,7 @@ impl Overlay {
 
     /// Returns whether no plane of the tree, and no plane that leads to the overlay's pieces, lies between
     /// two viewpoints. If so, both orders are the same, as for [`BspTree::same_order`], until the next
-    /// [`replace`](Self::replace). This is not true of [culled](OverlayOrder::culled) orders: write them again
+    /// [`replace`](Self::replace). [Culled](OverlayOrder::culled) orders may differ: write them again
     /// whenever the camera moves.
     ///
     /// O(planes); stops at the first plane between the two viewpoints.
@@ -256,7 +257,8 @@ impl<'a> OverlayOrder<'a> {
     }
 
     /// Leaves out the fragments and pieces that are outside a frustum or show the wrong side. Lines and
-    /// points have no sides; they are left out only if they are outside the frustum. The rest keeps its order.
+    /// points have no sides; they are left out only if they are outside the frustum. The other shapes keep
+    /// their order.
     pub fn culled(self, culling: &'a Culling) -> Self {
         Self { order: self.order.culled(culling), ..self }
     }
@@ -264,12 +266,12 @@ impl<'a> OverlayOrder<'a> {
     /// Replaces a buffer's contents by the numbers of the fragments and pieces. Numbers below the tree's
     /// [`len`](BspTree::len) are its fragments; the other numbers are [shapes](Overlay::shape).
     ///
-    /// It takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare
-    /// the eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer also
-    /// serves as working space; once it is large enough, nothing is allocated. A culled order skips subtrees
-    /// like a [tree's](crate::Order::write_into), visits all planes on the way to the pieces, and allocates
-    /// working space. The first culled order after a [`replace`](Overlay::replace) also computes the boxes
-    /// of the pieces.
+    /// Takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare the
+    /// eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer
+    /// also serves as working space; once it is large enough, nothing is allocated. A culled order skips
+    /// subtrees like a [tree's](crate::Order::write_into), visits all planes on the way to the pieces, and
+    /// allocates working space. The first culled order after a [`replace`](Overlay::replace) also computes
+    /// the boxes of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {

@@ -62,7 +62,7 @@ struct Work<'a> {
 }
 
 impl Placer {
-    /// Places all faces behind the tree's.
+    /// Places all faces that follow the tree's faces in the list.
     pub(super) fn place(
         &mut self,
         tree: &BspTree,
@@ -122,7 +122,7 @@ impl Work<'_> {
         let mut start = pieces.start;
         self.placer.front.clear();
         self.placer.own.clear();
-        // The box of this set, which is divided next; it is not kept longer.
+        // The box belongs to this set only: its parts have other boxes.
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
@@ -232,7 +232,7 @@ impl Work<'_> {
         }
         let tree = cells.build(self.faces, &set[..polygons], arena, self.watch)?;
         if polygons < set.len() {
-            // Lines and points descend the small tree; after that its remaining fragments are read.
+            // Lines and points descend the small tree, which also stores its fragments until they are placed.
             pieces.drain(start..start + polygons);
             cells.keep(std::mem::take(&mut cell.parts));
             let region = cell.fill(tree)?;
@@ -346,7 +346,7 @@ impl CellTree {
     }
 }
 
-/// A region's plane, and both sides of it without pieces.
+/// A region's plane, and the regions on both sides of the plane, without pieces.
 struct Opened {
     branch: Branch,
     /// The fragments on the plane.
@@ -374,8 +374,8 @@ impl Opened {
         Self { branch, own, sides }
     }
 
-    /// `None` for an empty cell. The plane of a leaf is its fragment's plane, so that no piece crosses the
-    /// fragment.
+    /// Opens a region; `None` for an empty cell. The plane of a leaf is its fragment's plane, so that no
+    /// piece crosses the fragment.
     #[inline]
     fn of(region: Region, tree: &BspTree, cell: &CellTree, faces: &Faces) -> Option<Self> {
         let Region { of, node, fragments: all } = region;

@@ -53,8 +53,8 @@ impl Overlay {
     ///
     /// # Errors
     ///
-    /// As for [`replace_with`](Self::replace_with), and if it is cancelled. After an error or a panic of the
-    /// callback the overlay is empty.
+    /// As for [`replace_with`](Self::replace_with), and if the callback cancels. After an error or a panic of
+    /// the callback the overlay is empty.
     pub fn replace_with_progress<P, L, Q>(
         &mut self,
         tree: &BspTree,
@@ -216,8 +216,7 @@ impl Segment<'_> {
         self.piece.polygon()
     }
 
-    /// Returns the number of the segment in its line: it joins the corners of this number and the next
-    /// number.
+    /// Returns the number of the segment in its line: segment `k` joins the corners `k` and `k + 1`.
     pub fn number(&self) -> usize {
         self.number as usize
     }
@@ -231,7 +230,8 @@ impl Segment<'_> {
     }
 
     /// Returns the positions of the ends on the segment, from 0 at the first corner to 1 at the second,
-    /// rounded. For a piece shorter than a rounding, the first may be larger than the second.
+    /// rounded. For a piece shorter than the rounding error, the first position may be larger than the
+    /// second.
     pub fn shares(&self) -> [f64; 2] {
         let mut ends = self.piece.weights().map(|weights| {
             weights.iter().map(|&(corner, weight)| f64::from(corner) * weight).sum()
@@ -239,7 +239,7 @@ impl Segment<'_> {
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Returns, for each end, whether it was cut, and so is no corner of the line.
+    /// Returns, for each end, whether a cut made it. Otherwise the end is a corner of the line.
     pub fn cuts(&self) -> [bool; 2] {
         let mut ends = self.piece.vertex_ids();
         [(); 2]

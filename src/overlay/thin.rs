@@ -71,7 +71,7 @@ fn spread(pieces: &[Piece], most: usize) -> impl Iterator<Item = &Piece> {
     (0..count).map(move |i| &pieces[i * pieces.len() / count])
 }
 
-/// Some segments that end at points of the set, if there are any.
+/// Some segments that end at points of the set, if any.
 fn anchored(anchors: &Anchors, pieces: &[Piece], arena: &[Vertex]) -> impl Iterator<Item = u32> {
     let points = anchors.points(pieces);
     let parts = points.chunks(points.len().div_ceil(OWN).max(1));
@@ -137,8 +137,7 @@ fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) ->
 pub(super) struct Anchors {
     /// The first point's face.
     first: u32,
-    /// A segment for each point, by the bits of the point's coordinates. (On the lattice 0 has only one
-    /// form.)
+    /// A segment for each point, by the bits of the point's coordinates. (The lattice has no −0.)
     segments: HashMap<[u64; 3], Option<u32>>,
 }
 

@@ -112,7 +112,7 @@ fn edges_on_one_line_are_one() {
     let eye = DVec3::new(1.3, -9.7, 0.6);
     let camera = Camera::perspective(eye, DVec3::new(3.0, 0.0, 1.0), DVec3::Z, 1.2, SIZE).unwrap();
     let primitives = all_lines(&tree, &camera).unwrap();
-    // The ground, the common line, the upper edge of the beam; and nine ends of walls and beam.
+    // The ground, the common line and the upper edge of the beam; eight ends of walls and two of the beam.
     assert_eq!(primitives.lines.keys.len(), 3 + 8 + 2);
     let halves = |face: u32| primitives.outline(face);
     for face in 0..7 {
@@ -124,7 +124,7 @@ fn edges_on_one_line_are_one() {
     assert_eq!(halves(2)[1], halves(3)[3].flipped(true));
 }
 
-/// Squares on a grid, level or upright or with a slope of 1, with edges and cuts on few lines.
+/// Rectangles on a grid, level or with a slope of 1, and upright walls; edges and cuts lie on few lines.
 fn squares() -> BspTree {
     let places = (0..12).flat_map(|x| (0..12).map(move |y| [x, y]));
     let square = |[x, y]: [i32; 2]| {
