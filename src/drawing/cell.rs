@@ -26,7 +26,7 @@ pub(super) struct Corner {
     pub(super) radius: f64,
 }
 
-/// Corners with a larger radius, in pixels, are computed from integers. Too small: integers compute more
+/// Corners with a radius above this, in pixels, are computed from integers. Too small: integers compute more
 /// corners. Too large: integers decide more sides.
 const FINE: f64 = 1e-6;
 
@@ -125,8 +125,8 @@ impl Cell {
         Ok(Some(part))
     }
 
-    /// The cost of all corners, in pieces that a build examines. It is 0 for few corners, which the cost of
-    /// the cell includes.
+    /// The cost of all corners, in pieces that a build examines. It is 0 for few corners, because the cost of
+    /// the cell includes them.
     fn corners_work(&self) -> usize {
         if self.sides.len() > FEW_CORNERS { self.sides.len() } else { 0 }
     }

@@ -63,7 +63,7 @@ impl VisibilityMap<'_> {
     ///
     /// O(n log n) for n cells of opaque polygons; with opacities, n includes the parts in which
     /// [`regions`](Self::regions) are found. With hidden runs, n includes the faces; if the bounding boxes of
-    /// many faces overlap, as at the tip of a cone, it takes more time.
+    /// many faces overlap, as at the tip of a cone, the operation takes more time.
     ///
     /// # Errors
     ///
@@ -108,8 +108,8 @@ impl VisibilityMap<'_> {
         })
     }
 
-    /// The common parts of sides of cells that lie on opposite sides of a line in which their faces cross
-    /// each other, line by line. Counts as two phases of the progress.
+    /// The common parts of two sides of cells, line by line. The two cells lie on opposite sides of the line,
+    /// in which their faces cross each other. Counts as two phases of the progress.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -137,9 +137,9 @@ impl VisibilityMap<'_> {
         Ok(common)
     }
 
-    /// All sides of cells on lines of cuts or of edges inside polygons, whatever made the sides. Several
-    /// planes may have cut along one line. Cells that end there at a border of a tile or at a third polygon's
-    /// edge were not cut again.
+    /// All sides of cells that lie on lines of cuts or of edges inside polygons, whatever made the sides.
+    /// Several planes may have cut along one line. If a border of a tile or a third polygon's edge lies on
+    /// the line, cells that end there were not cut again.
     fn cut_sides(&self, inner: &InnerEdges, watch: &Watch<'_>) -> Result<Vec<CutSide>, Error> {
         let bends = self.bends(inner, watch)?;
         let is_wanted =
@@ -190,8 +190,8 @@ impl VisibilityMap<'_> {
         Ok(bends)
     }
 
-    /// The edges of faces that lie on some lines, by face and line; `None` for edges of outlines. Counts as
-    /// one phase of the progress.
+    /// The edges of faces that lie on the wanted lines, by face and line; `None` for edges of outlines.
+    /// Counts as one phase of the progress.
     fn edges_on(
         &self,
         is_wanted: impl Fn(HalfPlane) -> bool,
@@ -289,7 +289,7 @@ struct Crossing {
 }
 
 impl VisibilityMap<'_> {
-    /// The runs of all crossings in the picture, in `phases` phases.
+    /// The runs of all crossings in the picture. The operation has `phases` phases.
     fn all_crossings(&self, phases: usize, hidden: Hidden) -> Result<Vec<EdgeRun>, Error> {
         self.reporter.watch(phases, |watch| {
             let primitives = &self.primitives;
@@ -298,7 +298,8 @@ impl VisibilityMap<'_> {
             let mut shown = self.common_sides(&inner, watch)?;
             sort_by(&mut shown, watch, |a, b| a.faces.cmp(&b.faces))?;
             let mut pairs = straddling(primitives, &inner, watch)?;
-            // The visible part of a crossing may be nearer to the end of a polygon than the tolerance.
+            // These pairs lack visible crossings of polygons that reach through another polygon's plane by no
+            // more than the tolerance.
             let of_shown = shown.iter().map(|side| side.faces);
             pairs.extend(of_shown.map(|[below, above]| Pair { below, above }));
             sort_unique(&mut pairs, watch)?;
@@ -555,8 +556,8 @@ impl InnerEdges {
         self.0.get(&edge).copied()
     }
 
-    /// The crossing of two polygons along an edge inside one polygon, given a face of each: the faces on the
-    /// two sides of the edge lie on opposite sides of the other polygon.
+    /// The crossing of two polygons along an edge inside one polygon, given a face of each polygon. The faces
+    /// on the two sides of the edge lie on opposite sides of the other polygon.
     pub(super) fn bend(&self, faces: &Faces, [one, other]: [u32; 2]) -> Option<Bend> {
         if self.0.is_empty() {
             return None;
@@ -590,7 +591,7 @@ impl InnerEdges {
                 is_crossed && [edge, across].iter().any(|edge| faces.straddles(other, edge.0))
             });
         };
-        // The other polygon has an edge there as well: it is bent, too, or ends there.
+        // The other polygon has an edge there as well: that polygon is bent, too, or ends there.
         let behind = self.across((other, k)).filter(|behind| is_on(behind.0))?;
         let along = way(faces, edge);
         let is_between = |x| is_between(faces, along, [edge, across], x);

@@ -1,4 +1,4 @@
-//! Edges of polygons: visible and hidden runs, by the faces that share an edge.
+//! Edges of polygons, divided into visible and hidden runs.
 
 use std::cmp::Ordering;
 
@@ -161,9 +161,9 @@ impl VisibilityMap<'_> {
         runs.into_iter().for_each(give)
     }
 
-    /// All edges of faces that are drawn, and the number of each by face and edge. Edges that triangulation
-    /// made are included only where a polygon that is not planar turns away: without these, a silhouette
-    /// would have gaps.
+    /// All edges of faces that are drawn, and a table of their numbers. Edges that triangulation made are
+    /// included only where a polygon that is not planar turns away: without these edges, a silhouette would
+    /// have gaps.
     fn shared_edges(&self, watch: &Watch<'_>) -> Result<(Vec<SharedEdge>, Numbers), Error> {
         let primitives = &self.primitives;
         let faces = primitives.lines.frame.faces;
@@ -215,7 +215,7 @@ impl VisibilityMap<'_> {
 /// The cost of the sides of a cell, in pieces that a build examines.
 const SIDES: usize = 16;
 
-/// The number of an edge, by a face and the edge's number in it.
+/// The numbers of shared edges, by a face and the edge's number in that face.
 type Numbers = Table<FaceEdge, u32>;
 
 /// An edge of at least one face.
@@ -281,7 +281,7 @@ impl SharedEdge {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EdgeKind {
-    /// The polygon shares this edge with no other polygon, or with more than one other.
+    /// The polygon shares this edge with no other polygon, or with several other polygons.
     Border,
     /// One polygon at the edge is seen from its front and the other from behind, or one of the two is seen
     /// edge-on. Two parts of one polygon that is not planar can also form a silhouette. Seen from the eye, a
@@ -307,7 +307,7 @@ pub struct EdgeRun {
     /// The kind of the line.
     pub kind: EdgeKind,
     /// The start and the end of the run in the picture, in pixels, in the direction in which the polygon
-    /// traverses the edge. A crossing has either direction.
+    /// traverses the edge. A crossing may have either direction.
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,

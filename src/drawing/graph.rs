@@ -32,8 +32,8 @@ const CLIPPED_AT_ONCE: usize = 64;
 const EXAMINED: usize = 1 << 22;
 const EXAMINED_PER_PAIR: usize = 32;
 
-/// Orders nodes by sorted pairs; where these leave a choice, by `rank`. No cycle may consist of translucent
-/// nodes only.
+/// Orders nodes so that sorted pairs are kept. Where the pairs leave a choice, lower ranks come first. No
+/// cycle may consist of translucent nodes only.
 ///
 /// Cycles are opened by clipping nodes: greedily, the nodes with the most pairs on both sides. Then nodes
 /// that close no cycle are restored, until the searches for cycles have examined a limited number of pairs.
@@ -330,7 +330,7 @@ struct Graph<'p> {
     starts: Vec<u32>,
     is_clipped: Vec<bool>,
     is_opaque: &'p dyn Fn(u32) -> bool,
-    /// Whether a translucent node has to follow each node.
+    /// For each node, whether a translucent node has to follow it.
     is_seen_through: Vec<bool>,
     /// The strongly connected component of each node that is searched.
     component: Vec<u32>,
@@ -493,7 +493,7 @@ impl Wanted<'_> {
         Self { is_marked: &|_| true, needs_both: true, is_wanted: &|_| true };
 }
 
-/// "`below` has to be drawn before `above`", by their numbers.
+/// States that the node `below` has to be drawn before the node `above`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) below: u32,
@@ -537,8 +537,8 @@ pub(super) struct Groups {
     search: u64,
 }
 
-/// A search for a join ends without a join after this many groups. Too small: more pieces. Too large: a
-/// multiple of the time for many crossing polygons, with up to a sixth fewer pieces; other scenes do not
+/// A search for a join ends without a join after this many groups. Too small: more pieces. Too large: scenes
+/// of many crossing polygons take several times as long, for up to a sixth fewer pieces; other scenes do not
 /// change.
 const BUDGET: usize = 300;
 
@@ -708,9 +708,9 @@ mod order_tests {
 
     use super::*;
 
-    /// Few pairs are examined between two calls of the callback, before the first and after the last call,
-    /// though all pairs begin at one node. The function `is_opaque` is called for each pair and counts its
-    /// calls.
+    /// Few pairs are examined before the first call of the callback, between two calls and after the last
+    /// call, although all pairs begin at one node. The function `is_opaque` is called for each pair and
+    /// counts its calls.
     #[test]
     fn between_two_calls_few_pairs_are_looked_at() {
         let nodes = 1 << 19;
@@ -743,7 +743,7 @@ mod join_tests {
     use super::*;
     use crate::random::SplitMix64;
 
-    /// Whether one node leads to another by at least one of some pairs.
+    /// Whether a path of at least one pair leads from one node to another.
     fn leads(pairs: &[[u32; 2]], from: u32, to: u32) -> bool {
         let (mut met, mut stack) = (vec![], vec![from]);
         while let Some(node) = stack.pop() {
@@ -821,11 +821,11 @@ mod join_tests {
         assert!(added > 500 && moved > 500 && refused > 500, "{added} {moved} {refused}");
     }
 
-    /// The search would visit all nodes in between: more than it may.
+    /// The search visits all nodes in between. It fails if they are more than its budget.
     #[test]
     fn searches_end_at_their_budget() {
         for (between, expected) in [(BUDGET - 2, true), (BUDGET + 2, false)] {
-            // The first precedes all except the last.
+            // The first node precedes all nodes except the last.
             let last = between as u32 + 1;
             let pairs: Vec<Pair> = (1..last).map(|above| Pair { below: 0, above }).collect();
             let mut groups = Groups::new(between + 2, pairs.into_iter());

@@ -48,7 +48,7 @@ pub(super) struct LineTable<'t> {
     feet: LineIndex,
     /// The lines of cuts, by their positive halves.
     cuts: Table<HalfPlane, ()>,
-    /// Equal corners have equal numbers.
+    /// The number of the point at each position: equal corners have equal numbers.
     points: Table<[u64; 3], u32>,
     /// The numbers of the points to which corners were moved.
     moved: Table<u32, u32>,
@@ -365,8 +365,8 @@ impl LineTable<'_> {
 pub(super) enum Key {
     /// The edge between two points, the lower number first.
     Edge([u32; 2]),
-    /// A face's edge from a corner to the next, if one of the two was moved onto the face's plane, or may
-    /// have been moved.
+    /// A face's edge from a corner to the next, if one of the two corners was moved onto the face's plane, or
+    /// may have been moved.
     Upright(u32, u32),
     /// The cut of a face by a plane. If the plane is the plane of another face, the face of the lower number
     /// comes first.
@@ -574,12 +574,12 @@ const BORDER: u64 = 1 << 63;
 const OFFSET: i64 = 1 << 60;
 
 impl HalfPlane {
-    /// The side of a line on which it is positive.
+    /// The side of a line on which the line is positive.
     pub(super) const fn of(line: u32) -> Self {
         Self((line as u64) << 1)
     }
 
-    /// The points whose coordinate (axis 0, 1 for x, y) is at least `steps` [`STEPS`] of a pixel.
+    /// The points whose coordinate (axis 0, 1 for x, y) is at least `steps` / [`STEPS`] pixels.
     pub(super) const fn beyond(axis: usize, steps: i64) -> Self {
         Self(BORDER | (((steps + OFFSET) as u64) << 1 | axis as u64) << 1)
     }
@@ -589,7 +589,7 @@ impl HalfPlane {
         self.0 >> 1
     }
 
-    /// The half of the same line on which it is positive.
+    /// The half of the same line on which the line is positive.
     pub(super) const fn positive(self) -> Self {
         Self(self.0 & !1)
     }
@@ -820,16 +820,16 @@ fn product(a: [i64; 3], b: [i64; 3]) -> [i128; 3] {
 /// The relative error of one rounding.
 pub(super) const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// Lines with a larger error in floats, in pixels, are computed from integers. Too small: integers compute
-/// more lines. Too large: integers decide more sides.
+/// Lines whose error in floats is above this, in pixels, are computed from integers. Too small: integers
+/// compute more lines. Too large: integers decide more sides.
 const FINE: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// A line in floats, scaled so that the larger component of its slope is near 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`; also
-    /// on the error of each component of its slope, times the picture's shorter side.
+    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`. It is
+    /// also a bound on the error of each component of the slope, times the picture's shorter side.
     pub(super) error: f64,
     /// An upper bound on the length of the line's slope.
     pub(super) slope: f64,

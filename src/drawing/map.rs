@@ -139,7 +139,7 @@ pub enum Hidden {
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
     /// have the edge do not count, but another face of a polygon that is not planar may be in front and
-    /// count. The number is at least 1, also if the edge of a shelf lies on the wall that hides the shelf.
+    /// count. The number is at least 1, even if the edge of a shelf lies on the wall that hides the shelf.
     /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
     /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
@@ -427,7 +427,7 @@ mod reporter_tests {
 
     use super::*;
 
-    /// Calls the callback at each step and cancels at one step: no more work is done.
+    /// If the callback cancels at a step, no more work is done after this step.
     #[test]
     fn loops_and_sorts_end_where_they_are_cancelled() {
         for calls in 1..8 {

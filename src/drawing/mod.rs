@@ -6,7 +6,7 @@
 //!
 //! | call | result |
 //! |---|---|
-//! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in an order to paint them in |
+//! | [`VisibilityMap::drawing`] | one filled path for each visible polygon, in painting order |
 //! | [`VisibilityMap::polygons`] | the visible polygons, the area of each, and a point of each |
 //! | [`VisibilityMap::edges`], [`crossings`](VisibilityMap::crossings) | visible and hidden runs of edges, and of lines in which polygons intersect |
 //! | [`VisibilityMap::lines`], [`markers`](VisibilityMap::markers) | the visible parts of an overlay's lines and points |

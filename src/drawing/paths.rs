@@ -197,7 +197,8 @@ impl<'s, 't> PolygonEdges<'s, 't> {
         self.primitives.lines.frame.faces.outline_edge(face, k)
     }
 
-    /// The distance by which a point on the line of an edge is beyond the edge's ends, in pixels, rounded.
+    /// The rounded distance, in pixels, of a point on an edge's line from the edge; 0 between the edge's
+    /// ends.
     fn off(&self, face: u32, k: u32, at: [f64; 2]) -> f64 {
         let ViewFrame { rays, faces } = &self.primitives.lines.frame;
         let arms = faces.ends(face, k).map(|end| {

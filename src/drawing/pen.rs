@@ -323,10 +323,11 @@ impl Ends {
         (high > 0).then_some(Node { low: 0, high, axis: 0 })
     }
 
-    /// The number of the nearest remaining point; the first found of several.
+    /// The number of the nearest remaining point. If several are nearest, the first that is found.
     pub(super) fn nearest(&self, from: [f64; 2]) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
-        // Ranges, and lower bounds on their distances: the tree is never deeper than 32.
+        // Ranges, and lower bounds on their distances. The stack stays short, because the tree is never
+        // deeper than 32.
         let mut stack: Vec<(Node, f64)> = self.root().map(|root| (root, 0.0)).into_iter().collect();
         while let Some((node, least)) = stack.pop() {
             let middle = node.middle();

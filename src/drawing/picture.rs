@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 use super::paths::{Drawing, Path};
 
-/// The largest number of steps per pixel. Too large: the floats of viewers cannot represent the steps. Too
-/// small: tiny areas vanish.
+/// The largest number of steps per pixel. Corners are rounded to steps. Too large: the floats of viewers
+/// cannot represent the steps. Too small: tiny areas vanish.
 const MOST_STEPS: f64 = 1e9;
 /// The largest absolute value of a coordinate or a length, in pixels, so that its number of steps is a 64-bit
 /// integer.
@@ -24,7 +24,7 @@ const SHORTEST: f64 = 1e-4;
 const LARGE: u32 = 480;
 const UNITS: u32 = 50;
 
-/// A vector picture: areas, lines, markers and labels in the order to paint them.
+/// A vector picture: areas, lines, markers and labels in painting order.
 ///
 /// ```
 /// use binspace::drawing::{Hidden, Stroke, VectorPicture, ViewOptions, polylines};
@@ -219,8 +219,8 @@ fn own_edges(path: Path<'_>) -> Vec<Vec<[f64; 2]>> {
     let mut lines = Vec::new();
     for (outline, edges) in path.outlines().zip(path.edges()) {
         let n = outline.len();
-        // Start at the first edge after a side that is no edge, so that no line is divided at the start of
-        // the outline.
+        // Start at the first edge after a side that is not an edge, so that no line is divided at the start
+        // of the outline.
         let start = (0..n).find(|&i| edges[i].is_none()).map_or(0, |i| i + 1);
         let mut line = Vec::new();
         for i in (start..start + n).map(|i| i % n) {
@@ -313,8 +313,8 @@ impl VectorPicture {
         }
     }
 
-    /// Adds lines that are painted together: where they overlap, a translucent stroke is no darker. They are
-    /// [polylines](super::polylines) or lists of points. A line that ends at its first point is closed.
+    /// Adds lines that are painted together: where they overlap, a translucent stroke is no darker. The lines
+    /// are [polylines](super::polylines) or lists of points. A line that ends at its first point is closed.
     pub fn add_lines<L: AsRef<[[f64; 2]]>>(
         &mut self,
         lines: impl IntoIterator<Item = L>,
@@ -491,7 +491,7 @@ impl Steps {
     }
 }
 
-/// An outline: its last corner does not repeat the first.
+/// Makes an outline of corners. Repetitions of the first corner at the end are removed.
 fn closed(mut corners: Vec<[i64; 2]>) -> Line {
     while corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();

@@ -208,8 +208,8 @@ const ENOUGH: f64 = 0.85;
 /// Strips with less area than this, in square pixels, are left out. Too small: drawings of small polygons
 /// have many corners without a visible effect. Too large: seams of small polygons are visible.
 const SMALLEST: f64 = 0.1;
-/// Nothing is extended under paths that are not convex and have more corners than this. Too large: time grows
-/// with its cube. Too small: seams at polygons that are not convex.
+/// Nothing is extended under paths that are not convex and have more corners than this. Too large: the time
+/// grows with the cube of this number. Too small: seams at polygons that are not convex.
 const MOST_CORNERS: usize = 24;
 /// The largest number of cells of the grid of sides. Too large: more memory. Too small: long lists in the
 /// cells of drawings with millions of sides.
@@ -635,7 +635,7 @@ mod trap_tests {
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?}");
         }
         assert_eq!(frame.world([0.5, 1.0]), [4.5, 3.0]);
-        // In the opposite direction; a low neighbour has a narrow strip.
+        // The neighbour's side has the opposite direction. A low neighbour has a narrow strip.
         let low = [[3.0, 2.5], [4.0, 2.0], [2.0, 2.0]];
         let found = strip(&low).unwrap();
         assert!(found.iter().all(|corner| corner[1] <= 0.3 + 1e-12), "{found:?}");

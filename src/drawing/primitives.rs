@@ -188,8 +188,8 @@ impl<'t> Primitives<'t> {
         self.around(&vertices).map(item)
     }
 
-    /// A box around the part of the convex hull of vertices that is in the picture; `None` if no part is in
-    /// the picture.
+    /// A box around the part of the vertices' convex hull that is in the picture; `None` if no part is in the
+    /// picture.
     fn around(&self, vertices: &[[f64; 3]]) -> Option<Rect> {
         let rays = &self.lines.frame.rays;
         let around = common(&rays.region(vertices)?, &Tile::picture(rays.size()).sides());
@@ -298,8 +298,9 @@ const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {
     /// Whether a face whose corners were moved can be drawn with its given corners. These must certainly form
-    /// a convex polygon in the picture that shows the same side as the face's plane. Rays through them must
-    /// meet that plane ahead. No corner may have been moved by more than [`FURTHEST_MOVE`].
+    /// a convex polygon in the picture that shows the same side as the face's plane. Rays through the given
+    /// corners must meet the face's plane ahead. No corner may have been moved by more than
+    /// [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let ViewFrame { rays, faces } = self;
         let n = given.len();

@@ -53,9 +53,9 @@ pub(super) const TINIEST: i64 = 1 << 6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth(f64);
 
-/// Parts of this growth are not halved again. Many pieces may meet in a point, as at the tip of a cone, or
-/// along a line, like the columns of a terrain seen along its rows. Around such a point or line, halving
-/// would not end. Too small: long lists remain. Too large: many parts with the same pieces.
+/// Parts of at least this growth are not halved again. Many pieces may meet in a point, as at the tip of a
+/// cone, or along a line, like the columns of a terrain seen along its rows. Around such a point or line,
+/// halving would not end. Too small: long lists remain. Too large: many parts with the same pieces.
 const MOST: f64 = 4.0;
 
 impl Growth {
@@ -157,8 +157,8 @@ pub(super) fn found_in<P: Send, F: Send + Default>(
     shared(all, 0..1 << SHARED, &halves, &leaf, watch)
 }
 
-/// Searches a part. `shares` are the items of the phase that count as done with it. Any free thread continues
-/// with each half, so no thread waits until all parts of a size are halved.
+/// Searches a part. `shares` is the range of the phase's items that the part stands for. Any free thread
+/// continues with each half, so no thread waits until all parts of a size are halved.
 fn shared<P: Send, F: Send + Default>(
     part: P,
     shares: Range<usize>,
@@ -185,8 +185,9 @@ fn shared<P: Send, F: Send + Default>(
     Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
 }
 
-/// The number of opaque faces, the nearest first, that are tested for whether all items of the face together
-/// cover a tile. Too small: more hidden items stay in the lists. Too large: more tests without success.
+/// The largest number of opaque faces, nearest first, of which it is tested whether all items of the face
+/// together cover a tile. Too small: more hidden items stay in the lists. Too large: more tests without
+/// success.
 const FACES: usize = 8;
 
 /// The kind of a list's candidates: numbers of items, front to back, or of whole faces.
@@ -254,8 +255,8 @@ impl<'p> Candidates<'p> {
         Self { primitives, of, list, halves, ends_at_cover: false, limit: u32::MAX }
     }
 
-    /// Sets that lists of items end at an opaque item that covers the part of the picture: items behind it
-    /// are hidden.
+    /// Makes the list end at an opaque item that covers the part of the picture, because items behind that
+    /// item are hidden.
     pub(super) fn ending_at_covers(self) -> Self {
         Self { ends_at_cover: true, ..self }
     }
@@ -468,7 +469,7 @@ const TRIED: usize = 12;
 const SAMPLE: usize = 48;
 
 impl<'l, 'p> SubTile<'l, 'p> {
-    /// A whole tile, and the segments and points that pass it.
+    /// The whole tile as one part, with the segments and points in it.
     pub(super) fn new(
         list: &'l TileList<'p>,
         passing: Passing<'l>,
@@ -490,7 +491,7 @@ impl<'l, 'p> SubTile<'l, 'p> {
         Ok(whole)
     }
 
-    /// Adds a piece behind all others, and returns whether it hides pieces behind it.
+    /// Adds a piece behind all others. Returns whether the new piece hides pieces behind it.
     fn push(&mut self, piece: Visible) -> bool {
         let is_hiding = self.candidates.hides(piece.item) && self.is_covered_by(&piece);
         self.pieces.push(piece);

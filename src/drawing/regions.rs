@@ -180,7 +180,7 @@ pub(super) struct Divided {
 pub(super) struct LayeredCell {
     pub(super) cell: Cell,
     around: Rect,
-    /// The rearmost of its layers; the first layer, which has no item, if nothing is visible.
+    /// The rearmost of the cell's layers; the first layer, which has no item, if nothing is visible.
     pub(super) layer: u32,
 }
 
@@ -194,7 +194,7 @@ pub(super) struct ItemLayer {
 }
 
 impl Divided {
-    /// Combines visible cells of a tile, front to back, with the parts found so far.
+    /// Divides a tile: combines its visible cells, front to back, with the parts found so far.
     pub(super) fn new(
         leaf: &Leaf,
         primitives: &Primitives<'_>,

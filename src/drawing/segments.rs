@@ -62,7 +62,7 @@ const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 pub(super) const MARGIN: f64 = 1e-3;
 
 impl ProjectedSegment {
-    /// `None` if the segment is not in the picture, or is a point there.
+    /// Projects a segment; `None` if it is not in the picture, or is a point there.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
         let [low, high] = Tile::picture(lines.frame.rays.size()).sides();
         let images = ends.map(|end| lines.frame.image(end));
@@ -165,7 +165,7 @@ impl ProjectedSegment {
         beside(&signs).is_eq() || side_on_line(&signs).is_some()
     }
 
-    /// The places between which the line crosses a cell or lies along one of its sides. Whether it does is
+    /// The places between which the line crosses a cell or lies along one of its sides. This decision is
     /// exact; the places are rounded.
     pub(super) fn chord(&self, lines: &LineTable<'_>, cell: &Cell) -> Option<[f64; 2]> {
         let n = cell.sides.len();
@@ -285,8 +285,8 @@ impl ProjectedSegment {
             let place = self.course.place(point_of(&mean));
             return Some(if is_behind[0] { [ALL[0], place] } else { [place, ALL[1]] });
         }
-        // It crosses the plane behind the eye: the part ahead of the eye lies on the side of the end that is
-        // ahead.
+        // The segment crosses the plane behind the eye: the part ahead of the eye lies on the side of the end
+        // that is ahead.
         let ahead = if a[0].sign().is_gt() { 0 } else { 1 };
         is_behind[ahead].then_some(ALL)
     }
@@ -335,7 +335,7 @@ pub(super) struct ProjectedPoint {
 }
 
 impl ProjectedPoint {
-    /// `None` if the point is not in the picture.
+    /// Projects a point; `None` if it is not in the picture.
     pub(super) fn new(lines: &LineTable<'_>, point: [f64; 3]) -> Option<Self> {
         let image = lines.frame.image(point);
         if !image[0].sign().is_gt() {
@@ -379,7 +379,7 @@ impl ProjectedPoint {
 /// border in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
-    /// The segment and the item or face, by their numbers.
+    /// The numbers of the segment and of the item or face.
     pub(super) segment: u32,
     pub(super) piece: u32,
     /// Whether the segment is behind the piece.
@@ -667,7 +667,8 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// Merges intervals that overlap or meet up to rounding, given in the order of their starts.
+/// Merges intervals that overlap, or that meet up to rounding. The intervals are given in the order of their
+/// starts.
 pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator<Item = [f64; 2]> {
     let mut intervals = intervals.peekable();
     std::iter::from_fn(move || {
@@ -679,8 +680,8 @@ pub(super) fn merged(intervals: impl Iterator<Item = [f64; 2]>) -> impl Iterator
     })
 }
 
-/// Divides a segment into parts inside some intervals and parts outside, in the order of their starts. The
-/// intervals are given in the order of their starts.
+/// Divides a segment into parts inside and outside of intervals, which are given in the order of their
+/// starts. Returns the ends of each part, and whether the part is inside.
 pub(super) fn parts(
     course: &ImageLine,
     intervals: impl Iterator<Item = [f64; 2]>,

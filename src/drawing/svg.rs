@@ -56,7 +56,7 @@ impl VectorPicture {
 /// The attributes that shapes may have in common: their paint, and the size of their font.
 pub(super) type Look = (Paint, Option<f64>);
 
-/// A part of a file, in the order of writing. A look is absent if an enclosing group has it.
+/// A part of a file, in the order of writing. A look is `None` if an enclosing group states it.
 pub(super) enum Written<'a> {
     /// The beginning of a group.
     Begin { attributes: &'a str, look: Option<Look> },
@@ -86,7 +86,7 @@ pub(super) fn write_nodes(
         }
         let Some(node) = nodes.get(at) else { return Ok(()) };
         let known = open.last().and_then(|group| group.look);
-        // The look of this node, if no group around it has it.
+        // The look of this node, unless an enclosing group states it.
         let look = if known.is_none() { looks[at] } else { None };
         if look.is_some() {
             let limit = open.last().map_or(nodes.len(), |group| group.end);
@@ -259,8 +259,8 @@ impl Data {
         self.had_point = false;
     }
 
-    /// Adds a number of steps. It is separated from the previous number by its sign, by its decimal point if
-    /// that number has one too, or otherwise by a space.
+    /// Adds a number of steps. The number is separated from the previous number by its sign, by its decimal
+    /// point if both numbers have one, or otherwise by a space.
     fn number(&mut self, steps: i64) {
         let unit = 10u64.pow(self.decimals);
         let (whole, rest) = (steps.unsigned_abs() / unit, steps.unsigned_abs() % unit);

@@ -46,7 +46,7 @@ impl VectorPicture {
     /// other than letters, digits and hyphens, and other attributes, are left out. Labels are in the
     /// document's font, which must contain their characters. Strokes of labels are left out. Shapes that
     /// reach further than 16 000 pixels, and shapes with a wider stroke or longer dashes, are left out,
-    /// because TeX has no such length.
+    /// because TeX has no lengths of this size.
     pub fn to_tikz(&self) -> String {
         let mut out = HEAD.to_owned();
         // Writing to a string does not fail.

@@ -16,9 +16,9 @@ use crate::progress::Watch;
 use crate::tree::BspTree;
 use crate::view::Camera;
 
-/// The most rounds of the search for an order with a place for each line and point of an overlay. One round
-/// is enough for nearly all scenes and views; many rectangles in a grid, seen along its diagonal with all
-/// their edges, need up to five. Too small: lines without a place. Too large: time.
+/// The largest number of rounds of the search for an order with a place for each line and point of an
+/// overlay. One round is enough for nearly all scenes and views; many rectangles in a grid, seen along its
+/// diagonal with all their edges, need up to five. Too small: lines without a place. Too large: time.
 const ROUNDS: usize = 8;
 
 impl Drawing {

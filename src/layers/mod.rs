@@ -81,7 +81,7 @@
 //!
 //! | | the box |
 //! |---|---|
-//! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), 2²⁰ of its longer side around it |
+//! | x, y | the viewport; or, if [`unclipped`](Layers::unclipped), 2²⁰ longer sides of the viewport around it |
 //! | depth z/w | 2²⁰ longer sides of the viewport to the front and to the back |
 //!
 //! Points in the box have a positive w. The limit of depth is the near plane. With the perspective d of CSS,
@@ -92,13 +92,13 @@
 //! | layer | result |
 //! |---|---|
 //! | numbers that are NaN or infinite, or whose products are | an error that names the layer |
-//! | outside the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ of its longer side, such as 10¹⁸ pixels | no piece |
+//! | outside the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ longer sides of the viewport, such as 10¹⁸ pixels | no piece |
 //! | any, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
-//! | outside an ancestor that [clips](Layer::clipped_by) it, or clipped by an ancestor whose matrix makes that a line or a point | no piece |
+//! | outside an ancestor that [clips](Layer::clipped_by) it, or clipped by an ancestor that its matrix maps to a line or a point | no piece |
 //! | a matrix that maps it to a line or a point | no piece |
 //! | seen edge-on, up to the rounding of the matrix; this includes a rectangle so far from its own origin that this rounding is as large as its area on the screen | no piece |
-//! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸, as of a matrix times 10⁻³¹⁰, or a product of the rectangle's sides below that, as of 10⁻¹⁷⁰ by 10⁻¹⁷⁰ | no piece |
+//! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
 //! | smaller on the screen than the rounding of positions, 2⁻⁵² of the page's reach | no piece |
 //! | any other | a convex polygon of at most ten corners, and four more for each ancestor that clips it, in one piece or, if other layers cut it, several |
 //!
@@ -114,9 +114,10 @@
 //! [`BspTree`](crate::BspTree) is a share of the scene's extent. Consider pages of 30 layers above a floor
 //! that reaches behind the eye. If their parts with w ≥ 10⁻⁹ are divided by w and passed directly to a tree,
 //! they are painted in a wrong order at 67 to 97 % of the points where layers overlap. With w ≥ 10⁻⁶, one of
-//! four pages is still wrong (at 42 %). No page is wrong if layers are clipped as above, or not clipped to
-//! the viewport but with the tolerance of this module. (Bench `peers`, section `clipping`.) Clipping to the
-//! viewport also leaves fewer layers to cut, because many layers of a long page are not on the screen.
+//! four pages is still wrong (at 42 % of these points). No page is wrong if layers are clipped as above, or
+//! not clipped to the viewport but with the tolerance of this module. (Bench `peers`, section `clipping`.)
+//! Clipping to the viewport also leaves fewer layers to cut, because many layers of a long page are not on
+//! the screen.
 //!
 //! # Antialiasing
 //!

@@ -26,8 +26,8 @@ const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// separate matrices put into one plane lose their document order (without this limit, in 8 of 2000 unclipped
 /// pages). Too large: thin layers are merged.
 const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
-/// A point outside a piece counts as inside up to this share of the viewport's size. Too small: points fall
-/// through between pieces. Too large: an edge is hit before it is reached.
+/// A point outside a piece counts as inside up to a distance of this share of the viewport's size. Too small:
+/// points fall through between pieces. Too large: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
 
 /// The layers of a page, cut and in paint order. Their memory is reused from frame to frame.
@@ -109,9 +109,9 @@ impl Layers {
     ///
     /// # Errors
     ///
-    /// If a layer or the viewport has a number that is NaN, infinite or too large (`polygon` of the error is
-    /// the layer's index), if there are more pieces than a tree may have, or if memory runs out. After an
-    /// error the page has no pieces.
+    /// If a layer or the viewport has a number that is NaN, infinite or too large ([`Error::polygon`] is the
+    /// layer's index), if there are more pieces than a tree may have, or if memory runs out. After an error
+    /// the page has no pieces.
     pub fn update(&mut self, layers: &[Layer]) -> Result<bool, Error> {
         if self.is_built && self.layers == layers {
             return Ok(false);

@@ -65,8 +65,8 @@ impl<'p> LayerPiece<'p> {
 
     /// Whether the piece covers a point of the screen, or is within `slack` of it.
     ///
-    /// Tests a ray along x, which the outline crosses an odd number of times, and distances from the edges.
-    /// It does not test sides of lines: an edge no longer than its rounding error may have any direction.
+    /// The piece covers the point if the outline crosses a ray along x from the point an odd number of times.
+    /// Sides of lines are not tested: an edge no longer than its rounding error may have any direction.
     pub(super) fn covers(&self, at: DVec2, slack: f64) -> bool {
         let mut vertices = self.vertices().map(|vertex| vertex.position.truncate());
         let Some(first) = vertices.next() else { return false };
@@ -337,7 +337,7 @@ impl Layer {
         rows.map(|row| (row.truncate() * half).extend(row.dot(middle.extend(1.0))))
     }
 
-    /// Bounds on the rounding error of x, y, z and w at a point, for rows as in the matrix.
+    /// Bounds on the rounding error of x, y, z and w at a point, for rows that are not centred.
     pub(super) fn rounding(&self, rows: [DVec3; 4], local: DVec2) -> DVec4 {
         let largest = local.abs().extend(1.0);
         DVec4::from_array(rows.map(|row| row.abs().dot(largest))) * self.step

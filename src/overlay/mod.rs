@@ -143,7 +143,7 @@ use crate::viewpoint::Ray;
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where they meet |
+/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where pieces meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
@@ -235,7 +235,7 @@ impl Overlay {
         self.pieces.records.get((number as usize).checked_sub(self.base.fragments)?)
     }
 
-    /// The stored form of a piece.
+    /// The piece with a number, as a fragment.
     fn stored(&self, number: u32) -> Fragment<'_> {
         let record = number as usize - self.base.fragments;
         Fragment::new(&self.faces, self.pieces.stored(), record, number)
@@ -291,8 +291,8 @@ impl Overlay {
     /// tree's [`len`](BspTree::len) on. Its polygons are numbered after the tree's polygons. The mesh shares
     /// no vertices with the tree's mesh, and no edge is welded with the tree's edges.
     ///
-    /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices for
-    /// both meshes:
+    /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices
+    /// for both meshes:
     ///
     /// ```
     /// use binspace::overlay::Overlay;

@@ -1,5 +1,5 @@
 //! One order of a tree's fragments and an overlay's pieces, and the planes that determine the places of the
-//! pieces in it.
+//! pieces in this order.
 
 use std::hint::select_unpredictable;
 use std::iter::FusedIterator;
@@ -25,8 +25,8 @@ use crate::viewpoint::Viewpoint;
 pub(super) struct InsertionTree {
     root: SlotSide,
     pub(super) branches: Vec<Branch>,
-    /// The numbers, in the overlay, of pieces that need no plane between them: a single piece, or coplanar
-    /// pieces in input order.
+    /// Ranges of the overlay's pieces that need no plane between them: a single piece, or coplanar pieces in
+    /// input order.
     groups: Vec<Range<u32>>,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Branch {
     pub(super) plane: PlaneId,
     /// The number of fragments of the tree that lie on the plane.
     pub(super) own: u32,
-    /// The pieces on the plane, which follow its fragments.
+    /// The pieces on the plane. They follow the fragments on the plane.
     pub(super) pieces: SlotSide,
     pub(super) front: SlotSide,
     pub(super) back: SlotSide,
@@ -81,7 +81,7 @@ pub(super) enum Place {
 }
 
 impl InsertionTree {
-    /// For an empty overlay of a tree with this number of fragments.
+    /// The insertion tree of an empty overlay. `fragments` is the number of the tree's fragments.
     pub(super) fn new(fragments: usize) -> Self {
         Self { root: SlotSide::empty(fragments), branches: vec![], groups: vec![] }
     }
@@ -251,7 +251,7 @@ impl Overlay {
 }
 
 impl<'a> OverlayOrder<'a> {
-    /// Reverses the order to front to back, exactly.
+    /// Reverses the order: front to back.
     pub fn front_to_back(self) -> Self {
         Self { order: self.order.front_to_back(), ..self }
     }

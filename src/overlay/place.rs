@@ -26,7 +26,7 @@ pub(super) struct Placer {
     cells: OverlayBuilder,
     cell: CellTree,
     anchors: Anchors,
-    /// A stack of the sets still to be divided, the next one on top. Each set is in the order of faces:
+    /// A stack of the sets still to be divided, with the next set on top. Each set is in the order of faces:
     /// polygons, then lines, then points.
     pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts.
@@ -309,7 +309,7 @@ struct Region {
 enum Whose {
     /// The overlay's tree, which is not changed.
     Tree,
-    /// The small tree of the polygons that meet in one of its cells.
+    /// The small tree of the polygons that meet in one cell of the overlay's tree.
     Cell,
 }
 
