@@ -41,7 +41,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// A rectangle between borders: the least and the largest coordinates, in steps.
+    /// A rectangle between borders. `low` and `high` are its least and largest coordinates, in steps.
     pub(super) fn rectangle(lines: &LineTable<'_>, low: [i64; 2], high: [i64; 2]) -> Self {
         let halves = [
             HalfPlane::beyond(1, low[1]),

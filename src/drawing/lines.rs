@@ -374,7 +374,7 @@ pub(super) enum Key {
 }
 
 impl Key {
-    /// The line in floats, in a picture with these largest coordinates. Point numbers are indices of
+    /// The line in floats, in a picture whose largest coordinates are `reach`. Point numbers are indices of
     /// `corners`.
     pub(super) fn rounded(
         self,
@@ -410,7 +410,7 @@ impl Key {
     }
 }
 
-/// The edge from one lattice point to another in floats, in a picture with these largest coordinates.
+/// The edge from one lattice point to another in floats, in a picture whose largest coordinates are `reach`.
 pub(super) fn rounded_edge(frame: &ViewFrame<'_>, ends: [[f64; 3]; 2], reach: [f64; 2]) -> Rounded {
     let (k, error) = edge(&frame.rays, ends);
     let rounded = Rounded::scaled(k, 4.0 * error);
@@ -493,7 +493,7 @@ type Place = [i64; 3];
 /// The size of a place, in pixels and in units of the cosine. Too small: feet of one line are in several
 /// places. Too large: more lines are compared in integers.
 const STEP: f64 = 1.0 / (1u64 << 20) as f64;
-/// A foot is also searched in a neighbouring place if it is nearer to that place than this share of a step.
+/// A foot is also searched in a neighbouring place if the foot is within this share of a step of that place.
 /// (Values of lines in the picture are off by less than 2⁻³¹ pixels, and feet by less than four times as
 /// much: 2⁻⁹ of a step.) Too small: equal lines are not found. Too large: more places are searched.
 const MARGIN: f64 = 1.0 / 256.0;
@@ -658,7 +658,7 @@ impl LineTable<'_> {
 /// The coefficients of a line.
 pub(super) type ExactLine = [Int<6>; 3];
 
-/// The data that all lines of a picture share: its rays, and the faces.
+/// The data that all lines of a picture share: the picture's rays, and the faces.
 #[derive(Debug)]
 pub(super) struct ViewFrame<'t> {
     pub(super) rays: Rays,

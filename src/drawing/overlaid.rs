@@ -180,7 +180,7 @@ pub(super) struct Between {
     segments: Vec<GivenSegment>,
     projected: Vec<ProjectedSegment>,
     markers: Vec<MarkerView>,
-    /// Sorted by the lines and points.
+    /// The passes, sorted by lines and points.
     passes: Passes,
 }
 

@@ -27,7 +27,7 @@ pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, 
     Ok(pairs)
 }
 
-/// Leaves with the opaque faces that may reach into them, and the translucent items.
+/// Leaves, with the opaque faces and the translucent items that may reach into them.
 struct LeafLists<'l, 'p> {
     leaves: &'l [Leaf],
     opaque: Candidates<'p>,

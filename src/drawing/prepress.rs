@@ -348,7 +348,7 @@ impl Grid {
         found.extend(numbers.iter().map(|&number| self.sides[number as usize]));
     }
 
-    /// The cells that a side passes through or near, within a distance.
+    /// The cells with points within the distance `reach` of a side.
     fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
         let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };

@@ -21,7 +21,7 @@ use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
-/// A rectangle of the picture, between borders in steps.
+/// A rectangle of the picture. Its borders are given in steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
     pub(super) low: [i64; 2],
@@ -289,7 +289,7 @@ impl<'p> Candidates<'p> {
         }
     }
 
-    /// Whether a candidate hides items behind it, and the list leaves out hidden items.
+    /// Whether a candidate hides items behind it and the list leaves these items out.
     pub(super) fn hides(&self, number: u32) -> bool {
         self.ends_at_cover && self.primitives.views[self.face(number) as usize].is_opaque
     }

@@ -142,7 +142,8 @@ pub(super) struct Parts {
     of_item: Vec<u32>,
     /// The items of each part, one face after another.
     items: Vec<Vec<u32>>,
-    /// Pairs of items that touch, which an order of the parts can keep in addition to the pairs that overlap.
+    /// Pairs of items that only touch. An order of the parts can keep these pairs in addition to the pairs
+    /// that overlap.
     touching: Vec<Pair>,
 }
 

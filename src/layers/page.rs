@@ -244,14 +244,14 @@ impl Layers {
         }
     }
 
-    /// Returns the nearest layer at a point of the screen: its index, and its point (u, v) that appears
-    /// there. It is the first of the [`hits`](Self::hits).
+    /// Returns the index of the nearest layer at a point of the screen, and the point (u, v) of the layer
+    /// that appears there. This is the first of the [`hits`](Self::hits).
     pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         self.hits(point).next()
     }
 
-    /// Lists all layers at a point of the screen, front to back, each once: its index, and its point (u, v)
-    /// that appears there.
+    /// Returns all layers at a point of the screen, front to back, each once: the index of the layer, and the
+    /// point (u, v) of the layer that appears there.
     ///
     /// O(pieces). The order is the exact order of the pieces. Whether a piece covers the point is decided in
     /// `f64`, by its [vertices](LayerPiece::vertices): a point outside counts as inside if it is closer to an

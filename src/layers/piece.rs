@@ -184,8 +184,8 @@ impl Layer {
         Self::new([[0.0, 0.0], [width, height]], matrix)
     }
 
-    /// Creates a layer like [`new`](Self::new), with a matrix that was computed in `f32`: layers in one plane
-    /// up to its rounding count as coplanar.
+    /// Creates a layer like [`new`](Self::new), with a matrix that was computed in `f32`. Layers that are in
+    /// one plane up to the rounding of `f32` count as coplanar.
     pub fn from_f32([low, high]: [[f64; 2]; 2], matrix: Mat4) -> Self {
         Self::with_step([low, high], matrix.as_dmat4(), f64::from(f32::EPSILON))
     }

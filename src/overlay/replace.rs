@@ -110,8 +110,8 @@ impl Overlay {
     }
 }
 
-/// An overlay that is being filled. If filling ends early, the overlay is emptied: after an error, or if the
-/// caller's callback or iterators panic.
+/// An overlay that is being filled. If filling ends early, `drop` empties the overlay: after an error, or if
+/// the caller's callback or iterators panic.
 struct Filling<'a>(&'a mut Overlay);
 
 impl Drop for Filling<'_> {
@@ -170,7 +170,7 @@ impl<P, L, Q> Shapes<P, L, Q> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Shape<'a> {
-    /// A fragment of the tree, or a piece of a polygon of the overlay.
+    /// A fragment of the tree, or a piece of one of the overlay's polygons.
     Fragment(Fragment<'a>),
     /// A piece of a segment of a line.
     Segment(Segment<'a>),

@@ -10,8 +10,8 @@ use crate::exact::faces::Thin;
 use crate::exact::{Faces, PlaneId, PreparedPlane, Side, Vertex, VertexKind};
 use crate::progress::Watch;
 
-/// The number of pieces of a set, spread evenly, on which a plane is tried. Too small: worse planes for large
-/// sets. Too large: more time.
+/// The number of pieces on which a plane is tried. The pieces are spread evenly over the set. Too small:
+/// worse planes for large sets. Too large: more time.
 const SAMPLE: usize = 64;
 /// The number of segments whose planes are tried. Too small: more cuts in a tangle of crossing lines. Too
 /// large: more time.
