@@ -215,8 +215,8 @@ impl Corner {
     /// Computes the corner where two lines meet.
     ///
     /// Let a and b be the lines' slopes, and e the vector from the exact corner to the computed point. Then
-    /// a·e and b·e are the exact values of the lines at that point. They are at most α and β, the rounded
-    /// values plus the lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and the length of e is at most
+    /// a·e and b·e are the exact values of the lines at that point. These values are at most α and β, the
+    /// rounded values plus the lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and the length of e is at most
     /// (|α| |b| + |β| |a|) / |a × b|.
     ///
     /// Rounding the products of a × b and their difference adds an error of at most 2 roundings of their
@@ -286,8 +286,8 @@ mod tests {
     use crate::view::Camera;
     use glam::DVec3;
 
-    /// Corners are within their radius of the intersections in integers. If floats decide the side of a third
-    /// line on which a corner is, the side is right.
+    /// The distance of each corner from the intersection in integers is at most the corner's radius. If
+    /// floats decide the side of a third line on which a corner is, the side is right.
     #[test]
     fn corners_are_as_near_as_they_say_and_on_the_sides_that_floats_tell() {
         let mut random = SplitMix64::new(3);

@@ -52,10 +52,10 @@ impl VisibilityMap<'_> {
     /// polygon of the lower number first. [`edges`](Self::edges) returns edges that only touch another
     /// polygon.
     ///
-    /// A point is on a visible crossing if both polygons are visible at it, one on each side. Crossings are
-    /// as exact as the map: only the ends of runs are rounded. Along an edge that triangulation made, another
-    /// polygon crosses if it lies between the two triangles there. A corner no further from a plane than the
-    /// tolerance is treated as on the plane.
+    /// A point is on a visible crossing if both polygons are visible at the point, one on each side.
+    /// Crossings are as exact as the map: only the ends of runs are rounded. At an edge that triangulation
+    /// made, another polygon crosses if that polygon lies between the edge's two triangles. A corner no
+    /// further from a plane than the tolerance is treated as on the plane.
     ///
     /// Except with [`Hidden::Skip`], hidden runs are returned too, if each of two polygons has corners on
     /// both sides of the other polygon's plane, further from that plane than the tolerance. If a polygon has
@@ -407,7 +407,7 @@ struct Block {
 }
 
 /// Pairs of faces of different polygons that may cross each other: each has corners on both sides of the
-/// other's plane, further from it than the tolerance. Counts as one phase of the progress.
+/// other's plane, further from the plane than the tolerance. Counts as one phase of the progress.
 fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
@@ -448,7 +448,8 @@ fn straddling(
 }
 
 impl Faces {
-    /// Whether a face has corners on both sides of another face's plane, further from it than the tolerance.
+    /// Whether a face has corners on both sides of another face's plane, further from the plane than the
+    /// tolerance.
     pub(super) fn straddles(&self, face: u32, other: u32) -> bool {
         let prepared = PreparedPlane::new(self, PlaneId::face(other));
         let mut sides = self.corners(face).iter().map(|at| prepared.side_beyond(self, at));

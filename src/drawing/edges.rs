@@ -285,8 +285,8 @@ pub enum EdgeKind {
     Border,
     /// One polygon at the edge is seen from its front and the other from behind, or one of the two is seen
     /// edge-on. Two parts of one polygon that is not planar can also form a silhouette. Seen from the eye, a
-    /// body ends there. (If the fronts of the two polygons are on different sides of the surface, one polygon
-    /// counts as reversed.)
+    /// body ends at a silhouette. (If the fronts of the two polygons are on different sides of the surface,
+    /// one polygon counts as reversed.)
     Silhouette,
     /// Two polygons meet at this angle, in radians: 0 if they lie in one plane, π if one polygon is folded
     /// back on the other.
@@ -311,8 +311,8 @@ pub struct EdgeRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless they were [counted](Hidden::Count). It is 0
-    /// for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
+    /// number is 0 for a visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 

@@ -2,8 +2,8 @@
 //! exceptions.
 //!
 //! An opaque polygon that is drawn whole must precede each opaque polygon that is visible in the area that it
-//! paints. A piece of a translucent polygon must precede or follow each polygon that is visible there, by
-//! their depths. Where a third polygon hides both, no order is needed.
+//! paints. A piece of a translucent polygon must precede or follow, by depth, each polygon that is visible in
+//! the area of the piece. Where a third polygon hides two polygons, these two need no order.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -401,14 +401,14 @@ impl Graph<'_> {
         self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
 
-    /// Whether the order has to keep a pair. It need not keep a pair of a clipped node below an opaque node,
-    /// because the clipped node's visible part lies under no opaque node.
+    /// Whether the order has to keep a pair. The order need not keep a pair of a clipped node below an opaque
+    /// node, because the clipped node's visible part lies under no opaque node.
     fn holds(&self, Pair { below, above }: Pair) -> bool {
         !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
 
     /// The strongly connected components of more than one node among some nodes (R. Tarjan, "Depth-first
-    /// search and linear graph algorithms", 1972). Writes their numbers to `component`.
+    /// search and linear graph algorithms", 1972). Writes the numbers of the components to `component`.
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
         let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);

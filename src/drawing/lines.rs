@@ -75,8 +75,8 @@ impl<'t> LineTable<'t> {
         }
     }
 
-    /// The half on which a key's line is positive. The line is added if it is new. It goes through the given
-    /// points.
+    /// The half on which a key's line is positive. A new line is added to the table. `points` are points that
+    /// the line goes through.
     fn half(&mut self, key: Key, points: [u32; 2]) -> Result<HalfPlane, Error> {
         if let Some(&half) = self.halves.get(&key) {
             return Ok(half);

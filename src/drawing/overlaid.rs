@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless they were [counted](Hidden::Count). It is 0
-    /// for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
+    /// number is 0 for a visible run: translucent polygons in front do not count.
     pub layers: Option<u32>,
 }
 
@@ -77,8 +77,8 @@ impl VisibilityMap<'_> {
     ///
     /// # Errors
     ///
-    /// If the overlay was made for another tree; if it has polygons ([`Error::polygon`] is the first); or if
-    /// the operation was [cancelled](Self#progress).
+    /// If the overlay was made for another tree; if the overlay has polygons ([`Error::polygon`] is the first
+    /// polygon); or if the operation was [cancelled](Self#progress).
     pub fn lines(&self, overlay: &Overlay, hidden: Hidden) -> Result<Vec<LineRun>, Error> {
         overlay.expect_no_polygons(self.tree)?;
         let (primitives, counts) = (&self.primitives, hidden == Hidden::Count);
@@ -200,7 +200,7 @@ impl Between {
     }
 
     /// Places lines and points in an order of `count` parts; `places` contains the place of each item. Also
-    /// returns the pairs of items that are in the wrong order: if they were not, each line and point would
+    /// returns the pairs of items that are in the wrong order. Without such pairs, each line and point would
     /// have a place.
     pub(super) fn placed(
         &self,

@@ -405,7 +405,7 @@ impl<'a> Sides<'a> {
         [end(side, half(before), true), end(after, half(after), false)]
     }
 
-    /// The exact order of two ends of sides on their line, in the direction of its positive half.
+    /// The exact order of two ends of sides along a line, in the direction of the line's positive half.
     fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
         // A corner is off by at most its radius, which changes its place by at most the radius times the
         // slope. The place is rounded three times.
@@ -430,7 +430,8 @@ impl<'a> Sides<'a> {
         pieces: &mut Vec<Piece>,
     ) {
         let rounded = self.lines.rounded(line);
-        // The number of forward sides minus the number of backward sides, and where it last changed.
+        // The number of forward sides minus the number of backward sides, and the corner where this number
+        // last changed.
         let (mut count, mut from) = (0i32, 0);
         for place in ends.chunk_by(|a, b| self.compare(&rounded, a, b).is_eq()) {
             let point = place[0].corner;

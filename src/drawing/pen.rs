@@ -41,7 +41,7 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// Joins segments that share ends into as few polylines as possible, and sorts and directs them to shorten
 /// pen travel.
 ///
-/// Use it for [runs of edges](super::EdgeRun) of the same style:
+/// For example, it joins [runs of edges](super::EdgeRun) of the same style:
 ///
 /// ```
 /// use binspace::drawing::{Hidden, VisibilityMap, polylines};
@@ -108,7 +108,7 @@ struct Net {
     jumps: Vec<Option<u32>>,
 }
 
-/// A step of a trail: the corner that it leads to, and the end that it leaves from; `None` for a jump.
+/// A step of a trail: the corner that the step leads to, and the end that it leaves from (`None` for a jump).
 type Step = (u32, Option<u32>);
 
 impl Net {
@@ -276,7 +276,7 @@ pub(super) struct Ends {
     is_left: Vec<bool>,
 }
 
-/// A range of places, and the axis (0, 1 for x, y) along which its middle divides it.
+/// A range of places, and the axis (0, 1 for x, y) along which the middle divides the range.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     low: usize,

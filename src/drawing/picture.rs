@@ -254,10 +254,10 @@ impl VectorPicture {
     /// [trapped](Drawing::trapped), which closes the seams between them. `paint` is called once for each
     /// polygon that has a path, with the polygon's number.
     ///
-    /// A stroke follows the polygon's own [edges](Path::edges). It is painted directly after its path, so
-    /// later paths cover it. Drawings with strokes are not batched. The lines and points of an overlay are
-    /// not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all paths, add
-    /// polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
+    /// A stroke follows the polygon's own [edges](Path::edges). The stroke is painted directly after its
+    /// path, so later paths cover it. Drawings with strokes are not batched. The lines and points of an
+    /// overlay are not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all
+    /// paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
         drawing: &Drawing,
@@ -313,8 +313,9 @@ impl VectorPicture {
         }
     }
 
-    /// Adds lines that are painted together: where they overlap, a translucent stroke is no darker. The lines
-    /// are [polylines](super::polylines) or lists of points. A line that ends at its first point is closed.
+    /// Adds lines that are painted together: where lines overlap, a translucent stroke is no darker. The
+    /// lines are [polylines](super::polylines) or lists of points. A line that ends at its first point is
+    /// closed.
     pub fn add_lines<L: AsRef<[[f64; 2]]>>(
         &mut self,
         lines: impl IntoIterator<Item = L>,
@@ -336,10 +337,10 @@ impl VectorPicture {
     /// Adds one line of text, centred at a point: horizontally by its width, vertically by half the height of
     /// a capital letter. `size` is the height of the font.
     ///
-    /// The paint's stroke is painted below the letters. Half of its width is visible around the letters,
-    /// which keeps them legible on any background. The font is Helvetica or, in SVG, the viewer's substitute.
-    /// In a PDF, characters outside Windows-1252 become `?`, except minus signs, which become dashes. Line
-    /// breaks do not begin a new line.
+    /// The paint's stroke is painted below the letters. Half of the stroke's width is visible around the
+    /// letters, which keeps the letters legible on any background. The font is Helvetica or, in SVG, the
+    /// viewer's substitute. In a PDF, characters outside Windows-1252 become `?`, except minus signs, which
+    /// become dashes. Line breaks do not begin a new line.
     pub fn add_label(&mut self, at: [f64; 2], text: &str, size: f64, paint: impl Into<Paint>) {
         let (size, [x, y]) = (length(size), at);
         if is_near(&at) && size > 0.0 && !text.is_empty() {
@@ -383,8 +384,8 @@ impl VectorPicture {
     /// are translucent.
     ///
     /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the
-    /// picture below. Use it for [regions](super::VisibilityMap::regions), each with its blended colour.
-    /// Browsers support it; other viewers, and a PDF, paint the areas one after another.
+    /// picture below. Use such a group for [regions](super::VisibilityMap::regions), each with its blended
+    /// colour. Browsers support this blend mode; other viewers, and a PDF, paint the areas one after another.
     pub fn added_up<R>(&mut self, add: impl FnOnce(&mut Self) -> R) -> R {
         self.adds_up = true;
         self.group_with(" class=\"binspace-sum\" style=\"isolation:isolate\"".to_owned(), add)

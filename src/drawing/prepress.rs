@@ -26,10 +26,9 @@ impl Drawing {
     /// consecutive paths share a colour, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// The order is a greedy topological order. Of the paths that may be next, it takes a path with the key
-    /// of the previous path. If no such path may be next, it takes a path with the most frequent key. O(n log
-    /// n) for n paths, plus the number of overlaps. If there are too many overlaps (400 n pairs of boxes),
-    /// nothing moves.
+    /// The order is a greedy topological order. Of the paths that may be next, the next one has the key of
+    /// the previous path. If no such path may be next, it has the most frequent key. O(n log n) for n paths,
+    /// plus the number of overlaps. If there are too many overlaps (400 n pairs of boxes), nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();
@@ -352,7 +351,7 @@ impl Grid {
     fn passed(&self, [a, b]: Segment, reach: f64) -> Vec<usize> {
         let place = |c: f64, most: usize| ((c.max(0.0) / self.cell) as usize).min(most - 1);
         let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
-        // The change of x for each step down. Flat sides do not use it.
+        // The change of x for each step down. Flat sides do not use this slope.
         let slope = (high[0] - low[0]) / (high[1] - low[1]).max(f64::MIN_POSITIVE);
         let mut passed = Vec::new();
         for row in place(low[1] - reach, self.rows)..=place(high[1] + reach, self.rows) {

@@ -297,9 +297,9 @@ fn shared<T: Send>(
 const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {
-    /// Whether a face whose corners were moved can be drawn with its given corners. These must certainly form
-    /// a convex polygon in the picture that shows the same side as the face's plane. Rays through the given
-    /// corners must meet the face's plane ahead. No corner may have been moved by more than
+    /// Whether a face whose corners were moved can be drawn with its given corners. The given corners must
+    /// certainly form a convex polygon in the picture, which shows the same side as the face's plane. Rays
+    /// through the given corners must meet the face's plane ahead. No corner may have been moved by more than
     /// [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let ViewFrame { rays, faces } = self;

@@ -2,10 +2,10 @@
 //! Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in
 //! place of pixels).
 //!
-//! Halving a tile does not separate triangles around one vertex, or strips side by side. But one of their
-//! edges leaves about half of them on each side. So tiles where long lists remain are divided along edges of
-//! their pieces: a binary space partition of the tile (H. Fuchs, Z. M. Kedem, B. F. Naylor, "On visible
-//! surface generation by a priori tree structures", 1980).
+//! Halving a tile does not separate triangles around one vertex, or strips side by side. But an edge of such
+//! a triangle or strip leaves about half of the others on each side. So tiles where long lists remain are
+//! divided along edges of their pieces: a binary space partition of the tile (H. Fuchs, Z. M. Kedem, B. F.
+//! Naylor, "On visible surface generation by a priori tree structures", 1980).
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -185,8 +185,8 @@ fn shared<P: Send, F: Send + Default>(
     Ok(parallel_map::map(parts, found)?.into_iter().flatten().collect())
 }
 
-/// The largest number of opaque faces, nearest first, of which it is tested whether all items of the face
-/// together cover a tile. Too small: more hidden items stay in the lists. Too large: more tests without
+/// The largest number of opaque faces, nearest first, that are tested. The test is whether all items of a
+/// face together cover a tile. Too small: more hidden items stay in the lists. Too large: more tests without
 /// success.
 const FACES: usize = 8;
 
@@ -419,7 +419,7 @@ pub(super) struct Leaf {
     pub(super) cells: Vec<Visible>,
 }
 
-/// Lists longer than this are divided. Too small: more tiles, and more cells cut by their borders (16: a
+/// Lists longer than this are divided. Too small: more tiles, and more cells cut by borders of tiles (16: a
 /// drawing of a scan takes 1.5 times as long). Too large: more cells compared with more items, though 128
 /// would save another 2 to 4 %.
 pub(super) const SHORT: usize = 64;

@@ -34,8 +34,8 @@ pub(super) struct ProjectedSegment {
     around: Rect,
 }
 
-/// The position of a segment in the picture. The distance along it is called a *place*: in pixels, increasing
-/// from the first end to the second, if these are lattice points.
+/// The position of a segment in the picture. The distance of a point along the segment's line is called
+/// a *place*, in pixels. Places increase from the first end to the second, if the ends are lattice points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ImageLine {
     /// The point of the line that is nearest to the origin.

@@ -86,8 +86,8 @@ fn determinant([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(b.cross(c))
 }
 
-/// The determinant with every sign positive (the permanent). For absolute values, it bounds the sum of the
-/// determinant's terms.
+/// The permanent: the determinant with every sign positive. If all numbers are absolute values, the permanent
+/// bounds the sum of the determinant's terms.
 fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
     let sums = DVec3::new(b.y * c.z + b.z * c.y, b.z * c.x + b.x * c.z, b.x * c.y + b.y * c.x);
     a.dot(sums)

@@ -39,7 +39,7 @@ const TOUCH: f64 = 1e-9;
 pub struct Layers {
     viewport: [DVec2; 2],
     is_clipped: bool,
-    /// The last frame, if a tree was built of it.
+    /// The layers of the last frame.
     layers: Vec<Layer>,
     /// The visible parts of the layers.
     outlines: Vec<Outline>,
@@ -104,8 +104,8 @@ impl Layers {
         }
     }
 
-    /// Sets the layers of a frame. Returns false, and does nothing, if they are equal to the last frame's.
-    /// Memory of the last frame is reused.
+    /// Sets the layers of a frame. Returns false, and does nothing, if the layers are equal to the last
+    /// frame's layers. Memory of the last frame is reused.
     ///
     /// # Errors
     ///
@@ -223,8 +223,8 @@ impl Layers {
         self.order.is_empty()
     }
 
-    /// Returns the pieces in paint order: no piece hides a later piece. Read it from the end, or with
-    /// `rev()`, for front to back.
+    /// Returns the pieces in paint order: no piece hides a later piece. Reverse the iterator with `rev()` for
+    /// front to back.
     pub fn back_to_front(
         &self,
     ) -> impl DoubleEndedIterator<Item = LayerPiece<'_>> + ExactSizeIterator + Clone {

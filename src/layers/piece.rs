@@ -104,8 +104,8 @@ impl LayerVertex {
         (self.position * self.w).extend(self.w)
     }
 
-    /// Returns (u/w, v/w, 1/w). These three are linear over the piece on the screen, unlike u and v:
-    /// interpolate them and divide the first two by the third.
+    /// Returns (u/w, v/w, 1/w). These three numbers are linear over the piece on the screen, unlike u and v.
+    /// Interpolate them, then divide the first two by the third.
     pub fn perspective(&self) -> DVec3 {
         self.local.extend(1.0) / self.w
     }
@@ -162,8 +162,9 @@ pub fn perspective(distance: f64, origin: [f64; 2]) -> DMat4 {
     about(origin, matrix)
 }
 
-/// Returns a matrix that transforms about the point `origin` as `matrix` transforms about (0, 0). It is the
-/// matrix of CSS `transform` with its `transform-origin`, by default the middle of the element's box.
+/// Returns a matrix that transforms about the point `origin` as `matrix` transforms about (0, 0). With the
+/// `transform-origin` of CSS as `origin`, by default the middle of the element's box, this is the matrix of
+/// CSS `transform`.
 pub fn about([x, y]: [f64; 2], matrix: DMat4) -> DMat4 {
     let origin = DVec3::new(x, y, 0.0);
     DMat4::from_translation(origin) * matrix * DMat4::from_translation(-origin)
@@ -197,8 +198,8 @@ impl Layer {
     }
 
     /// Cuts the layer by the rectangle of an ancestor that hides its overflow (CSS `overflow: hidden`), and
-    /// by the rectangles that cut the ancestor. Call it again for further ancestors. The ancestor itself is
-    /// painted only if it is also in the list of layers.
+    /// by the rectangles that cut the ancestor. Call this method again for further ancestors. The ancestor
+    /// itself is painted only if it is also in the list of layers.
     ///
     /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the intersection of
     /// their outlines remains, up to the rounding of `f64`; it is exact if both layers have the same matrix.
@@ -256,8 +257,8 @@ impl Layer {
     }
 
     /// Returns the point (u, v) of the layer's plane that appears at a point of the screen, for drawing a
-    /// layer pixel by pixel. It may be outside the layer's rectangle. `None` if the plane does not appear
-    /// there or appears as a line.
+    /// layer pixel by pixel. The point may be outside the layer's rectangle. `None` if the plane does not
+    /// appear there or appears as a line.
     ///
     /// Without perspective, u and v are linear over the screen; otherwise u/w, v/w and 1/w are linear.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {

@@ -99,8 +99,8 @@ use crate::viewpoint::Ray;
 /// [`replace`](Self::replace).
 ///
 /// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. Where lines and
-/// points meet between polygons, planes through them or perpendicular to an axis separate them. Segments
-/// without length have no pieces.
+/// points meet between polygons, they are separated by planes through lines or perpendicular to an axis.
+/// Segments without length have no pieces.
 ///
 /// # Order
 ///
@@ -130,7 +130,7 @@ use crate::viewpoint::Ray;
 ///
 /// Between polygons, one rule differs: a point at a corner of a line is painted after both segments there, if
 /// the line has no point at the corners before and after. Closed lines and repeated corners follow the same
-/// rule. If more than two segments meet at a point, some may be painted after it.
+/// rule. If more than two segments meet at a point, some segments may be painted after the point.
 ///
 /// The tolerance applies as for polygons:
 ///
