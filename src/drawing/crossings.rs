@@ -355,7 +355,8 @@ fn crossings_of(
     Ok(parallel_map::map(shares, share)?.into_iter().flatten().collect())
 }
 
-/// The crossing of two faces: the part of the line of equal depth at which both faces are in the picture.
+/// The crossing of two faces: the line on which their planes have equal depth, clipped to both faces and to
+/// the picture.
 fn straight(
     faces: [u32; 2],
     primitives: &Primitives<'_>,

@@ -537,9 +537,8 @@ pub(super) struct Groups {
     search: u64,
 }
 
-/// A search for a join ends without a join after this many groups. Too small: more pieces. Too large: scenes
-/// of many crossing polygons take several times as long, for up to a sixth fewer pieces; other scenes do not
-/// change.
+/// A search for a join gives up after this many groups. Too small: more pieces. Too large: scenes of many
+/// crossing polygons take several times as long, for up to a sixth fewer pieces; other scenes do not change.
 const BUDGET: usize = 300;
 
 #[derive(Clone, Copy)]

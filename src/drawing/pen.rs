@@ -41,7 +41,7 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// Joins segments that share ends into as few polylines as possible, and sorts and directs them to shorten
 /// pen travel.
 ///
-/// For example, it joins [runs of edges](super::EdgeRun) of the same style:
+/// For example, join [runs of edges](super::EdgeRun) of the same style:
 ///
 /// ```
 /// use binspace::drawing::{Hidden, VisibilityMap, polylines};

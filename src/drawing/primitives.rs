@@ -225,7 +225,7 @@ impl<'t> Primitives<'t> {
         View { around, is_opaque: opacity == 1.0, is_as_given, ..unseen }
     }
 
-    /// Whether the κ of a face's plane is positive; for a face that may be visible in the picture.
+    /// Whether the κ of a face's plane is positive. Only for faces that may be visible in the picture.
     fn is_positive(&self, face: u32) -> bool {
         self.views[face as usize].side.is_gt() == self.lines.frame.rays.is_perspective()
     }

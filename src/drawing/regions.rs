@@ -297,7 +297,7 @@ impl LayeredCell {
     }
 }
 
-/// Whether no item in a tile is seen through a translucent item.
+/// Whether all visible items in a tile are opaque.
 fn is_opaque(leaf: &Leaf, primitives: &Primitives<'_>) -> bool {
     leaf.cells.iter().all(|visible| primitives.is_opaque(visible.item))
 }

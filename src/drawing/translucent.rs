@@ -206,8 +206,9 @@ impl Parts {
         Ok(Self { of_item, items, touching: kept })
     }
 
-    /// A painting order of the parts that keeps all pairs of items, and otherwise the tree's order. If
-    /// polygons are hidden, `leaves` contain the visible parts, and opaque polygons in cycles are clipped.
+    /// A painting order of the parts that keeps all pairs of items. Where the pairs leave a choice, the
+    /// tree's order decides. If polygons are hidden, `leaves` contain the visible parts, and opaque polygons
+    /// in cycles are clipped.
     pub(super) fn order(
         &self,
         primitives: &Primitives<'_>,

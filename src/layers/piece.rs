@@ -147,7 +147,7 @@ pub struct Layer {
     high: DVec2,
     /// The coefficients of u, v and 1 in x, y, z and w.
     rows: [DVec3; 4],
-    /// The distance from 1 to the next number of the matrix's number type.
+    /// The machine epsilon of the matrix's number type.
     step: f64,
     /// Half-planes that cut the rectangle: the points whose products with (u, v, 1) are not negative.
     clips: Vec<DVec3>,
@@ -344,7 +344,7 @@ impl Layer {
         DVec4::from_array(rows.map(|row| row.abs().dot(largest))) * self.step
     }
 
-    /// The distance from 1 to the next number of the matrix's number type.
+    /// The machine epsilon of the matrix's number type.
     pub(super) fn step(&self) -> f64 {
         self.step
     }

@@ -264,7 +264,7 @@ impl<'a> OverlayOrder<'a> {
     }
 
     /// Replaces a buffer's contents by the numbers of the fragments and pieces. Numbers below the tree's
-    /// [`len`](BspTree::len) are its fragments; the other numbers are [shapes](Overlay::shape).
+    /// [`len`](BspTree::len) are fragments of the tree; the other numbers are [shapes](Overlay::shape).
     ///
     /// Takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare the
     /// eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer

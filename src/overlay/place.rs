@@ -182,8 +182,8 @@ impl Work<'_> {
         side
     }
 
-    /// Divides the set on top of the stack: pieces behind stay on the stack, pieces in front go to
-    /// `front`, and pieces on the plane to `own`.
+    /// Divides the topmost set of the stack: pieces behind stay on the stack, pieces in front go to `front`,
+    /// and pieces on the plane to `own`.
     fn divide(&mut self, start: usize, prepared: &PreparedPlane) -> Result<(), Error> {
         let Placer { pieces, arena, front, own, splitter, .. } = &mut *self.placer;
         let mut back = start;
@@ -214,8 +214,8 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Puts the set on top of the stack, of at least one piece, into a cell without fragments, or returns a
-    /// plane to divide it by.
+    /// Moves the topmost set of the stack into a cell without fragments, or returns a plane that divides the
+    /// set. The set has at least one piece.
     fn enter_cell(&mut self, start: usize, place: Place) -> Result<Option<Opened>, Error> {
         let Placer { cells, cell, anchors, pieces, arena, own, .. } = &mut *self.placer;
         let set = &pieces[start..];
