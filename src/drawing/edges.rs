@@ -301,8 +301,8 @@ pub enum EdgeKind {
 pub struct EdgeRun {
     /// A polygon that has the edge, and shows a side to the camera.
     pub polygon: usize,
-    /// The number, in that polygon, of the corner where the edge begins; `None` for a crossing, and for a
-    /// silhouette inside a polygon that is not planar.
+    /// The number of the polygon's corner where the edge begins; `None` for a crossing, and for a silhouette
+    /// inside a polygon that is not planar.
     pub edge: Option<u32>,
     /// The kind of the line.
     pub kind: EdgeKind,

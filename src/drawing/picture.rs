@@ -47,11 +47,11 @@ const UNITS: u32 = 50;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Positions and lengths are in pixels, as for [`Camera::project`](crate::view::Camera::project). They are
-/// rounded to fiftieths of a pixel, or more finely if the picture's longer side is below 480 pixels. A shape
-/// with a coordinate that is NaN, infinite, or beyond a million pixels is left out. A length that is NaN or
-/// less than 10⁻⁴ pixels counts as 0; markers, labels and strokes of this size are left out. Opacities are
-/// clamped to the range from 0 to 1; NaN counts as 0. So files are well-formed for any numbers.
+/// Positions and lengths are in pixels, as for [`Camera::project`](crate::view::Camera::project). Positions
+/// are rounded to fiftieths of a pixel, or more finely if the picture's longer side is below 480 pixels. A
+/// shape with a coordinate that is NaN, infinite, or beyond a million pixels is left out. A length that is
+/// NaN or less than 10⁻⁴ pixels counts as 0; markers, labels and strokes of this size are left out. Opacities
+/// are clamped to the range from 0 to 1; NaN counts as 0. So files are well-formed for any numbers.
 #[derive(Clone, Debug)]
 pub struct VectorPicture {
     pub(super) size: [u32; 2],

@@ -461,8 +461,8 @@ pub(super) struct SubTile<'l, 'p> {
     growth: Growth,
 }
 
-/// The number of edges, each of another piece, that are tried to divide a part. Too small: parts are divided
-/// unevenly, or not at all. Too large: choosing takes longer than it saves.
+/// The number of edges, each from a different piece, that are tried to divide a part. Too small: parts are
+/// divided unevenly, or not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
 /// The number of pieces that each of these edges is compared with. Too small: the choice is poor. Too large:
 /// choosing takes longer.

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use super::picture::{Line, Paint, PaintedShape, Shape, Steps, Stroke, VectorPicture, units};
 use super::svg::{Look, Written, write_nodes};
 
-/// The largest coordinate, in big points: TeX has no length beyond 16 383.99 of its points.
+/// The largest coordinate, in big points: TeX has no length beyond 16 383.99 TeX points.
 const FURTHEST: f64 = 16_000.0;
 /// The largest number of corners in one line of the file. Too large: pdfLaTeX refuses lines of 200 000 bytes.
 /// Too small: files are longer.

@@ -94,8 +94,8 @@ impl Layers {
         self
     }
 
-    /// Sets the viewport, from its `low` to its `high` corner, for example when a window is resized. If it
-    /// changes, the page is empty until the next [`update`](Self::update). Memory is kept.
+    /// Sets the viewport, from its `low` to its `high` corner, for example when a window is resized. If the
+    /// viewport changes, the page is empty until the next [`update`](Self::update). Memory is kept.
     pub fn set_viewport(&mut self, [low, high]: [[f64; 2]; 2]) {
         let viewport = [low.into(), high.into()];
         if self.viewport != viewport {

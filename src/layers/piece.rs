@@ -138,7 +138,7 @@ pub(super) fn interpolated(
 }
 
 /// A rectangle in its own coordinates, and a matrix that maps it to the screen. Rectangles of ancestors may
-/// cut it.
+/// cut the layer.
 ///
 /// Two layers are equal if their numbers are equal. An equal list of layers is an unchanged frame.
 #[derive(Clone, Debug, PartialEq)]

@@ -169,7 +169,7 @@ impl Anchors {
         &pieces[pieces.partition_point(|piece| piece.face < self.first)..]
     }
 
-    /// The segment of a point, if the segment's piece that ends there is in the same set.
+    /// The segment of a point, if the segment's piece that ends at the point is in the same set.
     fn segment(&self, point: &Piece, pieces: &[Piece], arena: &[Vertex]) -> Option<u32> {
         let face = (*self.segments.get(&point.min.map(f64::to_bits))?)?;
         let start = pieces.partition_point(|piece| piece.face < face);
