@@ -39,8 +39,8 @@ pub struct Faces {
     /// The corners, counted over all faces, that were moved onto their face's plane, with their positions
     /// before the move. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
-    /// For each face, the three corners that define its plane, if some belong to other faces; empty if each
-    /// face's own reference triangle defines its plane.
+    /// For each face, the three corners that define its plane. Empty if every face's plane is defined by its
+    /// own reference triangle.
     pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
 }
@@ -143,7 +143,7 @@ impl Faces {
         &self.corners[self.corner_range(face)]
     }
 
-    /// Whether a plane is the plane of a face or contains a corner.
+    /// Whether the face or the corner that a plane's name refers to exists.
     #[cfg(any(feature = "save", feature = "validate"))]
     pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
         match plane.kind() {
@@ -280,8 +280,8 @@ impl Faces {
     }
 
     /// Returns the number of the polygon's edge that contains a face's edge `k`: the number of the corner
-    /// where it begins. `None` for an edge made by triangulation. If a polygon touches itself or traverses an
-    /// edge twice, those edges may be `None` as well.
+    /// where the polygon's edge begins. `None` for an edge made by triangulation. If a polygon touches itself
+    /// or traverses an edge twice, those edges may be `None` as well.
     #[doc(hidden)]
     pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
         let number = self.number(face, k);
@@ -478,8 +478,8 @@ impl Faces {
     /// Corners that are far apart bound that ratio for all polygons.
     ///
     /// A face that is not convex in a projection along the plane's main axis keeps its own plane: it is so
-    /// thin that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file,
-    /// because these use only frames of a face's own corners.
+    /// thin that rounding decides its shape. A tree with common planes has no mesh, no drawing and no file,
+    /// because these support only planes through a face's own corners.
     pub(crate) fn put_into_one_plane(&mut self, polygons: &[u32]) -> Result<(), Error> {
         let Some(triangle) = self.far_apart(polygons) else { return Ok(()) };
         if self.planes.is_empty() {
@@ -498,8 +498,8 @@ impl Faces {
         Ok(())
     }
 
-    /// Moves a face onto the plane of three corners. The first `known` of the corners that were moved are in
-    /// ascending order.
+    /// Moves a face onto the plane of three corners. The first `known` items of `moved` are in ascending
+    /// order.
     fn move_onto(&mut self, triangle: [u32; 3], face: u32, known: usize) {
         let points = triangle.map(|corner| self.corner(corner));
         let flattener = Flattener::new(points);

@@ -110,7 +110,7 @@ pub fn split(
     let cut = |side: Ordering| EdgeLine::cut(plane.plane, side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| plane.side(faces, face, vertex)).collect();
-    // A segment: an outline would traverse it in both directions.
+    // A segment is cut once. As an outline it would be cut in both directions.
     if let [a, b] = vertices {
         let middle = a.cut(faces, face, plane);
         let parts = if sides[0].is_gt() { [front, back] } else { [back, front] };
@@ -149,9 +149,9 @@ pub fn split(
 /// Cuts faces to their cell.
 ///
 /// Each plane of the cell decides like a partition plane of a tree, by the rules of
-/// [`classify`](super::classify). Parts that are coplanar with it belong to the cell in front. All cells of a
-/// scene have the same rule, so each point of each face is in one cell. Both cells beside a plane name the
-/// vertices on it by the same points.
+/// [`classify`](super::classify). Parts that are coplanar with the plane belong to the cell in front. All
+/// cells of a scene follow this rule, so each point of each face is in one cell. Both cells beside a plane
+/// define the vertices on the plane by the same points.
 pub(crate) struct Clipper<'f> {
     faces: &'f Faces,
     planes: SmallVec<[(PreparedPlane, Side); 6]>,
@@ -167,7 +167,8 @@ impl<'f> Clipper<'f> {
         Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
     }
 
-    /// The part of a face in the cell, by its vertices: an empty list for the whole face, `None` for no part.
+    /// Returns the vertices of the part of a face in the cell: an empty list if the whole face is in the
+    /// cell, and `None` if no part is.
     pub(crate) fn clip(&mut self, face: u32) -> Option<&[Vertex]> {
         let Self { faces, planes, outline, front, back } = self;
         outline.clear();
