@@ -19,11 +19,12 @@ use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 pub(super) enum Source {
     /// The edge from one lattice point to another, straight through both.
     Edge([[f64; 3]; 2]),
-    /// The edge of a face where the plane through two lattice points and along an axis meets it.
+    /// The edge of a face in which the plane through two lattice points and along an axis cuts the face's
+    /// plane.
     Upright([[f64; 3]; 2], usize),
     /// A plane that cut the face.
     Cut(EdgeLine),
-    /// The plane through the eye parallel to the picture: ahead of it is inside.
+    /// The plane through the eye parallel to the picture. The inside is ahead of this plane.
     Ahead,
 }
 
@@ -109,10 +110,11 @@ impl Seen<'_> {
     }
 }
 
-/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)), or (point −
-/// a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of the sum of their two
-/// products, the vectors that they are multiplied by are off by 1, their scalar products by 3 more, and the
-/// evaluation by 4.
+/// The volume that a ray spans with the edge from `a` to `b`, as a rounded linear function of the pixel, and
+/// a bound on the error of its values. The volume is direction · ((a − eye) × (b − a)) for a perspective, and
+/// (point − a) · ((a − b) × direction) for parallel rays. Each component of the vector product is off by 4.4
+/// roundings of the sum of its two products. The other factor of the scalar product is off by 1 rounding. The
+/// scalar product adds 3 roundings, and the evaluation adds 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);

@@ -17,8 +17,8 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 /// then by y.
 pub(super) type Point = [i64; 2];
 
-/// The side of a point on the line from `a` to `b`, exactly: `Greater` is to the left, above an edge whose
-/// ends are in the sweep's order.
+/// The side of the line from `a` to `b` on which `c` lies, exactly. `Greater` is on the left, which is above
+/// an edge whose ends are in the sweep's order.
 #[inline]
 pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
     area(a, b, c).cmp(&0)
@@ -53,7 +53,7 @@ impl Edge {
         Self { ends: [low.1, high.1], corners: [low.0, high.0], weight }
     }
 
-    /// Divides the edge at a point on it: the part before the point, and the part behind it.
+    /// Divides the edge at a point on it. Returns the part before the point, and the part behind it.
     const fn cut(self, point: u32) -> [Self; 2] {
         [
             Self { ends: [self.ends[0], point], corners: [self.corners[0], NONE], ..self },
@@ -62,7 +62,8 @@ impl Edge {
     }
 }
 
-/// The corner at an end that edges share: preferably of an edge with the direction of their sum.
+/// The polygon's corner at an end that several edges share: preferably the corner of an edge whose direction
+/// is the sign of `weight`, the edges' sum.
 fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
     let at = |edge: &&Edge| edge.corners[end] != NONE;
     let along = |edge: &&Edge| at(edge) && edge.weight.signum() == weight.signum();
@@ -175,7 +176,7 @@ impl<'a> Sweep<'a> {
         self.windings[1] - self.windings[0] <= 1
     }
 
-    /// The edges found, without those that cross.
+    /// The edges found, without the edges that cross.
     pub(super) fn uncrossed(&self) -> impl Iterator<Item = Edge> {
         self.edges.iter().map(|swept| swept.edge).filter(|edge| edge.weight != 0)
     }
@@ -221,8 +222,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The place on the line of the first edge above a point; unless `above_all` is set, an edge through the
-    /// point counts.
+    /// The place on the line of the first edge above a point. Unless `above_all` is set, edges through the
+    /// point count as above it.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -234,7 +235,7 @@ impl<'a> Sweep<'a> {
         place
     }
 
-    /// The side of a point on an edge: `Greater` is above it.
+    /// The side of an edge on which a point lies: `Greater` is above the edge.
     fn side(&self, edge: u32, point: u32) -> Ordering {
         let [a, b] = self.edge(edge).ends;
         let points = &self.outline.points;
@@ -263,7 +264,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping edges.
-    /// Where the shortest of these ends, the remaining parts begin again.
+    /// Where the shortest overlapping edge ends, the remaining parts of the others begin.
     fn merge(&mut self, point: u32) {
         let points = &self.outline.points;
         let at = points[point as usize];
@@ -375,8 +376,9 @@ impl<'a> Sweep<'a> {
     }
 
     /// A point of a region, with the corner of the first of two edges that has a corner there. The direction
-    /// of a region's outline decides which corner at one point belongs to it: with a winding number above 0,
-    /// the upper boundary leads from right to left, and leaves the point along the edge on the left.
+    /// of a region's outline decides which of several corners at a point belongs to the region: with a
+    /// winding number above 0, the upper boundary leads from right to left, and leaves the point along the
+    /// edge on the left.
     fn vertex(&self, point: u32, mut corners: [u32; 2], winding: i32) -> Vertex {
         if winding < 0 {
             corners.reverse();
@@ -386,7 +388,8 @@ impl<'a> Sweep<'a> {
         Vertex { point: self.outline.points[point as usize], corner }
     }
 
-    /// Removes neighbours that cross from the line, first next to a point and then next to each other.
+    /// Removes neighbours that cross from the line: first below the edges through a point, and then above
+    /// them. After each removal, the new neighbours are tested too.
     fn remove_crossings(&mut self, point: u32) {
         for above_all in [false, true] {
             loop {
@@ -407,8 +410,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether two edges on the line, one above the other, cross before either ends: then the edge that ends
-    /// first ends on the wrong side of the other edge.
+    /// Whether two edges on the line, one above the other, cross before either ends. In this case the edge
+    /// that ends first ends on the wrong side of the other edge.
     fn cross(&self, low: u32, high: u32) -> bool {
         if low == NONE || high == NONE {
             return false;

@@ -80,7 +80,8 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     Some(most)
 }
 
-/// Down to the narrowest views that are accepted, with oblong and skewed pixels, and far off-axis.
+/// The views include the narrowest views that are accepted, oblong and skewed pixels, and pictures far
+/// off-axis.
 #[test]
 fn rays_of_skewed_cameras_are_less_than_a_thousandth_of_a_pixel_off() {
     let mut random = Random::new(11);

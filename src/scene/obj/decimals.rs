@@ -35,9 +35,9 @@ const DIGITS_OF_STRAYS: i32 = 3;
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,
-    /// For each kind of digits, how many numbers have it; zeros are not counted.
+    /// The number of numbers with each kind of digits. Numbers equal to 0 are not counted.
     seen: BTreeMap<Digits, usize>,
-    /// How many long numbers there are, and how many of these are `f32` up to their written digits.
+    /// The number of long numbers, and the number of these that are `f32` up to their written digits.
     long: usize,
     long_of_f32: usize,
     /// The largest number, by its size.
@@ -113,8 +113,9 @@ impl Decimals {
         }
     }
 
-    /// Returns one unit in the last decimal of the largest numbers; 0 if no number was seen. For numbers that
-    /// were `f32`, and are written with more digits than an `f32` has, it is a step of the largest.
+    /// Returns one unit in the last decimal of the largest numbers; 0 if no number was seen. If the numbers
+    /// were `f32`, and are written with more digits than an `f32` has, returns the `f32` step of the largest
+    /// number.
     pub fn unit(&self) -> f64 {
         let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
         let step = if is_f32 { f64::from(f32::EPSILON) * self.largest } else { 0.0 };
@@ -168,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_unit_is_that_of_the_numbers_as_they_are_written() {
+    fn the_unit_follows_the_written_digits() {
         let cases: [(&[&str], f64); 16] = [
             (&[], 0.0),
             (&["0", "0"], 1.0),
@@ -197,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_as_programs_write_them_tell_their_unit() {
+    fn the_unit_of_fixed_and_significant_digits_is_found() {
         let mut state = 1_u64;
         let mut random = || {
             state = crate::random::mix(state);
@@ -257,9 +258,9 @@ mod tests {
         assert_eq!(unit(sums.iter().map(|sum| &**sum)), 0.1);
     }
 
-    /// With any number of written digits.
+    /// The number of written digits does not matter.
     #[test]
-    fn numbers_that_were_f32_are_as_precise_as_those() {
+    fn numbers_that_were_f32_have_the_unit_of_f32() {
         let mut state = 7_u64;
         let mut random = || {
             state = crate::random::mix(state);
