@@ -50,8 +50,8 @@ impl BuildOptions {
     /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
     ///
     /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
-    /// may call it, but never two threads at once: a thread that finds it busy continues with its work. So
-    /// the callback may be slow, and may use the same thread pool.
+    /// may call the callback, but never two threads at once: while one thread calls it, the other threads
+    /// continue their work. So the callback may be slow, and may use the same thread pool.
     ///
     /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops after its
     /// current pass over a set of pieces. A pass takes milliseconds, or tenths of a second in sets of some

@@ -29,7 +29,7 @@ pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
 }
 
 /// A build of fewer pieces starts on the calling thread. Too large: the pool's threads idle at first. Too
-/// small: waking them takes longer than the build.
+/// small: waking the threads takes longer than the build.
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 

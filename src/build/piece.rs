@@ -56,8 +56,8 @@ impl Piece {
     }
 
     /// The painting order of pieces on one plane: the order of their faces. (Pieces of one face do not
-    /// overlap. The index of their vertices decides, so that an unstable sort, which needs no memory, has
-    /// only one result.)
+    /// overlap, so their order does not matter. They are sorted by the index of their vertices, so that an
+    /// unstable sort, which needs no memory, has only one result.)
     #[inline]
     pub(crate) fn rank(&self) -> (u32, u32) {
         (self.face, self.start)

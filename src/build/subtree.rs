@@ -102,7 +102,7 @@ pub(in crate::build) struct Builder {
 }
 
 impl Builder {
-    /// Builds the subtree of a job. Hands large sets over to other jobs, if allowed.
+    /// Builds the subtree of a job. Hands large sets over to other jobs, if `hand_over` is given.
     pub(super) fn build(
         &mut self,
         shared: &Shared<'_>,
@@ -381,11 +381,11 @@ type Tried = SmallVec<[u32; 4]>;
 /// polygon, classifies the set by the plane of the larger polygon instead.
 ///
 /// The corners of small and large polygons are rounded by the same amount, so the plane of a small polygon is
-/// less certain. Extended across a large polygon in the same plane, it can leave the tolerance on both sides.
-/// The small polygon is within the tolerance of the large polygon's plane, which divides the set instead. In
-/// frames the larger polygon's plane also replaces a small polygon's plane that passes beside the large
-/// polygon and cuts nothing. Otherwise the small polygon's plane would separate polygons that lie in one
-/// plane.
+/// less certain. Extended across a large polygon in the same plane, the small polygon's plane can deviate by
+/// more than the tolerance on both sides. The small polygon is within the tolerance of the large polygon's
+/// plane, which divides the set instead. In frames the larger polygon's plane also replaces a small polygon's
+/// plane that passes beside the large polygon and cuts nothing. Otherwise the small polygon's plane would
+/// separate polygons that lie in one plane.
 fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -473,7 +473,7 @@ impl Budget {
         Ok(budget)
     }
 
-    /// Counts new pieces; an error if there are too many.
+    /// Counts new pieces. Returns an error if there are too many.
     fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
         if total > self.max_fragments {
@@ -483,7 +483,7 @@ impl Budget {
         }
     }
 
-    /// Checks the depth of a node; an error if it is too deep.
+    /// Returns an error if a node at this depth is too deep.
     fn check_depth(&self, depth: usize) -> Result<(), Error> {
         if depth > self.max_depth { Err(Kind::Depth(self.max_depth).error()) } else { Ok(()) }
     }

@@ -51,7 +51,7 @@ pub struct PreparedPlane {
     pub(super) plane: PlaneId,
     normal: [f64; 3],
     offset: f64,
-    /// A rounded distance has the right sign if it is larger than this.
+    /// A rounded distance has the right sign if its magnitude is larger than this.
     pub(super) bound: f64,
     /// The tolerance times the length of the exact normal, within a share of 10⁻⁹, rounded down to an
     /// integer.

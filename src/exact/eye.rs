@@ -10,10 +10,11 @@ use crate::viewpoint::{Ray, Viewpoint};
 /// A viewpoint in lattice units, rounded once: the point integer · 2^shift. Without a shift, it is the
 /// direction in which the eye is infinitely far away.
 ///
-/// Within about 500 extents of the scene, the eye is rounded to the lattice itself, 2⁻⁵² of the extent;
-/// beyond, to one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵² of their largest
-/// component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the direction is parallel to a
-/// plane, the eye is on the side on which the lattice's origin lies. A NaN coordinate counts as 0.
+/// An eye within about 500 extents of the scene is rounded to the lattice, whose step is 2⁻⁵² of the extent.
+/// An eye further away is rounded to one part in 2⁶¹ of its distance. Directions are rounded to one part in
+/// 2⁵² of their largest component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the direction
+/// is parallel to a plane, the eye is on the side on which the lattice's origin lies. A NaN coordinate counts
+/// as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     integer: [i64; 3],
@@ -27,7 +28,7 @@ const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
 /// The largest shift. For eyes further away, the planes' offsets do not matter: only the direction does.
 const LARGEST_SHIFT: u32 = 360;
 
-/// The largest component of a direction is from two to this power to the next power.
+/// The largest component of a direction is scaled to a magnitude from 2 to this power up to twice as much.
 const DIRECTION_BITS: i32 = 52;
 
 impl Eye {
@@ -255,9 +256,8 @@ impl ExactRay {
         scaled(t.to_f64(), self.exponent)
     }
 
-    /// Converts a parameter of an endless ray to a scale of its direction: the scale in which the largest
-    /// coordinate, in lattice units, has `bits` bits before the binary point. A segment's parameter is only
-    /// rounded.
+    /// Converts a parameter to `f64`. For an endless ray, scales it as if the largest coordinate of the
+    /// direction, in lattice units, had `bits` bits before the binary point.
     pub(crate) fn rescaled(&self, t: &Parameter, bits: i32) -> f64 {
         let up = RAY_BITS - bits - self.bits as i32;
         scaled(t.to_f64(), if self.is_endless { up } else { 0 })
@@ -282,7 +282,7 @@ impl AtRay {
         self.slope.sign()
     }
 
-    /// The parameter where the line of the ray meets the plane; they must not be parallel.
+    /// The parameter where the line of the ray meets the plane. The ray must not be parallel to the plane.
     pub(crate) fn zero(&self) -> Parameter {
         if self.slope.is_negative() {
             Parameter { numerator: self.start, denominator: -self.slope }

@@ -187,8 +187,8 @@ impl Faces {
         self.corners[corner as usize]
     }
 
-    /// The lattice point of a corner, counted over all faces, before it was moved onto its face's
-    /// plane. Polygons that share a corner as given have equal points here.
+    /// The lattice point of a corner, counted over all faces, before it was moved onto its face's plane.
+    /// Polygons that share a corner in the input have equal points here.
     pub(crate) fn given_corner(&self, corner: u32) -> [f64; 3] {
         match self.moved.binary_search_by_key(&corner, |&(corner, _)| corner) {
             Ok(at) => self.moved[at].1,
@@ -273,7 +273,7 @@ impl Faces {
         self.faces[face as usize].frame.moved_axis()
     }
 
-    /// Returns the number, in its polygon, of a face's corner `k`.
+    /// Returns the number, within the polygon, of corner `k` of a face.
     #[doc(hidden)]
     pub fn corner_number(&self, face: u32, k: u32) -> u32 {
         self.number(face, k) & !INNER

@@ -1,4 +1,4 @@
-//! The sides of any plane on which a fragment's vertices lie, and whether a fragment meets several
+//! Decides on which side of any plane a fragment's vertices lie, and whether a fragment meets several
 //! half-spaces.
 //!
 //! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so the value of a half-space at a

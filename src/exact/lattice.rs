@@ -215,8 +215,9 @@ pub(crate) struct FinePoints<const N: usize> {
     pub(crate) bits: u32,
 }
 
-/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take as many
-/// bits of an `i128`. Differences of two points, and differences of these, take up to three bits more.
+/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take this
+/// many bits of an `i128`. Differences of two points, and differences of such differences, take up to three
+/// bits more.
 const FINE_BITS: i32 = 123;
 
 impl Lattice {
@@ -265,7 +266,7 @@ impl Lattice {
     }
 }
 
-/// A number times 2^`bits`, which is below 2¹²³ in magnitude, rounded to the nearest integer.
+/// A number times 2^`bits`, rounded to the nearest integer. The product must be below 2¹²³ in magnitude.
 fn fixed(value: f64, bits: u32) -> i128 {
     (value * (1u128 << bits) as f64).round() as i128
 }

@@ -1,4 +1,4 @@
-//! Writes and reads lattices, names of planes, and faces, and checks them after reading.
+//! Writes and reads lattices and faces, and checks them after reading.
 
 use std::io::{self, Read, Write};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! Vertices of pieces: their sides of planes, decided in integers, and their rounded positions.
 //!
-//! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
-//! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
-//! with the sign). A vertex is a combination of one, two or three lattice points of its face:
+//! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below 2¹⁰⁵. The
+//! value of the face's plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits with
+//! the sign). A vertex is a combination of one, two or three lattice points of its face:
 //!
 //! | vertex | combination of | with weights | plane at the vertex, times the sum of weights |
 //! |---|---|---|---|

@@ -41,10 +41,10 @@ pub enum Tolerance {
     /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
     /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
-    /// largest coordinate, however large a share of the extent this is. For `f64`, the default exceeds 10⁻⁹
-    /// of the extent beyond a million extents from the origin. For a cube of side 1 at 10⁹ it is 9·10⁻⁷.
-    /// (Files are treated as `f32` if nearly all their numbers are `f32`, written with more digits than an
-    /// `f32` has.)
+    /// largest coordinate, however large a share of the extent this is. For `f64`, this is more than 10⁻⁹ of
+    /// the extent if the scene is more than a million extents away from the origin. For example, it is 9·10⁻⁷
+    /// for a cube of side 1 at 10⁹. (Files are treated as `f32` if nearly all their numbers are `f32`,
+    /// written with more digits than an `f32` has.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -98,8 +98,8 @@ pub(super) struct SnapParams {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// The largest distance of a convex polygon's corner from the plane of the others at which the polygon
-    /// still becomes one face, in lattice units.
+    /// A convex polygon becomes one face if no corner is further than this from the plane of the other
+    /// corners, in lattice units.
     pub(super) bend: f64,
 }
 

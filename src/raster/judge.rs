@@ -95,7 +95,8 @@ pub(crate) fn zbuffer_layers(rays: &Rays, faces: &Faces) -> (DepthImage, Layers)
     (depth, layers)
 }
 
-/// Like [`zbuffer`]; calls `also` with each face, and a row and columns that it covers.
+/// Like [`zbuffer`], and calls `also` with each run of pixels that a face covers: the face, the row, and the
+/// columns.
 fn zbuffer_and(
     rays: &Rays,
     faces: &Faces,

@@ -17,7 +17,7 @@ use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 /// The source of a boundary line.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
-    /// The edge from one lattice point to another, straight through both.
+    /// The straight edge from one lattice point to another.
     Edge([[f64; 3]; 2]),
     /// The edge of a face in which the plane through two lattice points and along an axis cuts the face's
     /// plane.

@@ -269,7 +269,7 @@ mod tests {
 
     /// In floats, the vector product of the sliver's edges is 0.
     #[test]
-    fn the_normal_of_a_sliver_is_exact_before_it_is_rounded() {
+    fn a_sliver_has_the_normal_of_its_plane() {
         let sliver = [
             [-281_474_976_710_656, -140_737_488_355_328, -140_737_488_355_328],
             [121_780_518_933_211, -326_184_141_481_648, -44_014_312_109_210],

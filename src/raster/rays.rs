@@ -11,7 +11,7 @@ use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
 ///
-/// With x and y the column and row of a pixel, and only integer vectors:
+/// Here x and y are the column and the row of a pixel, and all vectors are integers:
 ///
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|
@@ -33,7 +33,7 @@ pub struct Rays {
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
     /// The height of the whole picture. These rays may be only some of its rows; `above` is the number of
-    /// rows above these.
+    /// rows above the first of these rays.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
@@ -73,10 +73,11 @@ pub(super) enum Given {
 /// The magnitude of directions, and the largest shift of an eye (its distance in powers of two
 /// beyond 2⁶¹).
 ///
-/// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a direction 168,
-/// and the product of two such 358: every decision fits [`Digits`](super::exact::Digits). Too large: a wide
-/// view leaves the [`REGION`], because the components of a direction, and the components of `right` and
-/// `down` times the picture's sides, add up to three times as much. Too small: narrow views are rejected.
+/// With 52-bit coordinates, a normal has 105 bits, the value of a plane at the eye 189, the product of a
+/// normal and a direction 168, and the product of these two numbers 358: every decision fits
+/// [`Digits`](super::exact::Digits). Too large: a wide view leaves the [`REGION`], because the components of
+/// a direction, and the components of `right` and `down` times the picture's sides, add up to three times as
+/// much. Too small: narrow views are rejected.
 const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
 /// The magnitude of points on parallel rays, and of directions, is below this.
@@ -307,10 +308,10 @@ impl Rays {
         }
     }
 
-    /// The eye relative to a lattice point; for parallel rays, the point of the first pixel's ray. Each
+    /// The eye, or for parallel rays the point of the first pixel's ray, relative to a lattice point. Each
     /// component is within 2.4 roundings.
     ///
-    /// (An integer beyond 2⁵³, rounded, minus a coordinate of at most 2⁵¹.)
+    /// (An integer beyond 2⁵³ is rounded, and so is its difference from a coordinate of at most 2⁵¹.)
     #[inline]
     pub(crate) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
@@ -466,8 +467,9 @@ fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 /// rounded by ε, of their vector products by 4 ε of the product of two lengths, and the determinant by 8 ε of
 /// the product of three lengths. A row is at least V times the product of two lengths, so it is off by less
 /// than 24 ε / V of itself. Its product with a vector, which is off by 2.4 ε, is off by less than (24 / V +
-/// 6) ε of the product of both lengths. In terms of the sum of the row's components and the largest of the
-/// vector's, that is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than 2⁻⁴⁷ / V otherwise.
+/// 6) ε of the product of both lengths. As a multiple of the sum of the row's components and the largest
+/// component of the vector, the error is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than
+/// 2⁻⁴⁷ / V otherwise.
 fn rounding(columns: [DVec3; 3]) -> f64 {
     let [a, b, c] = columns.map(DVec3::normalize);
     let volume = a.dot(b.cross(c)).abs();

@@ -160,7 +160,7 @@ struct Given {
     colors: Vec<Option<[f32; 3]>>,
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
-    /// For each corner the numbers from 0 of its vertex, its `vt` line and its `vn` line.
+    /// For each corner the numbers, counted from 0, of its vertex, its `vt` line and its `vn` line.
     corners: Vec<[Option<u32>; 3]>,
     /// Malformed references.
     faults: usize,
@@ -197,8 +197,8 @@ impl Given {
     }
 }
 
-/// The values of corners, given their numbers; empty if no corner has a value. Counts numbers beyond the
-/// last.
+/// The values of corners, given their numbers; empty if no corner has a value. Adds the count of numbers
+/// beyond the last value to `faults`.
 fn of_corners<T: Copy>(
     numbers: impl Iterator<Item = Option<u32>>,
     values: &[Option<T>],

@@ -34,9 +34,9 @@ impl FreePlanes {
     /// Searches for an axis plane of low cost that has fewer pieces on each side than the set.
     ///
     /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of SAH-based
-    /// bounding volume hierarchies”, 2007). The candidates are the borders of bins, and the places inside
-    /// bins at which all ends of the bin precede its first beginning: rows of vertices, and gaps. The corner
-    /// nearest the best candidate names the plane. Takes O(n) time.
+    /// bounding volume hierarchies”, 2007). The candidates are the borders of bins, and one place inside each
+    /// bin in which all ends of pieces precede all beginnings. Such places are rows of vertices, and gaps.
+    /// The corner nearest the best candidate names the plane. Takes O(n) time.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -202,8 +202,8 @@ fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     if begin <= end { [begin, end] } else { [0.5 * (begin + end); 2] }
 }
 
-/// The cost of a plane, given the numbers of pieces, of `n`, that have begun before the plane, have ended
-/// before it, and lie on it. It is [`Cost::MOST`] if all pieces are on one side.
+/// The cost of a plane that divides `n` pieces: `begun` pieces begin before the plane, `ended` pieces end
+/// before it, and `on` pieces lie on it. Returns [`Cost::MOST`] if all pieces are on one side.
 #[inline]
 fn cost(n: usize, begun: u32, ended: u32, on: u32) -> Cost {
     let n = n as u32;

@@ -135,9 +135,9 @@ pub(super) struct PricedPlane {
     pub(super) cost: Cost,
 }
 
-/// The work of sorting `n` pieces into an order: n^1.25.
+/// The estimated work of building a tree of `n` pieces: n^1.25.
 ///
-/// This grows faster than n·log n, the work of sorting, because a larger set is also cut more. Too large an
+/// This grows faster than the work of sorting, n·log n, because a larger set is also cut more. Too large an
 /// exponent: scans are cut more for better balance. Too small: planes at the boundary are preferred in sets
 /// where every plane cuts much.
 #[inline]

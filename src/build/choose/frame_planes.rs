@@ -148,7 +148,7 @@ mod crossing_tests {
         crosses(&fixture.faces, &[], &fixture.pieces[0], &fixture.pieces[1])
     }
 
-    /// A square of side 2 in the plane z = 0, and one in the plane x = 0, moved along y and z.
+    /// A square of side 2 in the plane z = 0, and a square in the plane x = 0, which is moved along y and z.
     #[test]
     fn pieces_cross_where_an_edge_of_one_goes_through_the_other() {
         let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);

@@ -15,9 +15,10 @@ use crate::progress::Watch;
 /// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic,
 /// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
-/// A piece has a number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon on one
-/// side of every plane nearer the root. Polygons that are not convex or not planar are divided into triangles.
-/// Positions are in the polygons' unit, rounded like [`Fragment::vertices`](crate::Fragment::vertices).
+/// Each piece has a number below [`piece_count`](Self::piece_count). A piece is a convex part of a polygon,
+/// and lies on one side of every plane nearer the root. Polygons that are not convex or not planar are
+/// divided into triangles. Positions are in the polygons' unit, rounded like
+/// [`Fragment::vertices`](crate::Fragment::vertices).
 ///
 /// # Panics
 ///
@@ -32,12 +33,14 @@ pub struct PieceSet<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SplitPlane {
-    /// The plane of a piece, given by its number. The piece itself lies on it, so it always divides a set.
+    /// The plane of a piece, given by the piece's number. The piece lies on its plane, so this plane always
+    /// divides the set.
     OfPiece(usize),
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
-    /// Every plane of a tree contains a corner of a polygon. This plane contains the corner nearest the
-    /// coordinate, of all polygons of the build, after rounding to the grid and the tolerance.
+    /// Every plane of a tree contains a corner of a polygon. Among the corners of all polygons of the build,
+    /// this plane contains the corner nearest the coordinate. Corners have their positions after rounding to
+    /// the grid and flattening within the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -98,8 +101,8 @@ impl<'a> PieceSet<'a> {
     ///
     /// These are the sides that the build will use: exact, except for the tolerance. The build uses another
     /// plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
-    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, it first finds
-    /// the nearest corner by binary search; the first search along an axis sorts all corners.
+    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
+    /// first finds the nearest corner; the first search along an axis sorts all corners.
     pub fn sides(
         &self,
         plane: SplitPlane,

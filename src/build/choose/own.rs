@@ -13,12 +13,12 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
-    /// The cost of its plane, as far as known.
+    /// The cost of its plane, estimated from `counts`.
     cost: Cost,
     /// The share of the set's bounding box that the piece fills, 0 to 1.
     share: f64,
     plane: PackedPlane,
-    /// The counts of the pieces that it was compared with.
+    /// The numbers of compared pieces in front of its plane, behind it, and across it.
     counts: Counts,
 }
 

@@ -52,10 +52,10 @@ impl Peeled {
 /// plane, is a tree of the remaining pieces with no more fragments. A set in convex position is divided
 /// entirely if all places are tried.
 ///
-/// Exact: only certain results of the packed pieces are used, and exact arithmetic decides on pieces near a
-/// plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a piece. So a set
-/// in convex position takes O(n log n) time if boxes can decide. If many pieces share a vertex, like the
-/// sides of a cone, the set takes O(n²) time.
+/// The result is exact: only certain results of the packed pieces are used, and exact arithmetic decides on
+/// pieces near a plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a
+/// piece. So a set in convex position takes O(n log n) time if boxes can decide. If many pieces share a
+/// vertex, like the sides of a cone, the set takes O(n²) time.
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
     boxes: Boxes,
@@ -242,8 +242,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// Sorts the pieces of a large set so that the pieces of a group, and of a range of groups, are near one
-/// another, by repeatedly halving the longest side of their box.
+/// Sorts the pieces of a large set so that the pieces of each group, and of each range of groups, are near
+/// one another. Repeatedly divides the pieces in half along the longest side of their box.
 pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
     let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {

@@ -1,5 +1,5 @@
-//! A set of pieces for choosing a plane: the pieces themselves, and packed in single precision, four at a
-//! time.
+//! A set of pieces for choosing a plane: the pieces themselves, and the pieces packed in single precision,
+//! four at a time.
 
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ pub(super) struct PackedPlane {
 }
 
 /// Pieces of a group as bits: the pieces that certainly reach in front of a plane, the pieces that certainly
-/// reach behind it, and the pieces that come within the slack of it.
+/// reach behind it, and the pieces that come within the slack of the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) front: u8,

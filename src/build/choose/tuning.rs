@@ -68,10 +68,10 @@ impl Tuning {
 /// The constants for dividing small sets of frames in less time.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// The largest number of cuts of an own plane that is used without further search although it cuts
-    /// pieces. Each cut piece must cross the plane's own piece: any tree has to cut one of the two. Too
-    /// large: polygons that cross at random are cut by worse planes. Too small: in a ring of polygons, each
-    /// crossing the next, all planes are compared repeatedly.
+    /// The largest number of pieces that an own plane may cut if it is used without further search. Each cut
+    /// piece must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons that
+    /// cross at random are cut by worse planes. Too small: in a ring of polygons, each crossing the next, all
+    /// planes are compared repeatedly.
     pub crossings: usize,
     /// The number of own planes tried first in a set of fewer than `small` pieces. Such a plane is used at
     /// once if it cuts nothing and divides the set evenly, or as `crossings` allows. Too large: time if each

@@ -36,10 +36,10 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     Triangulation { triangles, crosses_itself: false }
 }
 
-/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
-/// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon. A polygon that is
-/// far from planar may cross or touch itself in that projection, and lose corners. If the projection along
-/// another axis has no such fault, that axis is used.
+/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal). The
+/// result is exact, and takes O(n log n) comparisons. The triangles have the orientation of the polygon. A
+/// polygon that is far from planar may cross or touch itself in that projection, and lose corners. If the
+/// projection along another axis has no such fault, that axis is used.
 ///
 /// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
 /// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas

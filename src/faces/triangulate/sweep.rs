@@ -153,7 +153,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sweeps over all points. Returns `None` if there are too many parts, or if edges cross and the rule
-    /// does not allow it. If the rule allows it, edges that cross are left out from there on.
+    /// does not allow it. If the rule allows it, edges that cross are removed from the line when their
+    /// crossing is found.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {

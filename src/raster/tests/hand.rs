@@ -206,7 +206,7 @@ fn rays_through_lines_belong_to_the_piece_on_their_right() {
     assert_eq!(show(&below), "...... ...... ...... ...... ....A. ...AA.");
 }
 
-/// Looking down at a steep face that crosses a flat face.
+/// The camera looks down at a steep face that crosses a flat face.
 #[test]
 fn both_faces_have_to_be_near_the_plane_of_the_other() {
     let tolerance = 0.01;

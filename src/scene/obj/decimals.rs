@@ -49,9 +49,9 @@ pub struct Decimals {
 struct Digits {
     /// The place of the first digit that is not 0.
     first: i32,
-    /// The place of the last digit, without zeros after the point.
+    /// The place of the last digit. Zeros at the end of the decimals do not count.
     last: i32,
-    /// The number of digits written from the first on, zeros included.
+    /// The number of written digits, from the first digit that is not 0. Later zeros count.
     written: i32,
 }
 
@@ -122,8 +122,8 @@ impl Decimals {
         step.max(self.decimal())
     }
 
-    /// The digits that count: without the digits of zeros with noise, and only the first digits of the few
-    /// long numbers that have more decimals than any short number.
+    /// The digits that count. Numbers that are zero plus noise do not count. If only a few long numbers have
+    /// more decimals than all short numbers, only the first digits of these long numbers count.
     fn counted(&self) -> Vec<Digits> {
         let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
         let is_noise = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);

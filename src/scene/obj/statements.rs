@@ -52,7 +52,7 @@ pub(super) struct Contents {
     materials: Names,
     /// The name of the material in use, and its number once a face has used it.
     material: (Vec<u8>, Option<u32>),
-    /// The number from 1 of the last vertex that a face names, and that face.
+    /// The largest number, counted from 1, of a vertex that a face names, and the place of that face.
     highest: (usize, Place),
 }
 

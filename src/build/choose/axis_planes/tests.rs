@@ -89,7 +89,8 @@ fn on_a_lattice_planes_touch_many() {
     }
 }
 
-/// Planes between rows of vertices cut a row; planes through the vertices cut nothing, or less.
+/// Planes between rows of vertices cut a row of pieces; planes through the vertices cut fewer pieces, or
+/// none.
 #[test]
 fn planes_go_through_rows_of_vertices() {
     let rows = 9;
@@ -141,7 +142,7 @@ fn axis_of(found: &PricedPlane) -> usize {
 
 /// Two groups that overlap by no more than the tolerance.
 #[test]
-fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
+fn groups_that_overlap_within_the_tolerance_are_separated_without_a_cut() {
     const TOLERANCE: f64 = 1e-3;
     for axis in 0..3 {
         let of = |ends: [f64; 2], begins: [f64; 2]| {
