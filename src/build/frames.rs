@@ -95,8 +95,7 @@ impl FrameBuilder {
         Ok(&self.tree)
     }
 
-    /// Builds a tree of polygons that are flat by definition, where the polygons of each group are in one
-    /// plane.
+    /// Builds a tree of polygons that are flat by definition. Puts the polygons of each group into one plane.
     #[cfg(feature = "layers")]
     pub(crate) fn build_in_planes<'g, P: Polygon>(
         &mut self,

@@ -1,4 +1,4 @@
-//! Large sets as jobs for other threads, and the outputs of all jobs joined depth first.
+//! Passes large sets to other threads as jobs, and joins the outputs of all jobs in depth-first order.
 
 #[cfg(feature = "parallel")]
 use std::sync::{Mutex, PoisonError};

@@ -92,7 +92,7 @@ pub(in crate::build) struct Builder {
     /// The length at which the arena is next compacted.
     compact_at: usize,
     pub(in crate::build) output: Output,
-    /// The sides of the current set's pieces.
+    /// The plane that divides the current set, and the sides of the set's pieces.
     division: Division,
     /// The pieces of the current set that lie on its plane, in front of the plane, and across the plane.
     own: Vec<Piece>,

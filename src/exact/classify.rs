@@ -352,7 +352,8 @@ mod tests {
         assert!(wrong > 20, "{wrong} {told}");
     }
 
-    /// The sliver is in the plane z = 0. Twice its area is 1 in lattice steps, and 2⁴⁸ in floats.
+    /// The sliver is in the plane z = 0. Twice its area is 1 in square lattice units, but 2⁴⁸ if computed in
+    /// floats.
     fn with_sliver(tolerance: Option<f64>) -> Faces {
         let sliver = [
             [-1.0, -1.0, 0.0],

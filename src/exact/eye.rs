@@ -378,7 +378,7 @@ mod tests {
         }
     }
 
-    /// At and near every power of two, and at random.
+    /// Tests sizes at and near every power of two, and random sizes.
     #[test]
     fn a_far_eye_is_halved_until_it_is_near() {
         let halved = |mut size: f64| {

@@ -439,7 +439,7 @@ impl Faces {
         }
     }
 
-    /// Removes all faces except those listed, in ascending order.
+    /// Removes all faces that are not in `kept`, a list in ascending order.
     pub(crate) fn keep(&mut self, kept: &[u32]) -> Result<(), Error> {
         let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
         let mut start = self.corners_of_cell();
@@ -470,8 +470,9 @@ impl Faces {
 
 #[cfg(feature = "layers")]
 impl Faces {
-    /// Puts the faces of some polygons into one plane: the plane of three of their corners, far apart. The
-    /// other corners are moved onto it, like the corners of one polygon onto its own plane.
+    /// Puts the faces of some polygons into one plane: the plane through three of their corners that are far
+    /// apart. The other corners are moved onto this plane, like the corners of one polygon onto its own
+    /// plane.
     ///
     /// Corners are rounded, so polygons meant for one plane have different planes. Extended to another
     /// polygon, the plane of a small polygon is off by the rounding error times the ratio of their sizes.

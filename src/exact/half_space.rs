@@ -3,8 +3,8 @@
 //!
 //! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so the value of a half-space at a
 //! lattice point takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits
-//! if it is a vertex of the fragment (see `vertex`), and up to 364 bits if a half-space made it. With these
-//! weights, the sum takes 548 bits.
+//! if it is a vertex of the fragment (see `vertex`), and up to 364 bits if a half-space made it. With weights
+//! of 364 bits, the weighted sum of three such values takes 548 bits.
 
 use std::cmp::Ordering;
 

@@ -162,7 +162,7 @@ pub(crate) struct RoundedNormal {
     /// Each component is off by at most 2⁻⁵² of its share of `size`: its two products and their
     /// difference are rounded.
     pub(crate) normal: [f64; 3],
-    /// Σ over components of the magnitudes of their two products.
+    /// The sum, over the three components, of the magnitudes of both products.
     pub(crate) size: f64,
 }
 

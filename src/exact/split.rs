@@ -95,8 +95,8 @@ impl StoredVertex {
 /// the vertices of the two parts to `front` and `back`, in the piece's orientation.
 ///
 /// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
-/// strictly on opposite sides. Both parts define it by the same line and plane, so they share it bit for bit.
-/// At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
+/// strictly on opposite sides. Both parts define the new vertex by the same line and plane, so it is equal
+/// bit for bit in both. At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
 ///
 /// A piece of two vertices belongs to a segment, whose ends are on different sides.
 pub fn split(

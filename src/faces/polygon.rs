@@ -217,8 +217,8 @@ pub(super) struct Corners {
     kept: Vec<Corner>,
     /// The number of corners in the input.
     given: usize,
-    /// For each kept corner, the number of later corners on the straight run of the outline that begins
-    /// there; at least 1. Empty if the polygon is not triangulated.
+    /// For each kept corner, the number of later corners on the straight run of the outline that begins at
+    /// the corner; at least 1. Empty if the polygon is not triangulated.
     runs: Vec<u32>,
 }
 

@@ -34,7 +34,7 @@ macro_rules! builtin {
         }
 
         impl Builtin {
-            /// Every scene, in the order of listings.
+            /// Every scene, in the order in which they are listed.
             pub const ALL: &'static [Self] = &[$(Self::$scene),*];
 
             fn row(self) -> (&'static str, &'static str, Recipe) {

@@ -173,8 +173,8 @@ const PLOT: f64 = 30.0;
 /// Returns a city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
 ///
 /// There are `side`² houses, with `side` = √((`polygons` − 1)/5) rounded, at least 1: axis-aligned boxes
-/// without an underside, 12 to 24 wide and deep, 6 to 120 high, that stand apart. Low houses are frequent,
-/// high houses rare.
+/// without an underside, 12 to 24 wide and deep and 6 to 120 high. The houses do not touch. Low houses are
+/// frequent, high houses rare.
 pub fn city(polygons: u32, seed: u64) -> Scene {
     let wanted = (f64::from(polygons.saturating_sub(1)) / 5.0).sqrt();
     let side = wanted.round().max(1.0) as u32;

@@ -292,8 +292,8 @@ impl Scene {
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// Returns an eye point and a target, for scenes that have a usual or only possible view, such as the
-    /// Cornell box through its open side.
+    /// Returns an eye point and a target, for scenes that have a usual view or only one possible view, such
+    /// as the Cornell box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }

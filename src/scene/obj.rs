@@ -28,15 +28,15 @@ impl Scene {
     /// coordinates of a `v` line are left out. A line that ends in a backslash continues in the next line.
     ///
     /// Coordinates are read as `f64`. The scene's [`precision`](Self::precision) is four units in the last
-    /// decimal that the coordinates need. Either the number of decimals is fixed in the file, or the number
-    /// of significant digits of the largest coordinates. Zeros at the end of all coordinates do not count
-    /// (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15 significant digits is
-    /// first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate of less than about 10⁻¹¹
-    /// of the largest counts as 0. A few computed numbers do not decide for all. Suppose that at most one
-    /// coordinate in 100 has nine significant digits or more *and* more decimals than all coordinates with
-    /// fewer digits. Then only the first three digits of such coordinates count. If all coordinates of nine
-    /// digits and more (except one in 100) are `f32` numbers up to their written digits, the unit is the
-    /// `f32` step of the largest coordinate. Up is y, because OBJ files do not define it.
+    /// decimal that the coordinates need. A file has either a fixed number of decimals, or a fixed number of
+    /// significant digits; in the latter case the largest coordinates decide. Zeros at the end of all
+    /// coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15
+    /// significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate
+    /// below about 10⁻¹¹ times the largest counts as 0. A few computed numbers do not decide for all. Suppose
+    /// that at most one coordinate in 100 has nine significant digits or more *and* more decimals than all
+    /// coordinates with fewer digits. Then only the first three digits of such coordinates count. If all
+    /// coordinates of nine digits and more (except one in 100) are `f32` numbers up to their written digits,
+    /// the unit is the `f32` step of the largest coordinate. Up is y, because OBJ files do not define it.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB, with its `d` or `Tr` as opacity. A missing
     /// or unreadable library is not an error: its materials appear as

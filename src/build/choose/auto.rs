@@ -24,10 +24,10 @@ pub(super) struct Auto {
 
 impl Auto {
     /// Returns the first of the following that exists: in frames, an own plane that is good enough; the plane
-    /// on which all pieces lie; in a set of two pieces, a plane of one that does not cut the other; a free
-    /// plane that cuts nothing; pieces that can be peeled off; the plane with the lowest cost. (In a small
-    /// set, an own plane that cuts nothing and divides the set evenly precedes peeling.) Writes the plane and
-    /// the pieces' sides to `division`, if the sides are known.
+    /// on which all pieces lie; in a set of two pieces, the plane of a piece that does not cut the other
+    /// piece; a free plane that cuts nothing; pieces that can be peeled off; the plane with the lowest cost.
+    /// (In a small set, an own plane that cuts nothing and divides the set evenly precedes peeling.) Writes
+    /// the plane and the pieces' sides to `division`, if the sides are known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,

@@ -160,7 +160,7 @@ fn through(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
 }
 
 /// Returns a plane between two pieces. The first piece ends before the second begins. The plane goes through
-/// an end of a piece, or otherwise through a corner of a piece's face that was cut off.
+/// an end of a piece, or otherwise through a cut-off corner of a piece's face.
 fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
     let [low, high] = [first.max[axis], next.min[axis]];
     if next.min_is_corner(axis) {

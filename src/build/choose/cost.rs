@@ -159,7 +159,7 @@ static WORK: [f64; 1024] = {
     table
 };
 
-/// The square root of a number from 1 on, by Newton's method.
+/// The square root of a number of at least 1, by Newton's method.
 const fn sqrt(x: f64) -> f64 {
     let (mut root, mut steps) = (x, 0);
     while steps < 16 {

@@ -146,8 +146,8 @@ impl Search<'_, '_> {
         self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
     }
 
-    /// Compares the other pieces with a piece's plane until one is found on each side. Returns the number of
-    /// comparisons, and whether one side may be empty.
+    /// Compares the other pieces with a piece's plane until a piece is found on each side. Returns the number
+    /// of comparisons, and whether one side may be empty.
     fn look(&mut self, p: usize, plane: &PackedPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
@@ -205,8 +205,8 @@ impl Search<'_, '_> {
         self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
     }
 
-    /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of it.
-    /// Returns the number of separated pieces.
+    /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of the
+    /// plane. Returns the number of separated pieces.
     fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;

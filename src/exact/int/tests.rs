@@ -55,7 +55,7 @@ proptest! {
     }
 }
 
-/// The nearest float by another way: through the decimal digits.
+/// The nearest float, computed in another way: through the decimal digits.
 fn nearest<const N: usize>(value: &Int<N>) -> f64 {
     big(value).to_string().parse().expect("a number")
 }

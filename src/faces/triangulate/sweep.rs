@@ -97,7 +97,7 @@ pub(super) struct Sweep<'a> {
     waiting: Vec<(Edge, u32)>,
     /// For each point, the last edge that waits for it: the head of a list in `waiting`.
     heads: Vec<u32>,
-    /// For each point, the number of edges on the line that end there.
+    /// For each point, the number of edges on the line that end at the point.
     arriving: Vec<u32>,
     /// The edges that begin at the current point.
     starting: Vec<Edge>,
@@ -192,7 +192,7 @@ impl<'a> Sweep<'a> {
         self.waiting.push((edge, next));
     }
 
-    /// Removes the edges through a point from the line, and inserts the edges that begin there.
+    /// Removes the edges through a point from the line, and inserts the edges that begin at the point.
     fn visit(&mut self, point: u32) {
         let mut head = self.heads[point as usize];
         if self.arriving[point as usize] == 0 && head == NONE {
@@ -243,8 +243,8 @@ impl<'a> Sweep<'a> {
         turn(points[a as usize], points[b as usize], points[point as usize])
     }
 
-    /// Removes the edges through a point from the line, from the lowest to the highest. Their parts behind
-    /// the point begin there.
+    /// Removes the edges through a point from the line, from the lowest to the highest. The parts of these
+    /// edges behind the point begin at the point.
     fn end_all(&mut self, point: u32, place: Place) {
         self.ended.clear();
         loop {
@@ -308,7 +308,8 @@ impl<'a> Sweep<'a> {
         kept
     }
 
-    /// Adds a point to the regions around it, and inserts the edges that begin there between these regions.
+    /// Adds a point to the regions around it, and inserts the edges that begin at the point between these
+    /// regions.
     fn begin_all(&mut self, point: u32, below: u32) {
         let mut winding = self.edges.get(below as usize).map_or(0, |swept| swept.winding);
         // Once edges have left the line, regions are no longer known.
@@ -343,7 +344,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Adds a point to the regions around it. Returns the remaining regions below and above the edges that
-    /// begin there.
+    /// begin at the point.
     fn regions(&mut self, point: u32, below: u32) -> [Region; 2] {
         let ends = [self.starting.first(), self.starting.last()];
         let [first, last] = ends.map(|edge| edge.map_or(NONE, |edge| edge.corners[0]));

@@ -9,14 +9,14 @@ const FEWEST_DIGITS: i32 = 6;
 /// computation, as in `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
 /// A number that begins more than this many places after the largest number is zero plus noise. Too small:
-/// thin layers near zero are ignored. Too large: one sine of a rounded π decides.
+/// thin layers near zero are ignored. Too large: one computed zero, such as the sine of a rounded π, decides.
 const NOISE_PLACES: i32 = 11;
-/// Numbers of this many significant digits are long: as many as distinguish one `f32` from another. Too
-/// small: the heights of thin layers, as people write them, are long. Too large: numbers from `f32` are not
-/// long.
+/// Numbers of this many significant digits or more are long: 9 digits distinguish every `f32` from all
+/// others. Too small: the heights of thin layers, as people write them, are long. Too large: numbers from
+/// `f32` are not long.
 const LONG: i32 = 9;
-/// At most one number in this many is a stray. Too small: parts of a scene that are more precise than others
-/// are overlooked. Too large: a few long numbers decide for all.
+/// Unusually long numbers are strays if they are at most one in this many. Too small: parts of a scene that
+/// are more precise than others are overlooked. Too large: a few long numbers decide for all.
 const STRAYS: usize = 100;
 /// The least number of long numbers that shows whether all were `f32`. Too small: some are near an `f32` by
 /// chance. Too large: files with few `f32` are not recognised.
@@ -29,9 +29,9 @@ const DIGITS_OF_STRAYS: i32 = 3;
 ///
 /// Programs write either a fixed number of decimals, or a fixed number of significant digits. In the latter
 /// case numbers of different size have equally many digits; otherwise only the largest numbers have the most
-/// digits. Zeros that a program adds at the end do not count. Zeros that it omits there do no harm, because
-/// the longest numbers decide. The exceptions are numbers far longer than nearly all others: see
-/// `Digits::without_noise` and `Decimals::counted`.
+/// digits. Zeros that a program adds at the end do not count. Zeros that a program omits at the end do no
+/// harm, because the longest numbers decide. The exceptions are numbers far longer than nearly all others:
+/// see `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,

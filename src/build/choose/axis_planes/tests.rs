@@ -126,7 +126,7 @@ fn crowds_are_searched_like_others() {
     assert_good("a crowd", &polygons, 0.0);
 }
 
-/// A triangle with this extent along an axis, and from −1 to 1 along the others.
+/// A triangle with this extent along an axis, and from −1 to 1 along the other axes.
 fn reaching([begin, end]: [f64; 2], axis: usize) -> [DVec3; 3] {
     let middle = 0.5 * (begin + end);
     [[begin, -1.0, -1.0], [middle, 1.0, -1.0], [end, 1.0, 1.0]].map(|mut p| {
