@@ -223,7 +223,7 @@ impl PreparedPlane {
 /// instruction for it.
 #[inline]
 fn floor(value: f64) -> f64 {
-    /// From here on, all numbers are integers.
+    /// Every `f64` of at least this is an integer.
     const WHOLE: f64 = (1u64 << 52) as f64;
     if value < WHOLE { value as i64 as f64 } else { value }
 }

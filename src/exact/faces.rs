@@ -166,8 +166,8 @@ impl Faces {
         self.len() - self.thin.segments - self.thin.points
     }
 
-    /// The number of a face's corners, from the first on, that belong to it: all corners; two for a segment;
-    /// one for a point.
+    /// The number of leading corners that belong to a face: two for a segment, one for a point, and all
+    /// corners for other faces.
     pub(crate) fn reach(&self, face: u32) -> usize {
         let Thin { segments, points } = self.thin;
         let from_end = self.len() - face as usize;

@@ -149,7 +149,7 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// an instruction for it.
 #[inline]
 pub(super) fn nearest(value: f64) -> f64 {
-    /// From here on, numbers are integers, and up to twice this they are 1 apart.
+    /// Every `f64` of at least this is an integer, and up to twice this they are 1 apart.
     const WHOLE: f64 = (1u64 << 52) as f64;
     let shift = if value.abs() < WHOLE { WHOLE.copysign(value) } else { 0.0 };
     value + shift - shift

@@ -383,7 +383,7 @@ mod tests {
         }
     }
 
-    /// Corners at every distance from their plane, within 128 bits and beyond, against `at`.
+    /// Compares with `at` for points at every distance from the plane, within 128 bits and beyond.
     #[cfg(feature = "save")]
     #[test]
     fn within_is_exact() {
@@ -496,7 +496,7 @@ mod normal_tests {
 mod flatten_tests {
     use super::Flattener;
 
-    /// The plane 3z = x, moved along z.
+    /// Points are moved along z onto the plane 3z = x.
     #[test]
     fn only_points_on_the_plane_have_distance_0() {
         let flattener = Flattener::new([[0.0; 3], [3.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);

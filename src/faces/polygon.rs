@@ -104,7 +104,7 @@ impl FaceBuilder<'_> {
         Ok(())
     }
 
-    /// Reports a polygon that became one face, with a corner at this distance from its plane.
+    /// Reports a polygon that became one face. Its corners are off its plane by at most `off`.
     fn report_flat(&mut self, off: f64) {
         self.report.flattened += usize::from(off > 0.0);
         self.report.flattened_by = self.report.flattened_by.max(off);

@@ -76,9 +76,9 @@ impl Tolerance {
 pub(crate) struct Precision {
     /// The largest distance of a corner from its intended plane, in world units.
     length: f64,
-    /// Whether `length` is the rounding of the number type. Such numbers cannot express finer lengths, so the
-    /// default tolerance has no upper limit. Otherwise the precision is only stated by the polygons, and the
-    /// default tolerance has an upper limit.
+    /// Whether `length` is the rounding of the number type. Numbers of this type cannot express finer
+    /// lengths, so the default tolerance has no upper limit. Otherwise the precision is only stated by the
+    /// polygons, and the default tolerance has an upper limit.
     is_of_numbers: bool,
 }
 
@@ -142,7 +142,7 @@ impl SnapParams {
     }
 }
 
-/// An empty set of faces on the grid and with the tolerance of polygons in a box.
+/// An empty set of faces, with the grid and the tolerance of a scene whose polygons fill a box.
 ///
 /// # Errors
 ///

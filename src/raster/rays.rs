@@ -433,8 +433,8 @@ impl Rays {
 }
 
 /// The length of the longest line of sight in a perspective camera's picture, at distance 1; or, if larger,
-/// the length that keeps rays in the [`REGION`]. (It is never larger if the camera is not off-axis and its
-/// pixels are not skewed: see [`DIRECTION`].)
+/// the length that keeps rays in the [`REGION`]. (The second length is larger only if the camera is off-axis
+/// or its pixels are skewed: see [`DIRECTION`].)
 fn reach(camera: &Camera) -> f64 {
     let (middle, [x, y]) = (camera.middle(), camera.half_size());
     let (across, rise) = (camera.right() * x, camera.up() * y);

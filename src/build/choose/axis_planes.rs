@@ -193,9 +193,10 @@ fn compare(a: &f64, b: &f64) -> Ordering {
     }
 }
 
-/// Returns two coordinates of planes across an axis. Beyond the first, a piece reaches behind the plane by
-/// more than the tolerance. From the second on, the piece does not reach in front of the plane by more than
-/// the tolerance. For a piece thinner than twice the tolerance, the two are equal.
+/// Returns two coordinates. A piece reaches behind a plane across the axis by more than the tolerance if the
+/// plane's coordinate is above the first. It reaches in front of the plane by more than the tolerance if the
+/// plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two coordinates
+/// are equal.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];

@@ -131,7 +131,7 @@ pub(in crate::build) struct ChooseContext<'a> {
     pub(in crate::build) corners: SortedCorners,
     pub(in crate::build) heuristic: Heuristic,
     pub(in crate::build) tuning: &'a Tuning,
-    /// Reports cancellation. After it, any plane may be chosen, so that the build ends soon.
+    /// Reports cancellation. In a cancelled build, any plane may be chosen, so that the build ends soon.
     pub(in crate::build) watch: &'a Watch<'a>,
 }
 

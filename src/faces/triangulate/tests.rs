@@ -220,7 +220,8 @@ fn polygons_on_a_small_grid_are_covered_or_reported_as_crossing() {
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
 }
 
-/// Outlines that do not cross themselves but have any winding numbers, compared with the sum of windings.
+/// Outlines that do not cross themselves but have any winding numbers. The triangles, each repeated as often
+/// as the outline winds around it, add up to the outline.
 #[test]
 fn areas_with_any_nonzero_winding_are_covered_once() {
     let mut random = SplitMix64::new(3);
