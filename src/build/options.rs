@@ -33,8 +33,9 @@ pub struct BuildOptions {
     pub tolerance: Tolerance,
     /// The largest number of fragments of a tree, and of input polygons. More fragments or polygons are an
     /// error. Polygons are counted as they are read, before the tree is built. After 2²⁰ polygons, reading
-    /// also ends if the iterator's size hint exceeds the limit. Default: 2²⁵ (33 554 432 fragments, about 5
-    /// GB). A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a fixed limit of 2²⁸.
+    /// also ends if the iterator's size hint exceeds the limit. Default: 2²⁵, or 33 554 432 fragments in
+    /// about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a fixed limit of
+    /// 2²⁸.
     pub max_fragments: usize,
     /// The largest number of nodes on a path from the root. A longer path is an error. Default: unlimited; no
     /// code recurses over the tree, so a deep tree cannot overflow the stack.

@@ -54,9 +54,9 @@ pub struct Preparation {
     /// too long, or leave nothing, the triangles fan out from the first corner.
     pub crossing: usize,
     /// The number of polygons with a corner off the plane of the other corners, but within the tolerance.
-    /// They stay whole, and such corners count as on the plane.
+    /// These polygons stay whole, and their corners count as on the plane.
     pub flattened: usize,
-    /// The largest distance of such a corner from the plane, a length.
+    /// The largest distance of a flattened polygon's corner from the plane of the other corners, a length.
     pub flattened_by: f64,
     /// The number of triangulated polygons that are probably planar, but bent by rounding. They are convex. A
     /// corner is off the plane of the other corners by more than the tolerance, but by no more than a limit.
@@ -64,7 +64,7 @@ pub struct Preparation {
     /// [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
     /// `bent_by` these polygons would stay whole.
     pub bent: usize,
-    /// The largest distance of such a corner from the plane, a length.
+    /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
     pub bent_by: f64,
 }
 
@@ -336,8 +336,8 @@ const TRUSTED: usize = 1 << 16;
 /// hints are errors more often. Too large: an endless iterator is noticed later.
 const DOUBTED: usize = 1 << 20;
 
-/// A polygon with at most this many corners by its size hint is read at once. Too large: memory is reserved
-/// because of a wrong hint.
+/// A polygon is read in one step if its size hint promises at most this many corners. Too large: memory is
+/// reserved because of a wrong hint.
 const READ_AT_ONCE: usize = 64;
 
 /// All corners, and the end of each polygon's corners.

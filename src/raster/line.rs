@@ -206,8 +206,8 @@ impl Sheet {
         }
     }
 
-    /// The line of the rays that meet this plane, f, and another, h, in one point: κ_f φ_h − κ_h φ_f; and a
-    /// bound on the error of its values.
+    /// The function κ_f φ_h − κ_h φ_f, which is 0 for the rays that meet this plane, f, and another plane, h,
+    /// in one point; and a bound on the error of its values.
     ///
     /// Each product is off by at most 21 roundings of the product of the sizes: 8 for κ, 7 for a coefficient
     /// of φ, 2 for the product and the difference, 4 for the evaluation.
@@ -217,7 +217,8 @@ impl Sheet {
         (k, 40.0 * ROUNDING * size)
     }
 
-    /// The line of the rays that are parallel to the plane, φ, and a bound on the error of its values.
+    /// The function φ, which is 0 for the rays that are parallel to the plane, and a bound on the error of
+    /// its values.
     pub(crate) fn horizon(&self) -> ([f64; 3], f64) {
         (self.phi, 24.0 * ROUNDING * self.phi_size)
     }

@@ -148,8 +148,8 @@ pub(super) fn work(n: usize) -> f64 {
     })
 }
 
-/// The work of small sets, the most frequent case: computing two square roots each time makes builds 2 to 4
-/// % longer.
+/// The work of small sets, the most frequent case. Computing two square roots each time makes builds longer
+/// by 2 to 4 %.
 static WORK: [f64; 1024] = {
     let (mut table, mut n) = ([0.0; 1024], 1);
     while n < table.len() {

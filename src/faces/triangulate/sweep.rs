@@ -84,9 +84,9 @@ pub(super) enum Rule {
 /// A sweep over the points of an outline.
 ///
 /// Allocations of its lists are not checked. Edges that overlap are merged, so `n` edges and `n` points have
-/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of 20
-/// 000 random corners takes some megabytes; an outline with the largest allowed number of corners takes a
-/// gigabyte.
+/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). Some megabytes
+/// suffice for an outline of 20 000 random corners; an outline with the largest allowed number of corners
+/// takes a gigabyte.
 pub(super) struct Sweep<'a> {
     outline: &'a Outline,
     rule: Rule,
