@@ -50,8 +50,8 @@ impl BuildOptions {
     /// Builds the same tree as [`build`](Self::build), and reports its progress to a callback.
     ///
     /// The callback is called at the start, about once per millisecond of work, and at the end. Any thread
-    /// may call it, but never two threads at once: a thread that finds it busy continues with its work. So
-    /// the callback may be slow, and may use the same thread pool.
+    /// may call the callback, but never two threads at once: while one thread calls it, the other threads
+    /// continue their work. So the callback may be slow, and may use the same thread pool.
     ///
     /// If the callback returns [`ControlFlow::Break`], the build is cancelled: each thread stops after its
     /// current pass over a set of pieces. A pass takes milliseconds, or tenths of a second in sets of some
@@ -98,7 +98,7 @@ fn tree<P: Polygon>(
     tree_of_faces(options, faces, preparation, watch)
 }
 
-/// Builds a tree of prepared faces, or of their parts in their cell if they belong to one.
+/// Builds a tree of prepared faces. Faces of a partition's cell are first clipped to the cell.
 pub(super) fn tree_of_faces(
     options: &BuildOptions,
     mut faces: Faces,
@@ -119,7 +119,7 @@ pub(super) fn tree_of_faces(
     BspTree::new(faces, preparation, parts)
 }
 
-/// Cuts faces to their cell, and removes those that lie outside it.
+/// Clips faces to their cell, and removes faces outside it.
 fn pieces_in_cell(faces: &mut Faces, watch: &Watch<'_>) -> Result<Job, Error> {
     let (mut pieces, mut arena, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let mut clipper = Clipper::new(faces);
@@ -205,8 +205,8 @@ impl BspTree {
     ///
     /// Builds the tree again from its own polygons and the new polygons, on its grid and with its tolerance.
     /// The numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
-    /// [meshes](crate::mesh::Mesh) have to be made again. It takes as long as a build; put moving polygons
-    /// into an overlay.
+    /// [meshes](crate::mesh::Mesh) have to be made again. Takes as long as a build. For moving polygons, use
+    /// an overlay instead.
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};
@@ -222,9 +222,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid: [`BuildOptions::with_bounds`]
-    /// makes it larger. The error names the polygon by its index among the new polygons, and the tree is not
-    /// changed.
+    /// As for [`build`](Self::build), and if a polygon reaches beyond the grid; [`BuildOptions::with_bounds`]
+    /// makes the grid larger. The error names the polygon by its index among the new polygons, and the tree
+    /// is not changed.
     pub fn extend<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -234,8 +234,8 @@ impl BspTree {
 }
 
 impl BuildOptions {
-    /// Adds polygons to a tree with these options, except their tolerance and bounds; see
-    /// [`BspTree::extend`].
+    /// Adds polygons to a tree with these options; see [`BspTree::extend`]. The tree keeps its tolerance and
+    /// grid.
     ///
     /// # Errors
     ///
@@ -253,7 +253,7 @@ impl BuildOptions {
     ///
     /// # Errors
     ///
-    /// As for [`extend`](Self::extend), and if it is cancelled.
+    /// As for [`extend`](Self::extend), and if the callback cancels.
     pub fn extend_with_progress<P: Polygon>(
         &self,
         tree: &mut BspTree,
@@ -281,13 +281,12 @@ fn extend<P: Polygon>(
 }
 
 impl BuildOptions {
-    /// Divides a scene into cells, each with about the same number of the given samples, such as one corner
-    /// of every polygon, or of some polygons. It takes O(n log cells) time for n samples.
+    /// Divides a scene into cells, each with about the same number of samples. Samples are points, such as
+    /// one corner of every polygon, or of some polygons. Takes O(n log cells) time for n samples.
     ///
-    /// Each plane contains a sample, and divides the samples on the axis of their largest extent. The cells
-    /// do not depend on the order of the samples. Every cell exists, but some may be empty: with fewer
-    /// samples than cells, or most samples in one place, planes lie where there is room for them. 0 cells
-    /// count as 1.
+    /// Each plane contains a sample, and divides the samples on the axis of their largest extent. A part of
+    /// the scene without two different samples is halved across its longest side. The cells do not depend on
+    /// the order of the samples. Some cells may be empty. 0 cells count as 1.
     ///
     /// The extent must contain all polygons: like the [bounds](Self::bounds) of these options, it defines the
     /// grid to which the corners of polygons are rounded. The tolerance of these options applies to all
@@ -313,9 +312,9 @@ impl BuildOptions {
         Partition::new(extent, &room, self.tolerance, samples, cells)
     }
 
-    /// Builds the tree of a cell, from at least the polygons that [reach](Partition::reached_by) it. Coplanar
-    /// polygons keep their order, so pass the polygons in the same order for all cells. The tree's polygon
-    /// numbers are indices among these polygons.
+    /// Builds the tree of a cell. `polygons` must include all polygons that [reach](Partition::reached_by)
+    /// the cell. Coplanar polygons keep their order, so pass the polygons in the same order for all cells.
+    /// The tree's polygon numbers are indices among these polygons.
     ///
     /// The partition's tolerance and bounds replace the options' tolerance and bounds.
     ///
@@ -340,7 +339,7 @@ impl BuildOptions {
     ///
     /// # Errors
     ///
-    /// As for [`build_cell`](Self::build_cell), and if it is cancelled.
+    /// As for [`build_cell`](Self::build_cell), and if the callback cancels.
     ///
     /// # Panics
     ///
@@ -358,10 +357,11 @@ impl BuildOptions {
 }
 
 impl Partition {
-    /// Counts as in the [preparations](BspTree::preparation) of the cells' trees, but with each polygon
-    /// counted once, however many cells it reaches. The counts of several lists add up to the totals of a
-    /// scene. [`dropped`](crate::Preparation::dropped) polygons are those without area. Takes as long as the
-    /// preparation in [`build_cell`](BuildOptions::build_cell), and cannot be cancelled.
+    /// Returns the counts that the [preparations](BspTree::preparation) of the cells' trees contain, but
+    /// counts each polygon once, however many cells it reaches. The counts of several lists of polygons add
+    /// up to the totals of a scene. [`dropped`](crate::Preparation::dropped) counts only polygons without
+    /// area. Takes as long as the preparation in [`build_cell`](BuildOptions::build_cell), and cannot be
+    /// cancelled.
     ///
     /// # Errors
     ///
@@ -374,8 +374,8 @@ impl Partition {
         prepared_in_cell(&mut faces, polygons, usize::MAX, &Watch::default())
     }
 
-    /// Returns whether a tree can belong to this cell: whether it is on the partition's grid, with its
-    /// tolerance, and cut to the cell. The polygons of the tree are not compared.
+    /// Returns whether a tree can belong to this cell: whether the tree has the partition's grid and
+    /// tolerance, and is clipped to the cell. The polygons are not compared.
     ///
     /// # Panics
     ///

@@ -1,4 +1,4 @@
-//! Trees for one view, built in reused memory: the trees of frames, and of an overlay's pieces in one cell.
+//! Trees for one view, built in reused memory: trees of frames, and trees of an overlay's pieces in one cell.
 
 use std::fmt;
 use std::mem::take;
@@ -22,13 +22,13 @@ use crate::tree::parts::{Parts, RawNode};
 /// Builds a tree for every frame, in reused memory.
 ///
 /// Use it if polygons move every frame and each tree is drawn once or twice, as in a compositor of layers.
-/// Its trees are as exact as the trees of [`BspTree::build`], but made for one view. Planes of small sets are
-/// chosen in less time, so the fragments may differ. The rounded positions of cut vertices are stored rather
-/// than computed at each reading. The layout that makes [`back_to_front_into`](BspTree::back_to_front_into)
-/// fast is left out, so an order takes a few times longer, also for a clone of such a tree. Once the
-/// builder's lists have grown to the size of a scene, a frame of few layers allocates nothing, except for the
-/// boxes of frames that are queried or culled (see [`BspTree::bounds`]). The lists do not shrink; to free
-/// their memory, make another builder.
+/// Its trees are as exact as the trees of [`BspTree::build`], but are made for one view. Planes of small sets
+/// are chosen in less time, so the fragments may differ. The rounded positions of cut vertices are stored,
+/// not computed at each access. The layout that makes [`back_to_front_into`](BspTree::back_to_front_into)
+/// fast is left out, so an order takes a few times longer. This also applies to clones of such a tree. Once
+/// the builder's lists have grown to the size of a scene, a frame of few layers allocates no memory. (Queries
+/// and culling allocate bounding boxes; see [`BspTree::bounds`].) The lists do not shrink; to free their
+/// memory, make another builder.
 ///
 /// ```
 /// use binspace::{BuildOptions, FrameBuilder, Viewpoint, glam::DVec3};
@@ -82,7 +82,7 @@ impl FrameBuilder {
         self.options = options;
     }
 
-    /// Builds a tree of polygons in place of the last one.
+    /// Builds a tree of polygons, which replaces the last tree.
     ///
     /// # Errors
     ///
@@ -95,8 +95,7 @@ impl FrameBuilder {
         Ok(&self.tree)
     }
 
-    /// Builds a tree of polygons that are flat by definition, where the polygons of each group are in one
-    /// plane.
+    /// Builds a tree of polygons that are flat by definition. Puts the polygons of each group into one plane.
     #[cfg(feature = "layers")]
     pub(crate) fn build_in_planes<'g, P: Polygon>(
         &mut self,
@@ -108,10 +107,10 @@ impl FrameBuilder {
         self.rebuild(polygons, Some(&mut arrange))
     }
 
-    /// Replaces the tree by one for a single view: with the positions of its vertices, and without the
-    /// layout that makes many orders fast. After an error the tree is empty.
+    /// Replaces the tree by a tree for a single view. The new tree stores the positions of its vertices, and
+    /// lacks the layout that makes many orders fast. After an error the tree is empty.
     ///
-    /// With `arrange`, polygons are flat by definition, and it puts their faces into planes.
+    /// With `arrange`, polygons are flat by definition, and `arrange` puts their faces into common planes.
     fn rebuild<P: Polygon>(
         &mut self,
         polygons: impl IntoIterator<Item = P>,
@@ -169,8 +168,8 @@ pub(crate) struct OverlayBuilder {
 }
 
 impl OverlayBuilder {
-    /// A tree of some pieces, with the positions of its vertices. Pass the parts to [`keep`](Self::keep)
-    /// after reading them.
+    /// Builds a tree of some pieces, with the positions of its vertices. After reading the parts, pass them
+    /// to [`keep`](Self::keep).
     ///
     /// # Errors
     ///
@@ -197,7 +196,7 @@ impl OverlayBuilder {
         jobs::run(&shared.with_positions(), job, builder)
     }
 
-    /// Keeps the memory of a tree for the next one.
+    /// Keeps the memory of a tree for the next tree.
     pub(crate) fn keep(&mut self, parts: Parts) {
         self.builder.output.parts = parts;
     }

@@ -1,4 +1,4 @@
-//! Large sets as jobs for other threads, and the outputs of all jobs joined depth first.
+//! Passes large sets to other threads as jobs, and joins the outputs of all jobs in depth-first order.
 
 #[cfg(feature = "parallel")]
 use std::sync::{Mutex, PoisonError};
@@ -29,7 +29,7 @@ pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
 }
 
 /// A build of fewer pieces starts on the calling thread. Too large: the pool's threads idle at first. Too
-/// small: waking them takes longer than the build.
+/// small: waking the threads takes longer than the build.
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 
@@ -37,8 +37,8 @@ const ALONE: usize = 2048;
 #[cfg(feature = "parallel")]
 type Outputs = Mutex<Vec<Option<Result<Output, Error>>>>;
 
-/// Builds a job on a thread of the pool, and spawns the jobs that it hands over. Once it fails, the
-/// others stop.
+/// Builds a job on a thread of the pool, and spawns the jobs that it hands over. If it fails, all other jobs
+/// stop.
 #[cfg(feature = "parallel")]
 fn build_and_spawn<'s>(
     scope: &rayon::Scope<'s>,
@@ -113,7 +113,8 @@ struct Gap {
 }
 
 impl Output {
-    /// Appends a fragment by its vertices, if it was cut, and their positions, if these are kept.
+    /// Appends a fragment. `cut` contains its vertices, or is empty if the fragment is a whole face. Their
+    /// positions are stored only if `keeps_positions`.
     pub(super) fn push(
         &mut self,
         face: u32,
@@ -233,7 +234,7 @@ mod threads_tests {
         std::iter::once(0.0).chain(list).chain(tree).map(square)
     }
 
-    /// One thread: the front first, then the job behind.
+    /// One thread builds the front first, and then the job behind.
     #[test]
     fn after_an_error_the_other_jobs_do_not_run_to_their_end() {
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(MOST);
@@ -261,7 +262,7 @@ mod threads_tests {
     /// Whichever job fails, and however many jobs stop because of it, the error of the failed job is
     /// returned.
     #[test]
-    fn what_an_error_has_stopped_does_not_hide_it() {
+    fn stopped_jobs_do_not_hide_the_error_that_stopped_them() {
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First).with_max_depth(MOST);
         for threads in [1, 2, 4] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

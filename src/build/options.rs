@@ -10,7 +10,7 @@ use super::choose::{GivenChooser, PieceSet, SplitPlane};
 use crate::error::{Error, Kind};
 use crate::faces::Tolerance;
 
-/// The options of a build; [`BspTree::build`](crate::BspTree::build) takes the defaults.
+/// The options of a build. [`BspTree::build`](crate::BspTree::build) uses the defaults.
 ///
 /// ```
 /// use binspace::{BuildOptions, Heuristic};
@@ -31,17 +31,18 @@ pub struct BuildOptions {
     /// The coplanar tolerance: a polygon counts as lying on a plane if it reaches no further than this from
     /// the plane. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
     pub tolerance: Tolerance,
-    /// The largest number of fragments of a tree, and of polygons that it is built from. More fragments or
-    /// polygons are an error. Too many polygons are rejected before the build starts, or after 2²⁰ polygons
-    /// if the iterator's size hint is too large. Default: 2²⁵ (33 554 432 fragments, about 5 GB). More than
-    /// 2²⁹ − 1 counts as 2²⁹ − 1, and there is a fixed limit of 2²⁸ polygons.
+    /// The largest number of fragments of a tree, and of input polygons. More fragments or polygons are an
+    /// error. Polygons are counted as they are read, before the tree is built. After 2²⁰ polygons, reading
+    /// also ends if the iterator's size hint exceeds the limit. Default: 2²⁵, or 33 554 432 fragments in
+    /// about 5 GB. A value above 2²⁹ − 1 counts as 2²⁹ − 1. The number of polygons also has a fixed limit of
+    /// 2²⁸.
     pub max_fragments: usize,
     /// The largest number of nodes on a path from the root. A longer path is an error. Default: unlimited; no
     /// code recurses over the tree, so a deep tree cannot overflow the stack.
     pub max_depth: usize,
-    /// Two opposite corners of a box that the grid of exact coordinates must contain besides the polygons,
-    /// such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). The scene's extent
-    /// includes this box, for instance in the default tolerance. Default: no box.
+    /// Two opposite corners of a box that the grid of exact coordinates must contain in addition to the
+    /// polygons, such as the box of all contents of an [`Overlay`](crate::overlay::Overlay). The scene's
+    /// extent includes this box, so the box may raise a default or relative tolerance. Default: no box.
     pub bounds: Option<[DVec3; 2]>,
     pub(super) chooser: Option<GivenChooser>,
 }
@@ -199,23 +200,23 @@ pub enum Heuristic {
         candidates: u32,
     },
     /// Free planes, as in a k-d tree (Bentley, “Multidimensional binary search trees used for associative
-    /// searching”, 1975), by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On fast
-    /// construction of SAH-based bounding volume hierarchies”, 2007). The plane of a polygon splits the set
-    /// if all its polygons lie in one plane, or if no free plane separates any polygons.
+    /// searching”, 1975), compared by the cost of [`Auto`](Self::Auto). A binned sweep finds them (Wald, “On
+    /// fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is used if all
+    /// polygons of the set lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
-    /// The best plane of both kinds by one cost. The default: the fewest fragments on most scenes. The cost
-    /// is the library's own. Polygons' planes are compared by successive halving (Karnin, Koren and Somekh,
-    /// “Almost optimal exploration in multi-armed bandits”, 2013).
+    /// The plane of either kind with the lowest cost. The default, because it makes the fewest fragments on
+    /// most scenes. The cost is the library's own. Polygons' planes are compared by successive halving
+    /// (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
     /// estimates the remaining work: n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A
     /// polygon that the plane cuts counts on both sides. The plane of a large polygon gets a reward, because
     /// a wall or floor that is not used early is cut repeatedly.
     ///
-    /// A free plane that cuts nothing has priority; otherwise the best plane is used. In sets of up to 255
-    /// polygons, a plane without cuts is preferred to any plane with cuts; below 64, no free plane that
-    /// cuts is tried. If only planes at the boundary of a set cut nothing, as in a convex body, a single
-    /// search separates its outer polygons one after the other.
+    /// A free plane that cuts nothing has priority; otherwise the plane with the lowest cost is used. In sets
+    /// of up to 255 polygons, a plane without cuts is preferred to any plane with cuts; below 64, no free
+    /// plane that cuts is tried. If only planes at the boundary of a set cut nothing, as in a convex body, a
+    /// single search separates its outer polygons one after the other.
     ///
     /// A [`FrameBuilder`](crate::FrameBuilder) tries polygons' planes first, which takes less time: four
     /// planes in sets of up to 255 polygons. It accepts a plane that cuts nothing and divides the set evenly,
@@ -332,7 +333,7 @@ mod heuristic_tests {
     use super::Heuristic;
 
     #[test]
-    fn names_come_back_as_they_went_out() {
+    fn parsing_reverses_display() {
         for &heuristic in Heuristic::ALL {
             assert_eq!(heuristic.to_string().parse(), Ok(heuristic));
         }
@@ -351,7 +352,7 @@ mod heuristic_tests {
     }
 
     #[test]
-    fn parameters_that_do_not_fit_are_errors_that_say_which_do() {
+    fn errors_of_parameters_name_the_accepted_values() {
         for (text, takes) in [
             ("sampled(0)", "a whole number ≥ 1"),
             ("sampled(1,2)", "a whole number ≥ 1"),

@@ -6,20 +6,21 @@ use crate::Error;
 use crate::exact::{Faces, PreparedPlane, Side, Vertex, VertexKind, split};
 use crate::memory::reserve;
 
-/// A piece of a face that has not reached its node yet.
+/// A piece of a face, before it is stored in a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     /// The bounding box in lattice units, from rounded vertices.
     pub(crate) min: [f64; 3],
     pub(crate) max: [f64; 3],
     pub(crate) face: u32,
-    /// The index of its first vertex in the arena, and their number; 0 for a whole face.
+    /// The index of its first vertex in the arena, and the number of its vertices. Both are 0 for a whole
+    /// face.
     start: u32,
     len: u32,
-    /// The number of times it was cut; stays at 255.
+    /// The number of times it was cut, at most 255.
     pub(crate) cuts: u8,
-    /// The sides of the box on which there is a corner of the face: bits 0–2 for the minima along x, y and
-    /// z, bits 3–5 for the maxima.
+    /// The sides of the box that contain a corner of the face: bits 0–2 for the minima along x, y and z, bits
+    /// 3–5 for the maxima.
     on_corner: u8,
 }
 
@@ -34,7 +35,8 @@ impl Piece {
         piece
     }
 
-    /// A part of a piece that was cut, by its vertices and their start in the arena.
+    /// A part of a piece that was cut. `vertices` are the part's vertices, and `start` is their index in the
+    /// arena.
     pub(crate) fn part(whole: &Self, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(whole.face, start as u32, vertices.len() as u32);
         piece.cuts = whole.cuts.saturating_add(1);
@@ -53,15 +55,15 @@ impl Piece {
         piece
     }
 
-    /// The painting order of pieces on one plane: the order of their faces. (Pieces of one face do not meet
-    /// there. They are sorted by their vertices, so that an unstable sort, which needs no memory, has only
-    /// one result.)
+    /// The painting order of pieces on one plane: the order of their faces. (Pieces of one face do not
+    /// overlap, so their order does not matter. They are sorted by the index of their vertices, so that an
+    /// unstable sort, which needs no memory, has only one result.)
     #[inline]
     pub(crate) fn rank(&self) -> (u32, u32) {
         (self.face, self.start)
     }
 
-    /// A segment or a point, by its vertices and their start in the arena.
+    /// A segment or a point. `vertices` are its vertices, and `start` is their index in the arena.
     pub(crate) fn thin(face: u32, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(face, start as u32, vertices.len() as u32);
         vertices.iter().for_each(|vertex| piece.include(vertex.position()));
@@ -99,7 +101,7 @@ impl Piece {
         plane.classify(faces, self.face, self.cut_vertices(arena))
     }
 
-    /// Calls a function with each vertex, in lattice units, rounded.
+    /// Calls a function with the rounded position of each vertex, in lattice units.
     #[inline]
     pub(crate) fn for_each_vertex(
         &self,
@@ -143,8 +145,8 @@ impl Piece {
         self.on_corner >> (axis + 3) & 1 != 0
     }
 
-    /// A corner of the face with a coordinate from `low` to `high` along an axis, numbered over all
-    /// faces.
+    /// The number, over all faces, of a corner of the face that has a coordinate from `low` to `high` along
+    /// an axis.
     pub(crate) fn corner_within(
         &self,
         faces: &Faces,
@@ -155,27 +157,27 @@ impl Piece {
         faces.corner_range(self.face).find(within).map(|corner| corner as u32)
     }
 
-    /// A corner of the face that has the given coordinate along an axis, numbered over all faces.
+    /// The number, over all faces, of a corner of the face that has the given coordinate along an axis.
     pub(crate) fn corner_at(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let mut range = faces.corner_range(self.face);
         range.find(|&corner| faces.corner(corner as u32)[axis] == coordinate).map(|c| c as u32)
     }
 }
 
-/// The sides of a set's pieces on a plane that divides them.
+/// A plane, and the side of the plane on which each piece of a set lies.
 #[derive(Debug, Default)]
 pub(crate) struct Division {
     /// The plane; `None` if the pieces are not classified yet.
     pub(crate) plane: Option<PreparedPlane>,
     /// The side of each piece.
     pub(crate) sides: Vec<Side>,
-    /// The number of pieces on each side, by the side's number.
+    /// The number of pieces on each side, indexed by [`Side`].
     counts: [usize; 4],
 }
 
 impl Division {
-    /// Classifies the pieces against a plane. Stops early and returns false if it cuts more than `most`
-    /// pieces.
+    /// Classifies the pieces against a plane. Stops early and returns false if the plane cuts more than
+    /// `most` pieces.
     pub(crate) fn classify(
         &mut self,
         faces: &Faces,

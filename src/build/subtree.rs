@@ -36,7 +36,7 @@ pub(in crate::build) struct Shared<'a> {
 }
 
 impl<'a> Shared<'a> {
-    /// An error if there are more faces than the budget allows fragments.
+    /// Fails if there are more faces than the largest allowed number of fragments.
     pub(in crate::build) fn new(
         faces: &'a Faces,
         options: &'a BuildOptions,
@@ -92,9 +92,9 @@ pub(in crate::build) struct Builder {
     /// The length at which the arena is next compacted.
     compact_at: usize,
     pub(in crate::build) output: Output,
-    /// The sides of the current set's pieces.
+    /// The plane that divides the current set, and the sides of the set's pieces.
     division: Division,
-    /// The pieces of the current set on its plane, in front of it, and across.
+    /// The pieces of the current set that lie on its plane, in front of the plane, and across the plane.
     own: Vec<Piece>,
     front: Vec<Piece>,
     spanning: Vec<Piece>,
@@ -102,7 +102,7 @@ pub(in crate::build) struct Builder {
 }
 
 impl Builder {
-    /// Builds the subtree of a job. Hands large sets over to other jobs, if allowed.
+    /// Builds the subtree of a job. Hands large sets over to other jobs, if `hand_over` is given.
     pub(super) fn build(
         &mut self,
         shared: &Shared<'_>,
@@ -164,8 +164,8 @@ impl Builder {
         };
         settle(&shared.rules, &set, division, plane)?;
         if !is_leaf(set.pieces) && !division.makes_progress() {
-            // Free planes are counted by rounded distances, so exact decisions can show that one separates
-            // nothing. A piece's own plane always separates that piece.
+            // Free planes are scored by rounded distances, so the exact decisions may show that a free plane
+            // separates nothing. A piece's own plane always separates that piece.
             division.plane = None;
             settle(&shared.rules, &set, division, own)?;
         }
@@ -221,7 +221,7 @@ impl Builder {
         Ok(self.own.len() as u32)
     }
 
-    /// Appends the piece on top of the stack, if there is one in its set.
+    /// Appends the piece of a leaf, which is on top of the stack, unless the leaf is empty.
     fn store_leaf(&mut self, shared: &Shared<'_>, start: usize) -> Result<(), Error> {
         let piece = if self.pieces.len() > start { self.pieces.pop() } else { None };
         piece.map_or(Ok(()), |piece| self.store(shared, &piece))
@@ -371,20 +371,21 @@ fn is_leaf(pieces: &[Piece]) -> bool {
     pieces.len() <= 1
 }
 
-/// Cutting a piece counts as the work of classifying this many.
+/// Cutting a piece counts as the work of classifying this many pieces.
 const CUT: usize = 64;
 
 /// The faces whose planes were rejected for a set. No plane is tried twice, so the search ends.
 type Tried = SmallVec<[u32; 4]>;
 
-/// Classifies a set by a plane, or by a replacement: polygons that are treated as coplanar do not cut each
-/// other.
+/// Classifies a set by a plane. If the plane would cut a polygon that counts as coplanar with the plane's own
+/// polygon, classifies the set by the plane of the larger polygon instead.
 ///
 /// The corners of small and large polygons are rounded by the same amount, so the plane of a small polygon is
-/// less certain. Extended across a large polygon in the same plane, it can leave the tolerance on both sides.
-/// The small polygon is within the tolerance of the large polygon's plane, which divides the set instead. In
-/// frames this is also done if the small polygon's plane passes beside the large polygon and cuts nothing: it
-/// would separate the large polygon from others in its plane.
+/// less certain. Extended across a large polygon in the same plane, the small polygon's plane can deviate by
+/// more than the tolerance on both sides. The small polygon is within the tolerance of the large polygon's
+/// plane, which divides the set instead. In frames the larger polygon's plane also replaces a small polygon's
+/// plane that passes beside the large polygon and cuts nothing. Otherwise the small polygon's plane would
+/// separate polygons that lie in one plane.
 fn settle(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -398,7 +399,8 @@ fn settle(
             set.divide(plane, usize::MAX, division);
         }
         let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-        // Only in trees of frames, the plane may not pass beside a piece that is larger than its own.
+        // Only in trees of frames, the plane may not pass beside a piece that is larger than the plane's own
+        // piece.
         let least = match rules.tuning.frames {
             Some(_) => {
                 let own = set.pieces.iter().filter(|piece| piece.face == face);
@@ -427,7 +429,7 @@ fn size(piece: &Piece) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
 }
 
-/// The largest of some pieces whose own plane contains a face.
+/// Returns the largest of the pieces on whose plane a face lies.
 fn larger<'p>(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,
@@ -471,7 +473,7 @@ impl Budget {
         Ok(budget)
     }
 
-    /// Counts new pieces; an error if there are too many.
+    /// Counts new pieces. Returns an error if there are too many.
     fn count(&self, new: usize) -> Result<(), Error> {
         let total = self.fragments.fetch_add(new, Ordering::Relaxed) + new;
         if total > self.max_fragments {
@@ -481,7 +483,7 @@ impl Budget {
         }
     }
 
-    /// Checks the depth of a node; an error if it is too deep.
+    /// Returns an error if a node at this depth is too deep.
     fn check_depth(&self, depth: usize) -> Result<(), Error> {
         if depth > self.max_depth { Err(Kind::Depth(self.max_depth).error()) } else { Ok(()) }
     }

@@ -51,7 +51,7 @@ pub struct PreparedPlane {
     pub(super) plane: PlaneId,
     normal: [f64; 3],
     offset: f64,
-    /// A rounded distance has the right sign if it is larger than this.
+    /// A rounded distance has the right sign if its magnitude is larger than this.
     pub(super) bound: f64,
     /// The tolerance times the length of the exact normal, within a share of 10⁻⁹, rounded down to an
     /// integer.
@@ -110,7 +110,8 @@ impl PreparedPlane {
         }
     }
 
-    /// The side of the plane on which a lattice point lies, further from it than the tolerance.
+    /// The side of the plane on which a lattice point lies; `Equal` if the point is within the tolerance of
+    /// the plane.
     #[cfg(feature = "drawing")]
     pub(crate) fn side_beyond(&self, faces: &Faces, point: &[f64; 3]) -> Ordering {
         let (distance, far) = (self.distance(*point), self.band + 2.0 * self.bound);
@@ -125,7 +126,7 @@ impl PreparedPlane {
         }
     }
 
-    /// Whether the tolerance is a length here, within a share of 10⁻⁹: by the exact normal.
+    /// Whether `band` is the tolerance times the length of the exact normal, within a share of 10⁻⁹.
     #[cfg(feature = "validate")]
     pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
         /// More than the error of the normal, and far more than the rounding error of its length.
@@ -134,9 +135,9 @@ impl PreparedPlane {
         self.band <= exact * (1.0 + SHARE) && self.band + 1.0 >= exact * (1.0 - SHARE)
     }
 
-    /// Returns the largest error of [`distance`](Self::distance) plus the tolerance, in the same unit: a
-    /// vertex rounded to a position further than this from the plane certainly lies on the side given by the
-    /// sign of the distance.
+    /// Returns the largest error of [`distance`](Self::distance) plus the tolerance, in the same unit. If the
+    /// rounded position of a vertex is further than this from the plane, the sign of the distance certainly
+    /// is the vertex's side.
     pub fn slack(&self) -> f64 {
         self.bound + self.band
     }
@@ -155,7 +156,7 @@ impl PreparedPlane {
             (None, &[a, b, c, d]) => self.extent([a, b, c, d].into_iter()),
             (None, corners) => self.extent(corners.iter().copied()),
         };
-        // Certainly off the plane, and certainly further than the tolerance from it.
+        // A distance above `near` is certainly not 0; a distance above `far` certainly exceeds the tolerance.
         let (near, far) = (self.bound, self.band + self.bound);
         // The tolerance applies to the corners of the whole face. So a whole face may reach behind by the
         // tolerance and still be in front. For a piece, the corners of its face would have to be tested, as
@@ -222,13 +223,13 @@ impl PreparedPlane {
 /// instruction for it.
 #[inline]
 fn floor(value: f64) -> f64 {
-    /// From here on, all numbers are integers.
+    /// Every `f64` of at least this is an integer.
     const WHOLE: f64 = (1u64 << 52) as f64;
     if value < WHOLE { value as i64 as f64 } else { value }
 }
 
-/// The largest error of a face's plane at a rounded vertex where the sign is wrong, per unit of π = Σ over
-/// components of |u_j w_k| + |u_k w_j|.
+/// The largest distance of a rounded vertex from a face's plane that can have the wrong sign, per unit of π =
+/// Σ over components of |u_j w_k| + |u_k w_j|.
 ///
 /// Let ε = 2⁻⁵³, m the largest coordinate, u and w the exact edges of the triangle, n their product with
 /// components at most πᵢ, v the vertex, p the point on the plane, d = v − p, and P = n₀p₀ + n₁p₁, V = n₀v₀ +
@@ -257,9 +258,9 @@ fn floor(value: f64) -> f64 {
 /// 1.014 m. Too small: wrong decisions pass. Too large: integers decide cases that floats could have decided.
 const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// The largest error of an axis-aligned plane at a rounded vertex where the sign is wrong. It is the error of
-/// the vertex: three roundings of a coordinate of at most 1.014 m, and less than a thirtieth of a rounding
-/// for truncating its weights. The difference of two numbers this close is exact.
+/// The largest distance of a rounded vertex from an axis-aligned plane that can have the wrong sign. It is
+/// the error of the vertex: three roundings of a coordinate of at most 1.014 m, and less than a thirtieth of
+/// a rounding for truncating the vertex's weights. The difference of two numbers this close is exact.
 const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 
 /// Compares a vertex's distance from a plane with a threshold: by the filter if it is certain, otherwise by
@@ -351,7 +352,8 @@ mod tests {
         assert!(wrong > 20, "{wrong} {told}");
     }
 
-    /// The sliver is in the plane z = 0. Twice its area is 1 in lattice steps, and 2⁴⁸ in floats.
+    /// The sliver is in the plane z = 0. Twice its area is 1 in square lattice units, but 2⁴⁸ if computed in
+    /// floats.
     fn with_sliver(tolerance: Option<f64>) -> Faces {
         let sliver = [
             [-1.0, -1.0, 0.0],

@@ -7,13 +7,14 @@ use super::plane::Plane;
 use super::{Faces, Int, PlaneId};
 use crate::viewpoint::{Ray, Viewpoint};
 
-/// A viewpoint in lattice units, rounded once: the point integer · 2^shift, or, without a shift,
-/// the direction in which the eye is infinitely far away.
+/// A viewpoint in lattice units, rounded once: the point integer · 2^shift. Without a shift, it is the
+/// direction in which the eye is infinitely far away.
 ///
-/// Within about 500 extents of the scene, the eye is rounded to the lattice itself, 2⁻⁵² of the extent;
-/// beyond, to one part in 2⁶¹ of the distance. Directions are rounded to one part in 2⁵² of their largest
-/// component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the direction is parallel to a
-/// plane, the eye is on the side on which the lattice's origin lies. A NaN coordinate counts as 0.
+/// An eye within about 500 extents of the scene is rounded to the lattice, whose step is 2⁻⁵² of the extent.
+/// An eye further away is rounded to one part in 2⁶¹ of its distance. Directions are rounded to one part in
+/// 2⁵² of their largest component. Eyes beyond 2⁴²¹ lattice units are treated as directions. If the direction
+/// is parallel to a plane, the eye is on the side on which the lattice's origin lies. A NaN coordinate counts
+/// as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     integer: [i64; 3],
@@ -27,7 +28,7 @@ const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
 /// The largest shift. For eyes further away, the planes' offsets do not matter: only the direction does.
 const LARGEST_SHIFT: u32 = 360;
 
-/// The largest component of a direction is from two to this power to the next power.
+/// The largest component of a direction is scaled to a magnitude from 2 to this power up to twice as much.
 const DIRECTION_BITS: i32 = 52;
 
 impl Eye {
@@ -66,7 +67,8 @@ impl Eye {
         };
         let size = largest(finite);
         let direction = if size > 0.0 { finite } else { [0.0, 0.0, 1.0] };
-        // By a power of two: a direction of short numbers stays exactly parallel to the same planes.
+        // Scaled by a power of two, so that a direction of short numbers stays exactly parallel to the same
+        // planes.
         let exponent = DIRECTION_BITS - exponent_of(largest(direction));
         let integer = direction.map(|c| scaled(c, exponent).round() as i64);
         let unit = (1i64 << DIRECTION_BITS) as f64;
@@ -164,9 +166,9 @@ fn nearest_integer(rounded: f64, lost: f64) -> i64 {
 /// Its points are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is the
 /// parameter of [`Ray`]; the direction of an endless ray has a separate scale.
 ///
-/// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so a
-/// plane at a point of the ray, and along its direction, takes 236 bits. A product of two such numbers takes
-/// 472 bits.
+/// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so the
+/// value of a plane at a point of the ray, and its slope along the ray, take 236 bits each. A product of two
+/// such numbers takes 472 bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExactRay {
     origin: [i128; 3],
@@ -181,7 +183,7 @@ pub(crate) struct ExactRay {
 const RAY_BITS: i32 = 123;
 
 impl ExactRay {
-    /// A ray on a scene's lattice. `None` if it meets nothing: see [`Ray`].
+    /// A ray on a scene's lattice. `None` if the ray cannot meet anything; see [`Ray`].
     pub(crate) fn new(ray: Ray, lattice: &Lattice) -> Option<Self> {
         match ray {
             Ray::Segment { from, to } => {
@@ -254,8 +256,8 @@ impl ExactRay {
         scaled(t.to_f64(), self.exponent)
     }
 
-    /// A parameter of an endless ray whose direction's largest coordinate has `bits` bits before the point,
-    /// in lattice units.
+    /// Converts a parameter to `f64`. For an endless ray, scales it as if the largest coordinate of the
+    /// direction, in lattice units, had `bits` bits before the binary point.
     pub(crate) fn rescaled(&self, t: &Parameter, bits: i32) -> f64 {
         let up = RAY_BITS - bits - self.bits as i32;
         scaled(t.to_f64(), if self.is_endless { up } else { 0 })
@@ -280,7 +282,7 @@ impl AtRay {
         self.slope.sign()
     }
 
-    /// The parameter where the line of the ray meets the plane; they must not be parallel.
+    /// The parameter where the line of the ray meets the plane. The ray must not be parallel to the plane.
     pub(crate) fn zero(&self) -> Parameter {
         if self.slope.is_negative() {
             Parameter { numerator: self.start, denominator: -self.slope }
@@ -322,8 +324,9 @@ impl Parameter {
     }
 }
 
-/// A quotient, of at most 2¹³⁰ and a denominator above 0, rounded almost as if once: the quotient of the
-/// rounded numbers, plus the quotient of the remainder. So fractions of one value have one result.
+/// A quotient rounded almost as if once: the quotient of the rounded numbers, plus the quotient of the
+/// remainder. So equal fractions have equal results. The quotient must be at most 2¹³⁰, and the denominator
+/// above 0.
 fn quotient(numerator: Int<6>, denominator: Int<4>) -> f64 {
     let below = denominator.to_f64();
     let first = numerator.to_f64() / below;
@@ -358,7 +361,7 @@ mod tests {
         }
     }
 
-    /// For every power of two as a factor.
+    /// Directions scaled by powers of two.
     #[test]
     fn directions_of_short_numbers_are_kept() {
         for short in [[3i32, 2, 1], [-7, 5, 0], [0, 0, 11], [1023, -1, 640]] {
@@ -375,7 +378,7 @@ mod tests {
         }
     }
 
-    /// At and near every power of two, and at random.
+    /// Tests sizes at and near every power of two, and random sizes.
     #[test]
     fn a_far_eye_is_halved_until_it_is_near() {
         let halved = |mut size: f64| {

@@ -39,8 +39,8 @@ pub struct Faces {
     /// The corners, counted over all faces, that were moved onto their face's plane, with their positions
     /// before the move. In ascending order.
     pub(crate) moved: Vec<(u32, [f64; 3])>,
-    /// For each face, the three corners that define its plane, if some belong to other faces; empty if each
-    /// face's own reference triangle defines its plane.
+    /// For each face, the three corners that define its plane. Empty if every face's plane is defined by its
+    /// own reference triangle.
     pub(crate) planes: Vec<[u32; 3]>,
     pub(crate) thin: Thin,
 }
@@ -143,7 +143,7 @@ impl Faces {
         &self.corners[self.corner_range(face)]
     }
 
-    /// Whether a plane is the plane of a face or contains a corner.
+    /// Whether the face or the corner that a plane's name refers to exists.
     #[cfg(any(feature = "save", feature = "validate"))]
     pub(crate) fn has_plane(&self, plane: PlaneId) -> bool {
         match plane.kind() {
@@ -166,8 +166,8 @@ impl Faces {
         self.len() - self.thin.segments - self.thin.points
     }
 
-    /// The number of a face's corners, from the first on, that belong to it: all corners; two for a segment;
-    /// one for a point.
+    /// The number of leading corners that belong to a face: two for a segment, one for a point, and all
+    /// corners for other faces.
     pub(crate) fn reach(&self, face: u32) -> usize {
         let Thin { segments, points } = self.thin;
         let from_end = self.len() - face as usize;
@@ -187,8 +187,8 @@ impl Faces {
         self.corners[corner as usize]
     }
 
-    /// The lattice point of a corner, counted over all faces, before it was moved onto its face's
-    /// plane. Polygons that share a corner as given have equal points here.
+    /// The lattice point of a corner, counted over all faces, before it was moved onto its face's plane.
+    /// Polygons that share a corner in the input have equal points here.
     pub(crate) fn given_corner(&self, corner: u32) -> [f64; 3] {
         match self.moved.binary_search_by_key(&corner, |&(corner, _)| corner) {
             Ok(at) => self.moved[at].1,
@@ -273,15 +273,15 @@ impl Faces {
         self.faces[face as usize].frame.moved_axis()
     }
 
-    /// Returns the number, in its polygon, of a face's corner `k`.
+    /// Returns the number, within the polygon, of corner `k` of a face.
     #[doc(hidden)]
     pub fn corner_number(&self, face: u32, k: u32) -> u32 {
         self.number(face, k) & !INNER
     }
 
     /// Returns the number of the polygon's edge that contains a face's edge `k`: the number of the corner
-    /// where it begins. `None` for an edge made by triangulation. If a polygon touches itself or traverses an
-    /// edge twice, those edges may be `None` as well.
+    /// where the polygon's edge begins. `None` for an edge made by triangulation. If a polygon touches itself
+    /// or traverses an edge twice, those edges may be `None` as well.
     #[doc(hidden)]
     pub fn outline_edge(&self, face: u32, k: u32) -> Option<u32> {
         let number = self.number(face, k);
@@ -439,7 +439,7 @@ impl Faces {
         }
     }
 
-    /// Removes all faces except those listed, in ascending order.
+    /// Removes all faces that are not in `kept`, a list in ascending order.
     pub(crate) fn keep(&mut self, kept: &[u32]) -> Result<(), Error> {
         let (mut numbered, mut numbers, mut moved) = (vec![], vec![], vec![]);
         let mut start = self.corners_of_cell();
@@ -470,16 +470,17 @@ impl Faces {
 
 #[cfg(feature = "layers")]
 impl Faces {
-    /// Puts the faces of some polygons into one plane: the plane of three of their corners, far apart. The
-    /// other corners are moved onto it, like the corners of one polygon onto its own plane.
+    /// Puts the faces of some polygons into one plane: the plane through three of their corners that are far
+    /// apart. The other corners are moved onto this plane, like the corners of one polygon onto its own
+    /// plane.
     ///
     /// Corners are rounded, so polygons meant for one plane have different planes. Extended to another
     /// polygon, the plane of a small polygon is off by the rounding error times the ratio of their sizes.
     /// Corners that are far apart bound that ratio for all polygons.
     ///
     /// A face that is not convex in a projection along the plane's main axis keeps its own plane: it is so
-    /// thin that rounding decides its shape. A tree of such faces has no mesh, no drawing and no file,
-    /// because these use only frames of a face's own corners.
+    /// thin that rounding decides its shape. A tree with common planes has no mesh, no drawing and no file,
+    /// because these support only planes through a face's own corners.
     pub(crate) fn put_into_one_plane(&mut self, polygons: &[u32]) -> Result<(), Error> {
         let Some(triangle) = self.far_apart(polygons) else { return Ok(()) };
         if self.planes.is_empty() {
@@ -498,8 +499,8 @@ impl Faces {
         Ok(())
     }
 
-    /// Moves a face onto the plane of three corners. The first `known` of the corners that were moved are in
-    /// ascending order.
+    /// Moves a face onto the plane of three corners. The first `known` items of `moved` are in ascending
+    /// order.
     fn move_onto(&mut self, triangle: [u32; 3], face: u32, known: usize) {
         let points = triangle.map(|corner| self.corner(corner));
         let flattener = Flattener::new(points);

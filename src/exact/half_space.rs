@@ -1,10 +1,10 @@
-//! The sides of any plane on which a fragment's vertices lie, and whether a fragment meets several
+//! Decides on which side of any plane a fragment's vertices lie, and whether a fragment meets several
 //! half-spaces.
 //!
-//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so a half-space at a lattice point
-//! takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits if it is a
-//! vertex of the fragment (see `vertex`), and up to 364 bits if the half-spaces made it: then the sum takes
-//! 548 bits.
+//! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so the value of a half-space at a
+//! lattice point takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits
+//! if it is a vertex of the fragment (see `vertex`), and up to 364 bits if a half-space made it. With weights
+//! of 364 bits, the weighted sum of three such values takes 548 bits.
 
 use std::cmp::Ordering;
 
@@ -25,8 +25,8 @@ pub(crate) struct ExactHalfSpace {
     offset: f64,
 }
 
-/// A line in the plane of a face: the plane that cuts the face there, at the corners of its reference
-/// triangle.
+/// A line in the plane of a face, given by a plane that cuts the face in this line: the plane's values at the
+/// corners of the face's reference triangle.
 pub(crate) type LineValues = [Int<3>; 3];
 
 impl ExactHalfSpace {
@@ -41,8 +41,8 @@ impl ExactHalfSpace {
         dot(self.exact.normal, point.map(|c| c as i64)) - self.exact.offset
     }
 
-    /// The distance in front of a point that is off by up to the given lengths along the axes: the least
-    /// and the greatest, in a unit of the half-space.
+    /// The least and the greatest distance of a point in front of the plane, in a unit of the half-space. The
+    /// point's coordinates are off by up to the lengths `off`.
     pub(crate) fn range(&self, point: &[f64; 3], off: [f64; 3]) -> [f64; 2] {
         let (mut sum, mut size, mut slack) = (-self.offset, self.offset.abs(), 0.0);
         for axis in 0..3 {
@@ -58,7 +58,7 @@ impl ExactHalfSpace {
 
 /// Whether a fragment of a face, given by its vertices and the lines between them, has a point in the
 /// intersection of some half-spaces, exactly. The half-spaces cut the fragment one after the other
-/// (Sutherland and Hodgman 1974), and every vertex is named by its definition.
+/// (Sutherland and Hodgman 1974), and every vertex is kept as exact weights.
 pub(crate) fn meets(
     faces: &Faces,
     face: u32,

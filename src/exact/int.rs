@@ -133,8 +133,8 @@ impl<const N: usize> Int<N> {
         if self.is_negative() { -value } else { value }
     }
 
-    /// The limbs of the absolute value, unsigned. (The least value is its own negative in two's
-    /// complement, and read as unsigned that is its absolute value.)
+    /// The limbs of the absolute value, unsigned. (The least value is its own negative in two's complement;
+    /// the same bits, read as unsigned, are its absolute value.)
     #[inline]
     fn magnitude(&self) -> [u64; N] {
         if self.is_negative() { (-*self).0 } else { self.0 }

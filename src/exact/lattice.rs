@@ -32,8 +32,8 @@ pub struct Lattice {
     pub(super) steps: PowerOfTwo,
     /// The origin, in steps; integers.
     pub(super) origin: [f64; 3],
-    /// For each axis along which the scene is so far from the origin, for its size, that all corners must
-    /// have the same coordinate: that coordinate; otherwise 0.
+    /// The coordinate that all corners have along an axis, if the scene is so far from the origin that
+    /// corners of a scene of its size cannot have different coordinates. Otherwise 0.
     pub(super) far: [f64; 3],
 }
 
@@ -73,7 +73,7 @@ impl Lattice {
         })
     }
 
-    /// Converts any point to lattice units, rounded to `f64` once. It may be far away, even infinite.
+    /// Converts any point to lattice units, rounded to `f64` once. The point may be far away, even infinite.
     pub fn to_lattice(&self, point: DVec3) -> [f64; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
@@ -81,8 +81,8 @@ impl Lattice {
         })
     }
 
-    /// Any point in lattice units, exactly: each coordinate as a number and its rounding error. An infinite
-    /// coordinate, or one beyond the range of `f64`, has no error; NaN counts as 0.
+    /// Any point in lattice units, exactly: each coordinate as a number and its rounding error. A coordinate
+    /// that is infinite, or beyond the range of `f64`, has error 0. NaN counts as 0.
     pub(super) fn exactly(&self, point: DVec3) -> [[f64; 2]; 3] {
         let steps = self.in_steps(point);
         std::array::from_fn(|axis| match steps[axis] {
@@ -94,7 +94,7 @@ impl Lattice {
         })
     }
 
-    /// Returns the world position of a point in lattice units, rounded to `f64`; it may be far away.
+    /// Returns the world position of a point in lattice units, rounded to `f64`. The point may be far away.
     #[inline]
     pub fn to_world(&self, lattice: [f64; 3]) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|axis| {
@@ -149,7 +149,7 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// an instruction for it.
 #[inline]
 pub(super) fn nearest(value: f64) -> f64 {
-    /// From here on, numbers are integers, and up to twice this they are 1 apart.
+    /// Every `f64` of at least this is an integer, and up to twice this they are 1 apart.
     const WHOLE: f64 = (1u64 << 52) as f64;
     let shift = if value.abs() < WHOLE { WHOLE.copysign(value) } else { 0.0 };
     value + shift - shift
@@ -215,8 +215,9 @@ pub(crate) struct FinePoints<const N: usize> {
     pub(crate) bits: u32,
 }
 
-/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take as many
-/// bits of an `i128`. Differences of two points, and differences of these, take up to three bits more.
+/// Coordinates in lattice steps, and the lattice's origin, are below two to this power, so they take this
+/// many bits of an `i128`. Differences of two points, and differences of such differences, take up to three
+/// bits more.
 const FINE_BITS: i32 = 123;
 
 impl Lattice {
@@ -236,8 +237,8 @@ impl Lattice {
         Some(FinePoints { points, bits })
     }
 
-    /// The largest of the coordinates that define the finest grid of some points: its steps are at most
-    /// 2⁻¹²² of this. `None` where [`fine_points`](Self::fine_points) returns `None`.
+    /// The largest of the coordinates that define the finest grid of some points. The steps of that grid are
+    /// at most 2⁻¹²² of this number. `None` where [`fine_points`](Self::fine_points) returns `None`.
     pub(crate) fn largest_in_steps(&self, points: &[DVec3]) -> Option<f64> {
         let mut largest = self.origin.iter().fold(2.0 * LIMIT, |largest, c| largest.max(c.abs()));
         for [c, _] in points.iter().flat_map(|&point| self.in_steps(point)) {
@@ -254,8 +255,8 @@ impl Lattice {
         self.steps.factors.map(exponent_of).iter().sum()
     }
 
-    /// A point in lattice steps from the world's origin; along an axis along which the scene is far from it,
-    /// in steps from the scene. Each coordinate is a number and its rounding error.
+    /// A point in lattice steps from the world's origin, or, along an axis where `far` is not 0, from `far`.
+    /// Each coordinate is a number and its rounding error.
     fn in_steps(&self, point: DVec3) -> [[f64; 2]; 3] {
         let world = point.to_array();
         std::array::from_fn(|axis| {
@@ -265,7 +266,7 @@ impl Lattice {
     }
 }
 
-/// A number times 2^`bits`, which is below 2¹²³ in magnitude, rounded to the nearest integer.
+/// A number times 2^`bits`, rounded to the nearest integer. The product must be below 2¹²³ in magnitude.
 fn fixed(value: f64, bits: u32) -> i128 {
     (value * (1u128 << bits) as f64).round() as i128
 }
@@ -282,8 +283,8 @@ pub(crate) struct HalfSpaceNumbers {
 const NORMAL_BITS: i32 = 116;
 /// Offsets beyond two to this power are clamped to it: normal·p is below 2¹⁷¹ at all points of a scene.
 const FAR_BITS: u32 = 180;
-/// Offsets beyond two to this power stay far beyond when the lattice's origin is subtracted: it is below
-/// 2¹¹⁰, so its part is below 2²³⁰.
+/// Offsets beyond this are clamped before the lattice's origin is subtracted. They would stay beyond the
+/// clamp: the origin is below 2¹¹⁰, so its part is below 2²³⁰.
 const BEYOND: f64 = (1u128 << 120) as f64 * (1u128 << 120) as f64;
 
 impl Lattice {
@@ -405,7 +406,7 @@ mod tests {
         }
     }
 
-    /// Boxes whose ends and the lattice's origin together have more digits than a number stores.
+    /// Boxes whose ends, added to the lattice's origin, have more digits than an `f64` stores.
     #[test]
     fn boxes_are_rounded_outwards() {
         let lattice = Lattice::new(DVec3::splat(2.0), DVec3::splat(4.0));

@@ -128,7 +128,8 @@ impl VertexId {
         Self { a: EdgeLine::edge(k), b: EdgeLine::edge(k) }
     }
 
-    /// Returns the vertex where `plane` crosses `line`. Two planes have the same value in either order.
+    /// Returns the vertex where `plane` crosses `line`. If the line is a cut by another plane, exchanging the
+    /// two planes returns the same value.
     #[inline]
     pub fn crossing(line: EdgeLine, plane: PlaneId) -> Self {
         let cut = EdgeLine::cut(plane, false);
@@ -159,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn labels_come_back_as_they_went_in() {
+    fn labels_are_decoded_as_they_were_encoded() {
         let plane = PlaneId::axis(2, MAX_NAMES as u32 - 1);
         assert_eq!(plane.kind(), PlaneKind::Axis(2, MAX_NAMES as u32 - 1));
         assert_eq!(PlaneId::face(7).kind(), PlaneKind::Face(7));

@@ -86,7 +86,7 @@ impl Plane {
         self.along(std::array::from_fn(|i| x[i] as i64 - self.point[i]))
     }
 
-    /// The value of [`at`](Self::at) in 128 bits, right up to multiples of 2¹²⁸.
+    /// The value of [`at`](Self::at) modulo 2¹²⁸.
     #[inline]
     pub(super) fn last_bits_at(&self, x: &[f64; 3]) -> i128 {
         let terms = self.normal.iter().zip(x).zip(self.point);
@@ -114,7 +114,8 @@ impl Plane {
     }
 }
 
-/// The scalar product of vectors: components below 2¹¹⁸ by components below 2⁶², together below 2¹⁹⁰.
+/// The scalar product of a vector with components below 2¹¹⁸ and a direction with components below 2⁶². The
+/// product is below 2¹⁹⁰.
 #[inline]
 pub(crate) fn dot(vector: [i128; 3], direction: [i64; 3]) -> Int<3> {
     // The parts and products of the components fit 64 and 128 bits.
@@ -133,8 +134,8 @@ pub(crate) fn dot(vector: [i128; 3], direction: [i64; 3]) -> Int<3> {
     ])
 }
 
-/// A number below 2¹²⁶, rounded at most twice. By parts, because a conversion of 128 bits calls a
-/// function; they have one sign, so nothing cancels.
+/// Converts a number below 2¹²⁶ to `f64`, rounded at most twice. It is converted in two parts, because a
+/// conversion of 128 bits calls a function. The parts have the same sign, so nothing cancels.
 #[inline]
 pub(super) fn rounded(number: i128) -> f64 {
     let size = number.unsigned_abs();
@@ -161,7 +162,7 @@ pub(crate) struct RoundedNormal {
     /// Each component is off by at most 2⁻⁵² of its share of `size`: its two products and their
     /// difference are rounded.
     pub(crate) normal: [f64; 3],
-    /// Σ over components of the magnitudes of their two products.
+    /// The sum, over the three components, of the magnitudes of both products.
     pub(crate) size: f64,
 }
 
@@ -187,7 +188,7 @@ impl RoundedNormal {
     }
 }
 
-/// The axis of the largest size; the first of several.
+/// The axis of the largest size. Of equal sizes, the first axis.
 #[inline]
 pub(super) fn largest<T: PartialOrd>([x, y, z]: [T; 3]) -> usize {
     let (axis, size) = if y > x { (1, y) } else { (0, x) };
@@ -288,10 +289,11 @@ impl Faces {
         }
     }
 
-    /// The length of the normal of a face's plane, within 2⁻³⁴ of it, from the rounded normal.
+    /// The length of the normal of a face's plane, with a relative error of at most 2⁻³⁴. `rounded` is the
+    /// face's rounded normal.
     #[inline]
     pub(super) fn normal_length(&self, face: u32, rounded: &RoundedNormal) -> f64 {
-        // Not by the longest component, which takes longer to find.
+        // Compared with the length, not with the longest component, which takes longer to find.
         let length = DVec3::from_array(rounded.normal).length();
         if rounded.size <= CANCELLED * length { length } else { self.exact_normal(face).length() }
     }
@@ -302,8 +304,8 @@ impl Faces {
     }
 }
 
-/// A plane's value at a lattice point certainly fits 128 bits if it is below this, rounded. Too large, up to
-/// half the range: values that do not fit are used. Too small: more values are computed in full.
+/// A plane's value at a lattice point certainly fits 128 bits if the rounded value is below this. Too large,
+/// up to half the range: values that do not fit are used. Too small: more values are computed in full.
 const FITS: f64 = (1u128 << 124) as f64;
 
 /// Moves lattice points onto a plane, along the plane's dominant axis.
@@ -333,7 +335,7 @@ impl Flattener {
         Self { plane, axis: plane.dominant_axis(), through, normal }
     }
 
-    /// The distance of a point.
+    /// The distance of a point from the plane.
     #[inline]
     pub(crate) fn off(&self, point: &[f64; 3]) -> Off {
         let Self { plane, axis, normal, .. } = self;
@@ -381,7 +383,7 @@ mod tests {
         }
     }
 
-    /// Corners at every distance from their plane, within 128 bits and beyond, against `at`.
+    /// Compares with `at` for points at every distance from the plane, within 128 bits and beyond.
     #[cfg(feature = "save")]
     #[test]
     fn within_is_exact() {
@@ -464,7 +466,7 @@ mod normal_tests {
     }
 
     #[test]
-    fn normals_are_as_near_as_they_say() {
+    fn errors_of_rounded_normals_are_within_their_bounds() {
         let (mut random, mut cancelled) = (SplitMix64::new(2), 0);
         for _ in 0..20_000 {
             let corners = thin(&mut random);
@@ -494,9 +496,9 @@ mod normal_tests {
 mod flatten_tests {
     use super::Flattener;
 
-    /// The plane 3z = x, moved along z.
+    /// Points are moved along z onto the plane 3z = x.
     #[test]
-    fn only_what_is_on_the_plane_is_off_by_nothing() {
+    fn only_points_on_the_plane_have_distance_0() {
         let flattener = Flattener::new([[0.0; 3], [3.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
         for (point, value, steps) in [
             ([3.0, 5.0, 1.0], 0.0, 0.0),
@@ -569,7 +571,7 @@ mod convex_outline_tests {
         assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
     }
 
-    /// Steps that almost continue in one line, or turn back, by integers of 128 bits.
+    /// Steps that almost continue in one line, or turn back. Integers of 128 bits decide what is right.
     #[test]
     fn turns_are_exact() {
         let mut random = SplitMix64::new(4);

@@ -1,4 +1,4 @@
-//! Writes and reads lattices, names of planes, and faces, and checks them after reading.
+//! Writes and reads lattices and faces, and checks them after reading.
 
 use std::io::{self, Read, Write};
 use std::ops::Range;
@@ -194,7 +194,7 @@ impl Faces {
     }
 }
 
-/// Whether a face with this frame may have these corners.
+/// Returns an error, which describes the fault, unless a face with this frame can have these corners.
 fn check_outline(corners: &[[f64; 3]], frame: Frame) -> Result<(), &'static str> {
     let [_, second, third] = frame.triangle().map(|k| k as usize);
     if !(3..=Frame::MAX_CORNERS).contains(&corners.len()) {

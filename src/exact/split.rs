@@ -95,8 +95,8 @@ impl StoredVertex {
 /// the vertices of the two parts to `front` and `back`, in the piece's orientation.
 ///
 /// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
-/// strictly on opposite sides. Both parts define it by the same line and plane, so they share it bit for bit.
-/// At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
+/// strictly on opposite sides. Both parts define the new vertex by the same line and plane, so it is equal
+/// bit for bit in both. At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
 ///
 /// A piece of two vertices belongs to a segment, whose ends are on different sides.
 pub fn split(
@@ -110,7 +110,7 @@ pub fn split(
     let cut = |side: Ordering| EdgeLine::cut(plane.plane, side.is_lt());
     let sides: SmallVec<[Ordering; 8]> =
         vertices.iter().map(|vertex| plane.side(faces, face, vertex)).collect();
-    // A segment: an outline would traverse it in both directions.
+    // A segment is cut once. As an outline it would be cut in both directions.
     if let [a, b] = vertices {
         let middle = a.cut(faces, face, plane);
         let parts = if sides[0].is_gt() { [front, back] } else { [back, front] };
@@ -149,9 +149,9 @@ pub fn split(
 /// Cuts faces to their cell.
 ///
 /// Each plane of the cell decides like a partition plane of a tree, by the rules of
-/// [`classify`](super::classify). Parts that are coplanar with it belong to the cell in front. All cells of a
-/// scene have the same rule, so each point of each face is in one cell. Both cells beside a plane name the
-/// vertices on it by the same points.
+/// [`classify`](super::classify). Parts that are coplanar with the plane belong to the cell in front. All
+/// cells of a scene follow this rule, so each point of each face is in one cell. Both cells beside a plane
+/// define the vertices on the plane by the same points.
 pub(crate) struct Clipper<'f> {
     faces: &'f Faces,
     planes: SmallVec<[(PreparedPlane, Side); 6]>,
@@ -167,7 +167,8 @@ impl<'f> Clipper<'f> {
         Self { faces, planes, outline: vec![], front: vec![], back: vec![] }
     }
 
-    /// The part of a face in the cell, by its vertices: an empty list for the whole face, `None` for no part.
+    /// Returns the vertices of the part of a face in the cell: an empty list if the whole face is in the
+    /// cell, and `None` if no part is.
     pub(crate) fn clip(&mut self, face: u32) -> Option<&[Vertex]> {
         let Self { faces, planes, outline, front, back } = self;
         outline.clear();

@@ -1,8 +1,8 @@
 //! Vertices of pieces: their sides of planes, decided in integers, and their rounded positions.
 //!
-//! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below
-//! 2¹⁰⁵, and its plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits
-//! with the sign). A vertex is a combination of one, two or three lattice points of its face:
+//! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below 2¹⁰⁵. The
+//! value of the face's plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits with
+//! the sign). A vertex is a combination of one, two or three lattice points of its face:
 //!
 //! | vertex | combination of | with weights | plane at the vertex, times the sum of weights |
 //! |---|---|---|---|
@@ -37,14 +37,14 @@ pub(crate) struct Weights<const W: usize> {
 }
 
 impl<const W: usize> Weights<W> {
-    /// The point of a segment on a plane that has these values at its ends.
+    /// The point where a plane cuts a segment, from the plane's values at the segment's ends.
     fn on_segment([a, b]: [[f64; 3]; 2], [at_a, at_b]: [Int<3>; 2]) -> Self {
         let weights = [(-at_b).resize(), at_a.resize(), Int::ZERO];
         Self { points: [a, b, b], weights, len: 2 }
     }
 
-    /// The point where three planes meet: the plane of a triangle, and two planes with these values at its
-    /// corners.
+    /// The point where three planes meet: the plane of a triangle, and two planes given by their values at
+    /// the triangle's corners.
     pub(crate) fn meeting(points: [[f64; 3]; 3], g: &[Int<3>; 3], h: &[Int<3>; 3]) -> Self {
         // Barycentric weights w with Σ wᵢ gᵢ = Σ wᵢ hᵢ = 0 are perpendicular to both triples of values:
         // their vector product.
@@ -114,7 +114,8 @@ impl Faces {
         }
     }
 
-    /// The ends of the edge that contains a vertex, if they lie exactly on the face's plane.
+    /// The ends of the edge on which a vertex lies. `None` if the vertex is not on an edge, or if corners of
+    /// the face are moved.
     pub(super) fn edge_ends(&self, face: u32, vertex: VertexId) -> Option<[[f64; 3]; 2]> {
         let VertexKind::OnEdge(k, _) = vertex.kind() else { return None };
         if self.moved_axis(face).is_some() {
@@ -160,8 +161,8 @@ impl Faces {
         }
     }
 
-    /// The point where a plane cuts the segment between two lattice points; `None` unless they are strictly
-    /// on opposite sides.
+    /// The point where a plane cuts the segment between two lattice points; `None` unless the two points are
+    /// strictly on opposite sides of the plane.
     pub(crate) fn cut_of_segment(&self, ends: [[f64; 3]; 2], plane: PlaneId) -> Option<Weights<5>> {
         let plane = self.plane(plane);
         let values = ends.map(|end| plane.at(&end));
@@ -274,7 +275,8 @@ struct ExactEdge {
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     axis: usize,
-    /// The face's plane at the ends, and its increase with a step along the axis.
+    /// The values of the face's plane at the ends, and the increase of the value with each step along the
+    /// axis.
     offs: [i128; 2],
     slope: i128,
 }
@@ -310,7 +312,7 @@ impl Faces {
     }
 
     /// Whether corner `k` is one of the three corners that define its face's plane. Other corners are within
-    /// half a step of the plane along the axis, which fits 128 bits.
+    /// half a step of the plane along the axis, so the plane's value at them fits 128 bits.
     fn is_on_triangle(&self, face: u32, k: u32) -> bool {
         let first = self.faces[face as usize].start;
         self.reference_triangle(face).contains(&(first + k))
@@ -331,8 +333,8 @@ const UNIT: f64 = (1u64 << HALF) as f64;
 /// The sum of the weights must be 2⁷⁰ times the error of a weight. Too small: positions are off by more. Too
 /// large: more positions are computed in full.
 const MARGIN: u32 = 70;
-/// The margin for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough; with a
-/// larger margin than that, no position could be computed from them.
+/// The margin for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough. A margin
+/// above 62 would never be reached with these bits.
 const EDGE_MARGIN: u32 = 60;
 /// The largest error of a position from truncation, in lattice units: on an edge as long as the lattice is
 /// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of the lattice's
@@ -342,8 +344,8 @@ pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 impl Faces {
     /// The rounded position of a vertex in lattice units. Each coordinate is off by at most three of its own
     /// roundings plus [`OFF`]. It is exact along an axis if a plane perpendicular to that axis defines the
-    /// vertex. All pieces, of any face, that define the vertex by the same points and planes have the same
-    /// bits, in either orientation of their faces.
+    /// vertex. All pieces, of any face, that define the vertex by the same points and planes compute the same
+    /// bits, also if their faces have opposite orientations.
     pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
             VertexKind::Corner(k) => return self.corners(face)[k as usize],
@@ -379,7 +381,7 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
     let mut moves = [0.0; 2];
     if let Some(Moved { axis, offs, slope }) = moved {
         let [own_slope, slope] = [*slope, plane.normal()[*axis]].map(rounded);
-        // Off by five roundings, and the plane's gain by eight.
+        // The moves are off by five roundings, and the plane's gains by eight.
         moves = offs.map(|off| -rounded(off) / own_slope);
         let scale = f64::from_bits(u64::from(1023 - dropped) << 52);
         let gains = moves.map(|by| by * slope * scale);
@@ -399,7 +401,8 @@ fn on_edge(edge: &ExactEdge, plane: &Plane) -> Option<[f64; 3]> {
         };
         let mut sum = terms(ends.map(|end| end[axis]));
         if moved.is_some_and(|moved| moved.axis == axis) {
-            // Rounded towards 0, so that the sum has the same magnitude for weights of the other sign.
+            // Rounded towards 0, so that the sum has the same magnitude if the weights have the opposite
+            // sign.
             sum += terms(moves.map(|by| (by * UNIT) as i64)) / (1 << HALF);
         }
         sum as f64 / total as f64
@@ -417,7 +420,7 @@ fn meeting(triangle: &[[f64; 3]; 3], g: &Plane, h: &Plane) -> Option<[f64; 3]> {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         *weight = Product::of(g[j], h[k], g[k], h[j]);
     }
-    // All bits above the first 124 are dropped at the other end.
+    // Of the largest weight, 124 bits are kept. All weights lose as many low bits as that weight.
     let dropped = bits_of(weights.map(|weight| weight.magnitude().high));
     // A value is off by less than 1, its products with others by 2¹²⁴, and a weight by four times as much.
     let is_exact = dropped_of_g == 0 && dropped_of_h == 0;
@@ -454,7 +457,7 @@ fn leading(plane: &Plane, points: [[i64; 3]; 3]) -> ([i128; 3], u32) {
     (parts.map(|parts| parts.without(dropped)), dropped)
 }
 
-/// A number in two parts: `high` · 2^BITS + `low`, which is not negative.
+/// A number in two parts: `high` · 2^BITS + `low`, where `low` is not negative.
 #[derive(Clone, Copy, Debug, Default)]
 struct HighLow<const BITS: u32> {
     high: i128,
@@ -484,7 +487,7 @@ impl<const BITS: u32> HighLow<BITS> {
     }
 }
 
-/// A plane at a lattice point.
+/// The value of a plane at a lattice point.
 #[inline]
 fn at(plane: &Plane, point: [i64; 3]) -> HighLow<LOW_BITS> {
     let (mut high, mut low) = (0, 0);

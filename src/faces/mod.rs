@@ -46,24 +46,25 @@ pub struct Preparation {
     /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
     /// The number of triangulated polygons that cross themselves, or whose winding number is not the same
-    /// everywhere inside, in a projection along the main axis of their vector area; decided exactly. If the
-    /// polygon's edges meet only at corners, the triangles cover every point with a nonzero winding number.
-    /// Otherwise each two edges that cross are first replaced by two edges between the same four ends that do
-    /// not cross. The replacement that changes less area is used. Then the triangles cover the inside by the
-    /// even-odd rule. If that takes too long, or nothing remains, the triangles fan out from the first corner.
+    /// everywhere inside. This is decided exactly, in a projection along the main axis of the polygon's
+    /// vector area. If the polygon's edges meet only at corners, the triangles cover every point with a
+    /// nonzero winding number. Otherwise each pair of crossing edges is first replaced by two edges between
+    /// the same four ends, which do not cross. Of the two possible replacements, the replacement that changes
+    /// less area is used. Then the triangles cover the inside by the even-odd rule. If the replacements take
+    /// too long, or leave nothing, the triangles fan out from the first corner.
     pub crossing: usize,
-    /// The number of polygons with a corner off the plane of the others, but within the tolerance. They stay
-    /// whole, and such corners count as on the plane.
+    /// The number of polygons with a corner off the plane of the other corners, but within the tolerance.
+    /// These polygons stay whole, and their corners count as on the plane.
     pub flattened: usize,
-    /// The largest distance of such a corner from the plane, a length.
+    /// The largest distance of a flattened polygon's corner from the plane of the other corners, a length.
     pub flattened_by: f64,
     /// The number of triangulated polygons that are probably planar, but bent by rounding. They are convex. A
-    /// corner is off the plane of the others by more than the tolerance, but by no more than a limit. The
-    /// limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
+    /// corner is off the plane of the other corners by more than the tolerance, but by no more than a limit.
+    /// The limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
     /// [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
     /// `bent_by` these polygons would stay whole.
     pub bent: usize,
-    /// The largest distance of such a corner from the plane, a length.
+    /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
     pub bent_by: f64,
 }
 
@@ -121,7 +122,7 @@ impl Faces {
 pub(crate) struct Preparer {
     input: InputPolygons,
     corners: Corners,
-    /// A box that the lattice contains besides the polygons.
+    /// A box that the lattice contains in addition to the polygons.
     room: Option<[DVec3; 2]>,
     /// Whether all polygons are flat by definition.
     pub(crate) are_flat: bool,
@@ -156,8 +157,8 @@ impl Preparer {
         self.add_all(faces, &params, watch)
     }
 
-    /// Adds the faces of all polygons: few polygons on this thread, many as parallel jobs, whose results are
-    /// joined in input order.
+    /// Adds the faces of all polygons. Few polygons are prepared on this thread, and many polygons as
+    /// parallel jobs, whose results are joined in input order.
     fn add_all(
         &mut self,
         faces: &mut Faces,
@@ -196,7 +197,8 @@ impl Preparer {
         Ok(report.in_world(&params.lattice))
     }
 
-    /// Makes later lattices contain a box, given by its lower and upper corner, besides the polygons.
+    /// Makes later lattices contain a box in addition to the polygons. The box is given by its lower and
+    /// upper corner.
     ///
     /// # Errors
     ///
@@ -230,9 +232,9 @@ impl Preparer {
         report
     }
 
-    /// Appends the segments of lines, on the lattice of the faces, and lists their numbers in their lines.
-    /// Segments whose ends are rounded to one lattice point are left out. No points may have been appended
-    /// before. After an error, some segments may have been appended.
+    /// Appends the segments of lines, on the lattice of the faces, and writes the number of each segment
+    /// within its line to `numbers`. Segments whose ends are rounded to one lattice point are left out. No
+    /// points may have been appended before. After an error, some segments may have been appended.
     pub(crate) fn append_lines<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -292,8 +294,8 @@ impl Preparer {
     }
 }
 
-/// The corner before a segment's start, and the corner after its end. In a closed line these may lie on the
-/// other side of the closing corner.
+/// The corner after a segment's end, and the corner before its start. In a closed line, these may lie beyond
+/// the corner where the line closes.
 fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
     let segments = corners.len() - 1;
     let is_closed = corners[0].0 == corners[segments].0;
@@ -324,19 +326,19 @@ fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]
     neighbours.chain([along(2)]).find(is_off).unwrap_or_else(|| along(0))
 }
 
-const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "so that it is noticed");
+const _: () = assert!(MAX_CORNERS.is_multiple_of(PIECES_AT_ONCE), "the limit is checked there");
 
 /// The largest number of polygons for which memory is reserved because of an iterator's size hint. Too
 /// large: a wrong hint wastes memory. Too small: polygons are copied more often as lists grow.
 const TRUSTED: usize = 1 << 16;
 
-/// After this many polygons, a size hint that is above the limit is an error. Too small: wrong hints are
-/// errors more often. Too large: an endless iterator is noticed later.
+/// After this many polygons, a size hint that exceeds the rest of the limit is an error. Too small: wrong
+/// hints are errors more often. Too large: an endless iterator is noticed later.
 const DOUBTED: usize = 1 << 20;
 
-/// A polygon with at most this many corners by its size hint is read at once. Too large: memory is reserved
-/// because of a wrong hint.
-const AT_HAND: usize = 64;
+/// A polygon is read in one step if its size hint promises at most this many corners. Too large: memory is
+/// reserved because of a wrong hint.
+const READ_AT_ONCE: usize = 64;
 
 /// All corners, and the end of each polygon's corners.
 #[derive(Debug, Default)]
@@ -370,7 +372,8 @@ impl InputPolygons {
         self.precisions[polygon]
     }
 
-    /// The bounding box of the polygons and, if given, of a box; zero without corners and box.
+    /// The bounding box of the polygons and, if given, of `room`. Without corners and `room`, it is the
+    /// origin.
     fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
         let first = self.points.first().copied().or(room.map(|[corner, _]| corner));
         let start = [first.unwrap_or_default(); 2];
@@ -432,7 +435,7 @@ impl InputPolygons {
         let mut read = 0;
         if let (least, Some(most)) = corners.size_hint()
             && least == most
-            && most <= AT_HAND
+            && most <= READ_AT_ONCE
         {
             reserve(&mut self.points, most)?;
             let before = self.points.len();
@@ -444,7 +447,7 @@ impl InputPolygons {
             }
             read = self.points.len() - before;
         }
-        // All corners, or those beyond the size hint.
+        // All corners, or the corners beyond the size hint.
         for (corner, point) in (read..).zip(corners) {
             if corner % PIECES_AT_ONCE == 0 && corner > 0 {
                 if corner == MAX_CORNERS {
@@ -466,7 +469,7 @@ impl InputPolygons {
         push(&mut self.ends, self.points.len() as u32)
     }
 
-    /// Returns an error if there are more corners than `u32` numbers.
+    /// Returns an error if there are more than [`MAX_NAMES`] corners.
     fn check_count(&self) -> Result<(), Error> {
         if self.points.len() > MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());

@@ -104,14 +104,15 @@ impl FaceBuilder<'_> {
         Ok(())
     }
 
-    /// Reports a polygon that became one face, with a corner at this distance from its plane.
+    /// Reports a polygon that became one face. Its corners are off its plane by at most `off`.
     fn report_flat(&mut self, off: f64) {
         self.report.flattened += usize::from(off > 0.0);
         self.report.flattened_by = self.report.flattened_by.max(off);
     }
 
-    /// Adds four corners as one face, the same face as [`add`](Self::add) but faster. Returns false and adds
-    /// nothing if floats cannot prove that the corners are convex, or if the polygon may not be one face.
+    /// Adds four corners as one face: the same face as [`add`](Self::add) makes, in less time. Returns false
+    /// and adds nothing if floats cannot prove that the corners are convex, or if a corner is too far off the
+    /// plane.
     fn add_quad(&mut self, polygon: usize, mut corners: [[f64; 3]; 4]) -> Result<bool, Error> {
         let Some([far, best]) = widest(4, |k| corners[k].into()) else { return Ok(false) };
         let (second, third) = (far.min(best), far.max(best));
@@ -216,8 +217,8 @@ pub(super) struct Corners {
     kept: Vec<Corner>,
     /// The number of corners in the input.
     given: usize,
-    /// For each kept corner, the number of later corners on the straight run of the outline that begins
-    /// there; at least 1. Empty if the polygon is not triangulated.
+    /// For each kept corner, the number of later corners on the straight run of the outline that begins at
+    /// the corner; at least 1. Empty if the polygon is not triangulated.
     runs: Vec<u32>,
 }
 
@@ -272,7 +273,7 @@ impl Corners {
 /// rounded numbers.
 #[inline]
 fn widest(n: usize, point: impl Fn(usize) -> DVec3) -> Option<[usize; 2]> {
-    /// The number of the largest size, the last of equals.
+    /// The number with the largest size. Of equal sizes, the last number.
     fn largest(numbers: impl Iterator<Item = usize>, size: impl Fn(usize) -> f64) -> Option<usize> {
         let larger =
             |best: (f64, usize), next: (f64, usize)| if next.0 >= best.0 { next } else { best };
@@ -289,8 +290,8 @@ impl Faces {
     /// Counts the polygons that have the corners of an earlier polygon, in the same cyclic order or its
     /// reverse. The count is exact and takes O(n log n) time and O(n) memory for n corners.
     ///
-    /// A polygon's corners are read from its faces, as given, before the tolerance moved them. Corners that
-    /// no face has are unknown.
+    /// A polygon's corners are taken from its faces, at the positions before the tolerance moved them.
+    /// Corners that belong to no face are not compared.
     #[doc(hidden)]
     pub fn duplicates(&self) -> usize {
         let (mut outlines, mut first) = (HashSet::new(), 0);

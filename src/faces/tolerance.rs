@@ -41,9 +41,10 @@ pub enum Tolerance {
     /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
     /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
-    /// largest coordinate, however large a share of the extent this is. For `f64` it is more than 10⁻⁹ beyond
-    /// a million extents from the origin, and 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as `f32`
-    /// if nearly all their numbers are `f32`, written with more digits than an `f32` has.)
+    /// largest coordinate, however large a share of the extent this is. For `f64`, this is more than 10⁻⁹ of
+    /// the extent if the scene is more than a million extents away from the origin. For example, it is 9·10⁻⁷
+    /// for a cube of side 1 at 10⁹. (Files are treated as `f32` if nearly all their numbers are `f32`,
+    /// written with more digits than an `f32` has.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -75,8 +76,9 @@ impl Tolerance {
 pub(crate) struct Precision {
     /// The largest distance of a corner from its intended plane, in world units.
     length: f64,
-    /// Whether `length` is the rounding of the number type. Such numbers cannot express finer lengths, so the
-    /// default tolerance has no upper limit. Other polygons only state a precision, and that is limited.
+    /// Whether `length` is the rounding of the number type. Numbers of this type cannot express finer
+    /// lengths, so the default tolerance has no upper limit. Otherwise the precision is only stated by the
+    /// polygons, and the default tolerance has an upper limit.
     is_of_numbers: bool,
 }
 
@@ -96,8 +98,8 @@ pub(super) struct SnapParams {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// The largest distance of a convex polygon's corner from the plane of the others at which the polygon
-    /// still becomes one face, in lattice units.
+    /// A convex polygon becomes one face if no corner is further than this from the plane of the other
+    /// corners, in lattice units.
     pub(super) bend: f64,
 }
 
@@ -131,16 +133,16 @@ impl SnapParams {
         Self { lattice, tolerance, bend: tolerance }
     }
 
-    /// Whether rounding can be the reason that a corner is `off` the plane of the others, in lattice units.
-    /// The result depends on neither the other polygons nor the extent, so it is the same in every part of a
-    /// scene.
+    /// Whether rounding can be the reason that a corner is off the plane of the other corners, by `off`
+    /// lattice units. The result depends on neither the other polygons nor the extent, so it is the same in
+    /// every part of a scene.
     pub(super) fn may_be_rounding(&self, off: f64, precision: f64) -> bool {
         let coarse = self.lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
         off > 0.0 && off <= coarse.max(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT)
     }
 }
 
-/// An empty set of faces on the grid and with the tolerance of polygons in a box.
+/// An empty set of faces, with the grid and the tolerance of a scene whose polygons fill a box.
 ///
 /// # Errors
 ///

@@ -33,8 +33,8 @@ impl Plane {
         }
     }
 
-    /// The plane of a face, through its reference triangle p, q, r: as the normal the sum of
-    /// p × q, q × r and r × p, which is (q − p) × (r − p).
+    /// The plane of a face, through its reference triangle p, q, r. The normal is computed as the sum of p ×
+    /// q, q × r and r × p, which is (q − p) × (r − p).
     pub(super) fn of(faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|corner| integer(faces.corner(corner)));
         let (pq, qr, rp) = (cross(p, q), cross(q, r), cross(r, p));
@@ -42,8 +42,8 @@ impl Plane {
         Self { normal, offset: dot(qr, p) }
     }
 
-    /// The plane through two lattice points and along an axis. Seen against the axis, its front is to the
-    /// right of the line from `a` to `b`.
+    /// The plane through two lattice points and along an axis. Seen against the axis, the plane's front is to
+    /// the right of the line from `a` to `b`.
     pub(super) fn upright(a: [f64; 3], b: [f64; 3], axis: usize) -> Self {
         let (a, b) = (integer(a), integer(b));
         let mut along = [0; 3];
@@ -60,7 +60,8 @@ impl Plane {
         glam::DVec3::from_array(self.normal.map(|c| c as f64))
     }
 
-    /// κ: for a perspective the value of the plane at the eye, for parallel rays its slope along them.
+    /// κ: for a perspective, the value of the plane at the eye; for parallel rays, the slope of that value
+    /// along the rays.
     pub(super) fn kappa(&self, rays: &Rays) -> Short {
         match rays.pencil {
             RayOrigin::From { eye, shift } => {
@@ -119,8 +120,8 @@ impl PlanePair {
     }
 }
 
-/// The volume that a ray spans with the edge from `a` to `b`: direction · (a × b − eye × (b − a)),
-/// or, with m the edge × direction, (a − point) · m; 190 bits.
+/// The volume that a ray spans with the edge from `a` to `b`, in 190 bits. For a perspective it is direction
+/// · (a × b − eye × (b − a)). For parallel rays it is (a − point) · ((b − a) × direction).
 pub(super) fn volume(rays: &Rays, [a, b]: [[f64; 3]; 2], given: Given) -> Short {
     let (a, b) = (integer(a), integer(b));
     let arm = std::array::from_fn(|i| b[i] - a[i]);
@@ -147,7 +148,8 @@ fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The bits of a digit. A lattice coordinate fits one; 2²⁰ products of two fit 128 bits.
+/// The bits of a digit. A lattice coordinate fits one digit. The sum of 2²⁰ products of two digits fits 128
+/// bits.
 const BITS: u32 = 52;
 const HALF: i128 = 1 << (BITS - 1);
 
@@ -197,8 +199,8 @@ impl<const N: usize> std::ops::Sub for Digits<N> {
     }
 }
 
-/// The scalar product of vectors: components below 2¹²⁰ by components below 2⁸⁵, and a result below
-/// 2²⁰⁷.
+/// The scalar product of two vectors. Components of `a` are below 2¹²⁰, components of `b` are below 2⁸⁵, and
+/// the product is below 2²⁰⁷.
 pub(super) fn dot(a: [i128; 3], b: [i128; 3]) -> Short {
     let mut sums = [0; 4];
     for (a, b) in a.into_iter().zip(b) {
@@ -278,7 +280,7 @@ mod tests {
         }
 
         #[test]
-        fn what_cancels_is_zero(a in vector(105), b in vector(82)) {
+        fn equal_values_cancel_to_zero(a in vector(105), b in vector(82)) {
             let value = dot(a, b);
             prop_assert_eq!((value - value).sign(), Ordering::Equal);
             let nothing = determinant([[&value, &value], [&value, &value]]);

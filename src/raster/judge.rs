@@ -37,7 +37,7 @@ impl DepthImage {
     /// infinite in pixels without a face.
     ///
     /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel rays,
-    /// from the plane through the middle of the scene; then it may be negative.
+    /// from the plane through the middle of the scene. For parallel rays it may be negative.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -88,14 +88,15 @@ pub fn zbuffer(rays: &Rays, faces: &Faces) -> DepthImage {
     zbuffer_and(rays, faces, |_, _, _| {})
 }
 
-/// The nearest face in each pixel, and all faces that cover it.
+/// The nearest face in each pixel, and all faces that cover each pixel.
 pub(crate) fn zbuffer_layers(rays: &Rays, faces: &Faces) -> (DepthImage, Layers) {
     let mut layers = Layers::new(rays);
     let depth = zbuffer_and(rays, faces, |face, y, columns| layers.add(face, y, columns));
     (depth, layers)
 }
 
-/// Like [`zbuffer`]; calls `also` with each face, and a row and columns that it covers.
+/// Like [`zbuffer`], and calls `also` with each run of pixels that a face covers: the face, the row, and the
+/// columns.
 fn zbuffer_and(
     rays: &Rays,
     faces: &Faces,
@@ -240,9 +241,9 @@ const MOVED_CORNERS: f64 = 4.0;
 /// within τ of a partition plane may both count as part of that plane, and then they are painted in input
 /// order. With τ = 0 only ties are contested.
 ///
-/// So a view along one of the two planes does not suffice: the other polygon, which the ray meets at an
-/// angle, must be equally near. This rule uses the polygons, not the partition planes;
-/// [`verify`](crate::verify::verify()) uses both.
+/// So a ray that is almost parallel to one of the two planes does not suffice: the other polygon, which the
+/// ray meets at a larger angle, must be within 2 τ as well. This rule uses the polygons, not the partition
+/// planes; [`verify`](crate::verify::verify()) uses both.
 ///
 /// # Panics
 ///
@@ -292,7 +293,7 @@ pub(crate) fn compare_by(
     result
 }
 
-/// For each of two planes, the distance of the point where the ray of a pixel meets the other plane, in
+/// For each of two planes, its distance from the point where the ray of a pixel meets the other plane, in
 /// lattice units, rounded.
 fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
     let at = pair.at(pixel);
@@ -306,8 +307,9 @@ fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the partition
 /// plane between their pieces. `pieces` are the nearer and the further face, each with the side of the plane
 /// to which its piece belongs (`Greater` is the front, `Equal` the plane itself). Two conditions must hold.
-/// First, the ray meets the nearer face within the tolerance of that plane, and also meets the further face,
-/// or begins, within it. Second, one of the two pieces reaches across the plane there.
+/// First, the ray meets the nearer face within the tolerance of the plane, and it also meets the further
+/// face, or begins, within the tolerance of the plane. Second, one of the two pieces reaches across the plane
+/// where the ray meets the piece.
 ///
 /// A tolerance can cause no other wrong pixels. Suppose that the eye is in front of the plane, and that a
 /// piece which the order puts behind hides a piece which it puts in front. Along the ray, the height above

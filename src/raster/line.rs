@@ -17,13 +17,14 @@ use crate::exact::{EdgeLine, Faces, PlaneId, PlaneKind};
 /// The source of a boundary line.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
-    /// The edge from one lattice point to another, straight through both.
+    /// The straight edge from one lattice point to another.
     Edge([[f64; 3]; 2]),
-    /// The edge of a face where the plane through two lattice points and along an axis meets it.
+    /// The edge of a face in which the plane through two lattice points and along an axis cuts the face's
+    /// plane.
     Upright([[f64; 3]; 2], usize),
     /// A plane that cut the face.
     Cut(EdgeLine),
-    /// The plane through the eye parallel to the picture: ahead of it is inside.
+    /// The plane through the eye parallel to the picture. The inside is ahead of this plane.
     Ahead,
 }
 
@@ -109,10 +110,11 @@ impl Seen<'_> {
     }
 }
 
-/// The volume that a ray spans with the edge from `a` to `b`: direction · ((a − eye) × (b − a)), or (point −
-/// a) · ((a − b) × direction). The factor's components are off by 4.4 roundings of the sum of their two
-/// products, the vectors that they are multiplied by are off by 1, their scalar products by 3 more, and the
-/// evaluation by 4.
+/// The volume that a ray spans with the edge from `a` to `b`, as a rounded linear function of the pixel, and
+/// a bound on the error of its values. The volume is direction · ((a − eye) × (b − a)) for a perspective, and
+/// (point − a) · ((a − b) × direction) for parallel rays. Each component of the vector product is off by 4.4
+/// roundings of the sum of its two products. The other factor of the scalar product is off by 1 rounding. The
+/// scalar product adds 3 roundings, and the evaluation adds 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
@@ -204,8 +206,8 @@ impl Sheet {
         }
     }
 
-    /// The line of the rays that meet this plane, f, and another, h, in one point: κ_f φ_h − κ_h φ_f; and a
-    /// bound on the error of its values.
+    /// The function κ_f φ_h − κ_h φ_f, which is 0 for the rays that meet this plane, f, and another plane, h,
+    /// in one point; and a bound on the error of its values.
     ///
     /// Each product is off by at most 21 roundings of the product of the sizes: 8 for κ, 7 for a coefficient
     /// of φ, 2 for the product and the difference, 4 for the evaluation.
@@ -215,7 +217,8 @@ impl Sheet {
         (k, 40.0 * ROUNDING * size)
     }
 
-    /// The line of the rays that are parallel to the plane, φ, and a bound on the error of its values.
+    /// The function φ, which is 0 for the rays that are parallel to the plane, and a bound on the error of
+    /// its values.
     pub(crate) fn horizon(&self) -> ([f64; 3], f64) {
         (self.phi, 24.0 * ROUNDING * self.phi_size)
     }

@@ -161,8 +161,8 @@ pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
 
-/// Returns the picture in colours: each polygon in the colour that `colour` returns for its number, darker
-/// the more obliquely it is seen; `background` in pixels without a polygon.
+/// Returns the picture in colours. Each polygon has the colour that `colour` returns for its number, darker
+/// the more obliquely the polygon is seen. Pixels without a polygon have the colour `background`.
 ///
 /// # Panics
 ///
@@ -269,7 +269,7 @@ mod tests {
 
     /// In floats, the vector product of the sliver's edges is 0.
     #[test]
-    fn the_normal_of_a_sliver_is_that_of_its_plane() {
+    fn a_sliver_has_the_normal_of_its_plane() {
         let sliver = [
             [-281_474_976_710_656, -140_737_488_355_328, -140_737_488_355_328],
             [121_780_518_933_211, -326_184_141_481_648, -44_014_312_109_210],

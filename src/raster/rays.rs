@@ -11,7 +11,7 @@ use crate::viewpoint::Viewpoint;
 
 /// The rays of a camera through a scene, in integer lattice coordinates.
 ///
-/// With x and y the column and row of a pixel, and only integer vectors:
+/// Here x and y are the column and the row of a pixel, and all vectors are integers:
 ///
 /// | camera | the ray through the centre of pixel (x, y) |
 /// |---|---|
@@ -19,8 +19,9 @@ use crate::viewpoint::Viewpoint;
 /// | parallel | through the point base + x·right + y·down, in the same direction for all pixels |
 ///
 /// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel unless it is
-/// more than a million extents away, and every decision after that is exact. Narrower views are an error. The
-/// eye and the direction are those of [`Eye`], which trees also use for orders.
+/// more than a million extents away, and every decision after that is exact. Views too narrow for this
+/// precision are an error. The eye and the direction are rounded as in [`Eye`], which trees also use for
+/// orders.
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
 /// such as the cells of a partition, may share them. A function that takes rays and faces of different
@@ -31,8 +32,8 @@ pub struct Rays {
     pub(super) size: [u32; 2],
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
-    /// The height of the whole picture of which these rays are some rows; `above` is the number of rows above
-    /// them.
+    /// The height of the whole picture. These rays may be only some of its rows; `above` is the number of
+    /// rows above the first of these rays.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
@@ -72,21 +73,23 @@ pub(super) enum Given {
 /// The magnitude of directions, and the largest shift of an eye (its distance in powers of two
 /// beyond 2⁶¹).
 ///
-/// With 52-bit coordinates, a normal has 105 bits, a plane at the eye 189, a normal along a direction 168,
-/// and the product of two such 358: every decision fits [`Digits`](super::digits). Too large: a wide view
-/// leaves the [`REGION`], because a direction's components, and those of `right` and `down` times the
-/// picture's sides, add up to three times as much. Too small: narrow views are rejected.
+/// With 52-bit coordinates, a normal has 105 bits, the value of a plane at the eye 189, the product of a
+/// normal and a direction 168, and the product of these two numbers 358: every decision fits
+/// [`Digits`](super::exact::Digits). Too large: a wide view leaves the [`REGION`], because the components of
+/// a direction, and the components of `right` and `down` times the picture's sides, add up to three times as
+/// much. Too small: narrow views are rejected.
 const DIRECTION: f64 = (1u64 << 58) as f64;
 const FURTHEST: u32 = 20;
 /// The magnitude of points on parallel rays, and of directions, is below this.
 const REGION: f64 = (1u64 << 60) as f64;
-/// The least size of a pixel for each ray of the picture's width and height. Components of `right` and `down`
-/// are rounded by at most 1: a ray is off by √3/2 for each ray of the width and the height between it and the
-/// middle and beyond. An error e of a direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h
-/// is the distance of the picture's plane from the eye, and σ the smallest singular value of the matrix with
-/// the columns `right` and `down`. With the angle φ between the two, σ² ≥ min(|right|, |down|)² · (1 − |cos
-/// φ|). (For square pixels it is equal.) σ is the pixel's size here. Too small: rays are off by more than a
-/// thousandth of a pixel. Too large: usable narrow views are rejected.
+/// The least size of a pixel, divided by the sum of the picture's width and height in rays. Components of
+/// `right` and `down` are rounded by at most 1, and a ray is at most half the width and half the height away
+/// from the middle. So it is off by at most √3/2 times that sum. An error e of a direction d moves the ray,
+/// in pixels, by at most |e| · |d| / (h · σ): h is the distance of the picture's plane from the eye, and σ
+/// the smallest singular value of the matrix with the columns `right` and `down`. With the angle φ between
+/// `right` and `down`, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the
+/// pixel's size here. Too small: rays are off by more than a thousandth of a pixel. Too large: usable narrow
+/// views are rejected.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
@@ -106,7 +109,7 @@ impl Rays {
     }
 
     /// Creates the rays of a camera through a scene, `samples` by `samples` in each pixel, evenly spread: a
-    /// picture `samples` times as wide and as high. It may be larger than cameras allow; draw it by
+    /// picture `samples` times as wide and as high. The picture may be larger than cameras allow; draw it by
     /// [`rows`](Self::rows).
     ///
     /// # Errors
@@ -151,7 +154,7 @@ impl Rays {
         }
     }
 
-    /// Rays with pixels of the width and height `steps`; an error if their size is less than `finest`.
+    /// Rays with pixels of the width and height `steps`. Fails if the size of a pixel is less than `finest`.
     /// `middle` is the parameter of the middle ray.
     #[allow(clippy::too_many_arguments, reason = "both kinds of camera differ in all of them")]
     fn build(
@@ -305,10 +308,10 @@ impl Rays {
         }
     }
 
-    /// The eye relative to a lattice point; for parallel rays, the point of the first pixel's ray. Each
+    /// The eye, or for parallel rays the point of the first pixel's ray, relative to a lattice point. Each
     /// component is within 2.4 roundings.
     ///
-    /// (An integer beyond 2⁵³, rounded, minus a coordinate of at most 2⁵¹.)
+    /// (An integer beyond 2⁵³ is rounded, and so is its difference from a coordinate of at most 2⁵¹.)
     #[inline]
     pub(crate) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
@@ -430,8 +433,8 @@ impl Rays {
 }
 
 /// The length of the longest line of sight in a perspective camera's picture, at distance 1; or, if larger,
-/// the length that keeps rays in the [`REGION`]. (It is never larger if the camera is not off-axis and its
-/// pixels are not skewed: see [`DIRECTION`].)
+/// the length that keeps rays in the [`REGION`]. (The second length is larger only if the camera is off-axis
+/// or its pixels are skewed: see [`DIRECTION`].)
 fn reach(camera: &Camera) -> f64 {
     let (middle, [x, y]) = (camera.middle(), camera.half_size());
     let (across, rise) = (camera.right() * x, camera.up() * y);
@@ -464,8 +467,9 @@ fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 /// rounded by ε, of their vector products by 4 ε of the product of two lengths, and the determinant by 8 ε of
 /// the product of three lengths. A row is at least V times the product of two lengths, so it is off by less
 /// than 24 ε / V of itself. Its product with a vector, which is off by 2.4 ε, is off by less than (24 / V +
-/// 6) ε of the product of both lengths. In terms of the sum of the row's components and the largest of the
-/// vector's, that is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than 2⁻⁴⁷ / V otherwise.
+/// 6) ε of the product of both lengths. As a multiple of the sum of the row's components and the largest
+/// component of the vector, the error is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than
+/// 2⁻⁴⁷ / V otherwise.
 fn rounding(columns: [DVec3; 3]) -> f64 {
     let [a, b, c] = columns.map(DVec3::normalize);
     let volume = a.dot(b.cross(c)).abs();

@@ -14,7 +14,7 @@ use crate::error::{Error, Kind};
 /// Too small: large scenes cannot be generated.
 const MOST: u32 = 20_000_000;
 
-/// The generator of a scene. If it has a size: the default size, and the meaning of a size.
+/// The generator of a scene. For scenes of several sizes, also the default size and the meaning of a size.
 #[derive(Clone, Copy)]
 enum Recipe {
     OfOneSize(fn() -> Scene),
@@ -34,7 +34,7 @@ macro_rules! builtin {
         }
 
         impl Builtin {
-            /// Every scene, in the order of listings.
+            /// Every scene, in the order in which they are listed.
             pub const ALL: &'static [Self] = &[$(Self::$scene),*];
 
             fn row(self) -> (&'static str, &'static str, Recipe) {

@@ -19,8 +19,8 @@ fn of_eight_colours(name: String) -> Scene {
 ///
 /// This is the classic counterexample to sorting by depth, after M. E. Newell, R. G. Newell and T. L. Sancha,
 /// "A solution to the hidden surface problem", ACM 1972. Here the bars are axis-aligned boxes of 9 × 1 × 1
-/// along x, y and z that do not touch, cyclic permutations of one another. Seen from (1, 1, 1), the bar along
-/// y covers the bar along x, z covers y, and x covers z.
+/// along x, y and z, which do not touch. A cyclic permutation of the axes maps each bar to the next. Seen
+/// from (1, 1, 1), the bar along y covers the bar along x, z covers y, and x covers z.
 pub fn newell_bars() -> Scene {
     let mut scene = Scene::new("newell", DVec3::Z).with_view(DVec3::splat(9.0), DVec3::ZERO);
     let mut low = DVec3::new(-4.5, 0.5, -1.5);
@@ -44,8 +44,8 @@ pub fn newell_bars() -> Scene {
 /// Returns `count` upright squares of side 2 that all cross in the z axis, like the leaves of a revolving
 /// door; up is z.
 ///
-/// Square `i` is turned by `i`/`count` of half a turn, so two squares are perpendicular. `2·count` pieces
-/// suffice for an order.
+/// Square `i` is turned by `i`/`count` of half a turn. If `count` is 2, the squares are perpendicular.
+/// `2·count` pieces suffice for an order.
 pub fn crossing(count: u32) -> Scene {
     let mut scene = of_eight_colours(format!("crossing:{count}"))
         .with_view(DVec3::new(2.5, -4.5, 2.0), DVec3::ZERO);
@@ -173,8 +173,8 @@ const PLOT: f64 = 30.0;
 /// Returns a city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
 ///
 /// There are `side`² houses, with `side` = √((`polygons` − 1)/5) rounded, at least 1: axis-aligned boxes
-/// without an underside, 12 to 24 wide and deep, 6 to 120 high, that stand apart. Low houses are frequent,
-/// high houses rare.
+/// without an underside, 12 to 24 wide and deep and 6 to 120 high. The houses do not touch. Low houses are
+/// frequent, high houses rare.
 pub fn city(polygons: u32, seed: u64) -> Scene {
     let wanted = (f64::from(polygons.saturating_sub(1)) / 5.0).sqrt();
     let side = wanted.round().max(1.0) as u32;
@@ -224,8 +224,8 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
     scene
 }
 
-/// Repeats until the triangle fits; about one in 16 does. A thousand consecutive misses are practically
-/// impossible; then a fixed triangle ends the loop.
+/// Draws triangles until one fits; about one in 16 does. After a thousand consecutive misses, which are
+/// practically impossible, returns a fixed triangle.
 fn random_triangle(random: &mut SplitMix64) -> [DVec3; 3] {
     let draw = |_| {
         let a = random.point(0.0, 1.0);
@@ -255,7 +255,7 @@ pub fn chain(count: u32) -> Scene {
     scene
 }
 
-/// Returns `count` nested squares, `gap` above one another; up is z.
+/// Returns `count` nested squares, each `gap` above the next larger square; up is z.
 ///
 /// Square `i` lies at height `i`·`gap`, faces up, and is centred on the z axis. The lowest square has side 2,
 /// and each square is smaller by 2/`count` than the square below, so a strip of every layer is visible from

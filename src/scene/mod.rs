@@ -205,8 +205,8 @@ impl Scene {
         &self.corners[start..self.ends[index]]
     }
 
-    /// Returns every polygon, in order: a slice of corners with its precision, on which the default tolerance
-    /// depends.
+    /// Returns the polygons, in order. Each is a slice of corners with a precision, on which the default
+    /// tolerance depends.
     pub fn polygons(&self) -> impl ExactSizeIterator<Item = ScenePolygon<'_>> + Clone {
         let polygon =
             |index| ScenePolygon { corners: self.polygon(index), precision: self.precision };
@@ -222,7 +222,7 @@ impl Scene {
         self.precision
     }
 
-    /// Returns the texture coordinates of a corner of a polygon, if they are in the file.
+    /// Returns the texture coordinates of a corner of a polygon. `None` if the file gives none.
     ///
     /// # Panics
     ///
@@ -231,8 +231,8 @@ impl Scene {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// Returns the normal at a corner of a polygon, as in the file: its length may not be 1. `None` if the file has
-    /// none.
+    /// Returns the normal at a corner of a polygon, as in the file; its length may differ from 1. `None` if
+    /// the file gives no normal.
     ///
     /// # Panics
     ///
@@ -241,8 +241,8 @@ impl Scene {
         self.attribute(&self.attributes.normals, polygon, corner)
     }
 
-    /// Returns the colour of a corner of a polygon, if it is in the file: red, green and blue as in the file,
-    /// usually from 0 to 1.
+    /// Returns the colour of a corner of a polygon: red, green and blue as in the file, usually from 0 to 1.
+    /// `None` if the file gives no colour.
     ///
     /// # Panics
     ///
@@ -292,8 +292,8 @@ impl Scene {
         Some(rest.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
     }
 
-    /// Returns an eye point and a target, for scenes that have a usual or only possible view, such as the
-    /// Cornell box through its open side.
+    /// Returns an eye point and a target, for scenes that have a usual view or only one possible view, such
+    /// as the Cornell box through its open side.
     pub fn suggested_view(&self) -> Option<(DVec3, DVec3)> {
         self.view
     }

@@ -28,15 +28,15 @@ impl Scene {
     /// coordinates of a `v` line are left out. A line that ends in a backslash continues in the next line.
     ///
     /// Coordinates are read as `f64`. The scene's [`precision`](Self::precision) is four units in the last
-    /// decimal that they need. Either the number of decimals is fixed in the file, or the number of
-    /// significant digits of the largest coordinates. Zeros at the end of all coordinates do not count
-    /// (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15 significant digits is
-    /// first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate of less than about 10⁻¹¹
-    /// of the largest counts as 0. A few computed numbers do not decide for all. Suppose that at most one
-    /// coordinate in 100 has nine significant digits or more *and* more decimals than all coordinates with
-    /// fewer digits. Then only the first three digits of such coordinates count. If all coordinates of nine
-    /// digits and more (except one in 100) are `f32` numbers up to their written digits, a unit is a step of
-    /// `f32` of the largest coordinate. Up is y, because OBJ files do not define it.
+    /// decimal that the coordinates need. A file has either a fixed number of decimals, or a fixed number of
+    /// significant digits; in the latter case the largest coordinates decide. Zeros at the end of all
+    /// coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15
+    /// significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate
+    /// below about 10⁻¹¹ times the largest counts as 0. A few computed numbers do not decide for all. Suppose
+    /// that at most one coordinate in 100 has nine significant digits or more *and* more decimals than all
+    /// coordinates with fewer digits. Then only the first three digits of such coordinates count. If all
+    /// coordinates of nine digits and more (except one in 100) are `f32` numbers up to their written digits,
+    /// the unit is the `f32` step of the largest coordinate. Up is y, because OBJ files do not define it.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB, with its `d` or `Tr` as opacity. A missing
     /// or unreadable library is not an error: its materials appear as
@@ -160,7 +160,7 @@ struct Given {
     colors: Vec<Option<[f32; 3]>>,
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
-    /// For each corner the numbers from 0 of its vertex, its `vt` line and its `vn` line.
+    /// For each corner the numbers, counted from 0, of its vertex, its `vt` line and its `vn` line.
     corners: Vec<[Option<u32>; 3]>,
     /// Malformed references.
     faults: usize,
@@ -197,8 +197,8 @@ impl Given {
     }
 }
 
-/// The values of corners, given their numbers; empty if no corner has a value. Counts numbers beyond the
-/// last.
+/// The values of corners, given their numbers; empty if no corner has a value. Adds the count of numbers
+/// beyond the last value to `faults`.
 fn of_corners<T: Copy>(
     numbers: impl Iterator<Item = Option<u32>>,
     values: &[Option<T>],
@@ -242,7 +242,7 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
 pub struct ObjStream {
     path: PathBuf,
     vertices: Vec<DVec3>,
-    /// Whether a polygon has each vertex.
+    /// For each vertex, whether a polygon uses it.
     is_used: Vec<bool>,
     scene: Scene,
     report: ObjReport,
@@ -258,7 +258,8 @@ impl ObjStream {
         let path = path.as_ref();
         let name = path.display().to_string();
         let (mut vertices, mut is_used) = (Vec::new(), Vec::new());
-        // Vertices that are named before they are defined: whether they exist is known only at the end.
+        // Vertices that faces name before the vertices are defined. Whether they exist is known only at the
+        // end.
         let mut ahead = Vec::new();
         let (mut contents, _) = read(&name, open_regular(path), |statement, _| {
             match statement {
@@ -300,7 +301,7 @@ impl ObjStream {
         &self.report
     }
 
-    /// Returns the vertices of polygons, each once.
+    /// Returns the vertices that polygons use, each once.
     pub fn corners(&self) -> impl Iterator<Item = DVec3> + Clone {
         let used = self.vertices.iter().zip(&self.is_used).filter(|&(_, &is_used)| is_used);
         used.map(|(&vertex, _)| vertex)
@@ -466,7 +467,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_was_left_out_is_said() {
+    fn only_parts_left_out_are_reported() {
         let mut report = ObjReport { faces: 7, ..ObjReport::default() };
         assert!(report.is_clean());
         assert_eq!(report.to_string(), "");

@@ -10,7 +10,7 @@ use crate::save::{Kind, Reader, Writer, damaged, too_many, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"scen", version: 1 };
 
-/// More polygons, corners or materials than a tree can have.
+/// A limit above the number of polygons, corners or materials that a tree can have.
 const MOST: usize = u32::MAX as usize;
 /// The largest number of bytes of a name.
 const LONGEST: usize = 1 << 16;
@@ -102,7 +102,7 @@ impl Scene {
             Ok((read_name(file)?, f32s(&file.bytes::<16>("materials")?)))
         };
         let count = file.count("materials", MOST)?;
-        // It grows with the bytes read.
+        // The list grows with the bytes read, so a wrong count reserves no memory.
         let materials: Vec<_> =
             (0..count).map(|_| material(&mut file)).collect::<Result<_, _>>()?;
         let mut corners = 0_u64;

@@ -1,4 +1,4 @@
-//! The default heuristic: two kinds of candidates, free planes and the pieces' own planes, and one cost.
+//! The default heuristic. One cost compares two kinds of candidates: free planes and the pieces' own planes.
 
 use super::axis_planes::FreePlanes;
 use super::cost::{CostModel, PricedPlane};
@@ -23,10 +23,11 @@ pub(super) struct Auto {
 }
 
 impl Auto {
-    /// Returns the first that applies: in frames, an own plane that is good enough; the plane on which all
-    /// pieces lie; of two pieces, the plane of one that does not cut the other; a free plane that cuts
-    /// nothing; pieces that are peeled off; the plane of least cost. Writes the sides of the pieces on the
-    /// plane, if known.
+    /// Returns the first of the following that exists: in frames, an own plane that is good enough; the plane
+    /// on which all pieces lie; in a set of two pieces, the plane of a piece that does not cut the other
+    /// piece; a free plane that cuts nothing; pieces that can be peeled off; the plane with the lowest cost.
+    /// (In a small set, an own plane that cuts nothing and divides the set evenly precedes peeling.) Writes
+    /// the plane and the pieces' sides to `division`, if the sides are known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -67,11 +68,12 @@ impl Auto {
         }
     }
 
-    /// The plane on which all pieces lie, if it is the plane of a large piece; also for a single piece.
+    /// Returns the plane on which all pieces lie, if it is the plane of a large piece. A single piece has
+    /// such a plane.
     pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
         sketch.reset(set);
-        // The planes of small pieces may miss the others because of rounding.
+        // The planes of small pieces may miss the other pieces because of rounding.
         let size = |&piece: &usize| {
             let Piece { min, max, .. } = set.pieces[piece];
             (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max)
@@ -187,7 +189,7 @@ mod tests {
     use crate::random::SplitMix64;
 
     #[test]
-    fn two_pieces_are_divided_by_a_plane_of_theirs_unless_both_are_cut() {
+    fn two_pieces_are_divided_by_the_plane_of_one_unless_both_planes_cut() {
         let mut random = SplitMix64::new(9);
         let mut found = [0; 3];
         for _ in 0..300 {
@@ -217,7 +219,8 @@ mod tests {
         }
     }
 
-    /// The piece is so near that single precision cannot decide, at any place among the others.
+    /// The odd piece is so near the plane that single precision cannot decide. It is noticed at every place
+    /// in the set.
     #[test]
     fn one_piece_beside_the_plane_of_all_others_is_noticed() {
         let flat = grid(4, |_| 0.0);

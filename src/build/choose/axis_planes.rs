@@ -1,5 +1,4 @@
-//! The best plane of a set of pieces that is perpendicular to an axis and goes through a corner, by bins
-//! and by sorting.
+//! Finds the best plane that is perpendicular to an axis and goes through a corner, by bins or by sorting.
 
 use std::cmp::Ordering;
 
@@ -27,7 +26,7 @@ const MOST_BINS: usize = 256;
 #[derive(Debug, Default)]
 pub(super) struct FreePlanes {
     bins: Vec<Bin>,
-    /// The begin, the end and the number of each piece of a small set.
+    /// The beginning, the end and the number of each piece of a small set.
     spans: Vec<(f64, f64, u32)>,
 }
 
@@ -35,9 +34,9 @@ impl FreePlanes {
     /// Searches for an axis plane of low cost that has fewer pieces on each side than the set.
     ///
     /// Counts the bins in which pieces begin and end (binned sweep: Wald, “On fast construction of SAH-based
-    /// bounding volume hierarchies”, 2007). The candidates are the borders of bins, and the places inside
-    /// bins at which all ends of the bin precede its first beginning: rows of vertices, and gaps. The corner
-    /// nearest the best candidate names the plane. Takes O(n) time.
+    /// bounding volume hierarchies”, 2007). The candidates are the borders of bins, and one place inside each
+    /// bin in which all ends of pieces precede all beginnings. Such places are rows of vertices, and gaps.
+    /// The corner nearest the best candidate names the plane. Takes O(n) time.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -74,7 +73,7 @@ impl FreePlanes {
                 places.push(best);
             }
         }
-        // If many ends are cuts, the nearest corner may be so far away that its plane separates nothing.
+        // If many pieces end at cuts, the nearest corner may be so far away that its plane separates nothing.
         places.sort_by(|a, b| a.0.cmp(&b.0));
         let mut planes = places.into_iter().filter_map(|(_, axis, at)| through(set, axis, at));
         Ok(planes.next())
@@ -96,8 +95,8 @@ impl FreePlanes {
         }
     }
 
-    /// Searches for the free plane of least cost among the planes that cut nothing. It sorts the set, which
-    /// takes less time than counting by bins if the set is small.
+    /// Searches for the free plane with the lowest cost among the planes that cut nothing. Sorts the set; in
+    /// small sets this takes less time than counting by bins.
     pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
@@ -160,8 +159,8 @@ fn through(set: &Set<'_>, axis: usize, at: f64) -> Option<PricedPlane> {
     cost.is_less(&Cost::MOST).then(|| PricedPlane { plane: PlaneId::axis(axis, corner), cost })
 }
 
-/// A plane between two pieces, the first of which ends before the second begins: at an end of a piece, or
-/// otherwise through a corner of their faces that was cut off.
+/// Returns a plane between two pieces. The first piece ends before the second begins. The plane goes through
+/// an end of a piece, or otherwise through a cut-off corner of a piece's face.
 fn between(faces: &Faces, axis: usize, [first, next]: [&Piece; 2]) -> Option<Through> {
     let [low, high] = [first.max[axis], next.min[axis]];
     if next.min_is_corner(axis) {
@@ -194,17 +193,18 @@ fn compare(a: &f64, b: &f64) -> Ordering {
     }
 }
 
-/// The coordinates where a piece begins to reach behind a plane across an axis, and where it no longer
-/// reaches in front of it, by more than the tolerance. They are equal for a piece thinner than twice the
-/// tolerance.
+/// Returns two coordinates. A piece reaches behind a plane across the axis by more than the tolerance if the
+/// plane's coordinate is above the first. It reaches in front of the plane by more than the tolerance if the
+/// plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two coordinates
+/// are equal.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];
     if begin <= end { [begin, end] } else { [0.5 * (begin + end); 2] }
 }
 
-/// The cost of a plane, given how many of the `n` pieces have begun there, have ended there, and lie on it;
-/// more than any other cost if all pieces are on one side.
+/// The cost of a plane that divides `n` pieces: `begun` pieces begin before the plane, `ended` pieces end
+/// before it, and `on` pieces lie on it. Returns [`Cost::MOST`] if all pieces are on one side.
 #[inline]
 fn cost(n: usize, begun: u32, ended: u32, on: u32) -> Cost {
     let n = n as u32;
@@ -257,7 +257,7 @@ impl Bins {
         Self { start: set.min, per_unit, last }
     }
 
-    /// The bin of a coordinate; a larger one is never in an earlier bin.
+    /// The bin of a coordinate. A larger coordinate is never in an earlier bin.
     #[inline]
     fn of(&self, axis: usize, coordinate: f64) -> usize {
         let place = (coordinate - self.start[axis]) * self.per_unit[axis];
@@ -272,7 +272,7 @@ impl Bins {
     }
 }
 
-/// A free plane that has no name yet.
+/// A free plane before its [`PlaneId`] is known.
 #[derive(Clone, Copy, Debug)]
 struct FreePlane {
     cost: Cost,
@@ -290,7 +290,7 @@ enum Through {
 }
 
 impl FreePlane {
-    /// The plane by the name of a corner on it.
+    /// Returns the plane, named by a corner that lies on it.
     fn with_corner(&self, set: &Set<'_>) -> Option<PricedPlane> {
         let Self { cost, axis, through } = *self;
         let coordinate = match through {

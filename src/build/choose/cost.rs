@@ -8,7 +8,7 @@ use super::tuning::Tuning;
 use crate::build::piece::Division;
 use crate::exact::{PlaneId, Side};
 
-/// The numbers of pieces in front of a plane, behind it, and across.
+/// The numbers of pieces in front of a plane, behind it, and across it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) front: u32,
@@ -35,11 +35,11 @@ impl AddAssign for Counts {
     }
 }
 
-/// The cost of dividing a set by a plane. The lower cost is the better.
+/// The cost of dividing a set by a plane. A lower cost is better.
 ///
-/// A plane that cuts nothing costs less than any that cuts: it adds no fragment, now or later. (Any tree of
-/// a set, restricted to one side of a plane, is a tree of that side.) For large sets, cuts are ignored here
-/// (see `CostModel::large`).
+/// A plane that cuts nothing costs less than any plane that cuts: it adds no fragment, now or later. (Any
+/// tree of a set, restricted to one side of a plane, is a tree of that side.) For large sets, cuts are
+/// ignored here (see `CostModel::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,
@@ -90,28 +90,27 @@ pub(super) struct CostModel {
 }
 
 impl CostModel {
-    /// For a small set, which prefers planes that cut nothing.
+    /// The weights for a small set, where planes that cut nothing are preferred.
     pub(super) fn small(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self::of(set.len(), set.pieces.iter().map(|piece| usize::from(piece.cuts)).sum(), tuning)
     }
 
-    /// Cost terms for `pieces` pieces that have been split `cuts` times in total.
+    /// The weights for `pieces` pieces that have been cut `cuts` times in total.
     pub(super) fn of(pieces: usize, cuts: usize, tuning: &Tuning) -> Self {
         let pieces = pieces as f64;
         let mean = cuts as f64 / pieces;
         Self { reward: tuning.reward * (1.0 + mean) * pieces, prefers_uncut: true }
     }
 
-    /// For a large set, cuts are ignored. The first rounds use a sample, and many planes that cut much of the
-    /// set cut nothing of the sample. Planes at the boundary of a set also cut nothing, but they would make a
-    /// list of it.
+    /// The weights for a large set, where cuts are ignored. The first rounds use a sample, and many planes
+    /// that cut much of the set cut nothing of the sample. Planes at the boundary of a set also cut nothing,
+    /// but they would turn the set into a list.
     pub(super) fn large(set: &Set<'_>, tuning: &Tuning) -> Self {
         Self { prefers_uncut: false, ..Self::small(set, tuning) }
     }
 
-    /// The same terms for counts over a sample of `looked` of `all` pieces. (Work is a power of the number of
-    /// pieces, so the work of a share of the pieces is a fixed share of the work, and costs of samples
-    /// compare.)
+    /// The same weights for counts over a sample of `looked` of `all` pieces. (Work is a power of the number
+    /// of pieces, so costs over a sample are costs over all pieces times one factor.)
     pub(super) fn of_sample(&self, looked: usize, all: usize) -> Self {
         Self { reward: self.reward * work(looked) / work(all), ..*self }
     }
@@ -122,7 +121,7 @@ impl CostModel {
         Cost { amount: cost.amount - self.reward * share, ..cost }
     }
 
-    /// A cost in the form in which these terms compare it.
+    /// Returns the cost for comparison with these weights: without its cuts, if cuts are ignored.
     #[inline]
     pub(super) fn compared(&self, cost: Cost) -> Cost {
         Cost { cuts: cost.cuts && self.prefers_uncut, ..cost }
@@ -136,9 +135,9 @@ pub(super) struct PricedPlane {
     pub(super) cost: Cost,
 }
 
-/// The work of sorting `n` pieces into an order: n^1.25.
+/// The estimated work of building a tree of `n` pieces: n^1.25.
 ///
-/// It grows faster than n·log n, the work of sorting, because a larger set is also cut more. Too large an
+/// This grows faster than the work of sorting, n·log n, because a larger set is also cut more. Too large an
 /// exponent: scans are cut more for better balance. Too small: planes at the boundary are preferred in sets
 /// where every plane cuts much.
 #[inline]
@@ -149,8 +148,8 @@ pub(super) fn work(n: usize) -> f64 {
     })
 }
 
-/// The work of small sets, the most frequent case: computing two square roots each time makes builds 2 to 4
-/// % longer.
+/// The work of small sets, the most frequent case. Computing two square roots each time makes builds longer
+/// by 2 to 4 %.
 static WORK: [f64; 1024] = {
     let (mut table, mut n) = ([0.0; 1024], 1);
     while n < table.len() {
@@ -160,7 +159,7 @@ static WORK: [f64; 1024] = {
     table
 };
 
-/// The square root of a number from 1 on, by Newton's method.
+/// The square root of a number of at least 1, by Newton's method.
 const fn sqrt(x: f64) -> f64 {
     let (mut root, mut steps) = (x, 0);
     while steps < 16 {
@@ -194,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn terms_of_large_sets_leave_out_whether_a_plane_cuts() {
+    fn weights_of_large_sets_ignore_cuts() {
         let [small, large] =
             [true, false].map(|prefers_uncut| CostModel { reward: 10.0, prefers_uncut });
         let even = Counts { front: 45, back: 45, splits: 10 };
@@ -206,9 +205,9 @@ mod tests {
         assert!(counts_cuts(&small) && !counts_cuts(&large));
     }
 
-    /// Half of a set, and half of each count: all costs are less by the same factor.
+    /// Halving a set and all counts reduces all costs by the same factor.
     #[test]
-    fn costs_of_samples_compare_as_those_of_all() {
+    fn costs_of_a_sample_are_proportional_to_costs_of_the_set() {
         let terms = CostModel { reward: 300.0, prefers_uncut: false };
         let half = terms.of_sample(200, 400);
         for (front, back, splits, share) in

@@ -1,5 +1,5 @@
-//! The choice of planes for small sets in frames: own planes first, because each tree is ordered once or
-//! twice. Also tests whether two pieces cross.
+//! The choice of planes for small sets in frames: own planes first, because each tree is ordered only once or
+//! twice. Also contains the test whether two pieces cross.
 
 use glam::DVec3;
 
@@ -11,11 +11,12 @@ use crate::build::piece::{Division, Piece};
 use crate::exact::{Faces, LATTICE_LIMIT, PlaneId, RoundedNormal, Side, Vertex};
 
 impl FrameTuning {
-    /// The share of its set's box that a piece has to fill for its plane to be trusted at once.
+    /// The share of the set's box that a piece has to fill so that its plane can be used without further
+    /// search.
     ///
     /// Corners in `f32` are rounded, so small polygons that were meant to lie in one plane have different
-    /// planes. Far from such a polygon, its plane is off by more than the tolerance: it would separate other
-    /// polygons that belong together.
+    /// planes. Far from such a polygon, the error of its plane exceeds the tolerance, and the plane would
+    /// separate other polygons that were meant to lie in one plane.
     fn least_share(&self, faces: &Faces) -> f64 {
         if self.is_coarse(faces) { self.trusted_share } else { 0.0 }
     }
@@ -26,9 +27,9 @@ impl FrameTuning {
     }
 }
 
-/// Tries the planes of a few pieces, and returns the first good one. A plane is good if it can be trusted,
-/// and either cuts nothing and divides the set evenly, or cuts few pieces that all cross its own piece.
-/// Writes the sides of the pieces on it.
+/// Tries the planes of a few pieces, and returns the first good one. A plane is good if its piece is large
+/// enough, and the plane either cuts nothing and divides the set evenly, or cuts few pieces that all cross
+/// the plane's own piece. Writes the plane and the pieces' sides to `division`.
 pub(super) fn find_own(
     set: &Set<'_>,
     tuning: &Tuning,
@@ -45,8 +46,8 @@ pub(super) fn find_own(
     own.map(|own| set.own_plane(own))
 }
 
-/// Whether the plane of a piece cuts some pieces, and all of them cross the piece. Any tree has to cut either
-/// them or the piece.
+/// Whether the plane of a piece cuts some pieces, and all of these cross the piece. Any tree has to cut one
+/// of two crossing pieces.
 fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
     let mut cut = (0..set.len()).filter(|&other| division.sides[other] == Side::Spanning);
     division.count(Side::Spanning) > 0
@@ -56,10 +57,10 @@ fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
         })
 }
 
-/// The largest distance of a plane from a vertex, in the `size` of its rounded normal. The vertex is rounded
-/// by less than 1 lattice unit. Its difference from the plane's point is below 2⁵³ and rounded by ½. The
-/// normal's components are off by 2⁻⁵² of their shares of the size together, and their products and sums by
-/// as much again: 4 units.
+/// The largest error of a vertex's computed distance from a plane, in units of the `size` of the plane's
+/// rounded normal. The vertex is rounded by less than 1 lattice unit. Its difference from the plane's point
+/// is below 2⁵³ and rounded by ½. The errors of the normal's components add up to 2⁻⁵² of the size, and the
+/// errors of the products and sums add as much again: 4 units.
 const PLANE_OFF: f64 = 6.0;
 /// The largest error of a coordinate of the difference of two vertices, in lattice units: each vertex is
 /// rounded by less than 1, and the difference by ½.
@@ -68,12 +69,12 @@ const ARM_OFF: f64 = 2.5;
 /// each: six products of three factors, and their sums.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Whether two pieces certainly cross: no tree leaves both whole, except by its tolerance.
+/// Whether two pieces certainly cross. Without a tolerance, any tree cuts one of two crossing pieces.
 ///
-/// Each is cut by the plane of the other along a segment of the line in which the two planes meet, and the
-/// segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using orientation
-/// predicates”, 2003). Returns false if rounding may decide, for example if pieces only touch or lie nearly
-/// in one plane.
+/// The plane of each piece cuts the other piece along a segment of the line in which the planes meet, and the
+/// two segments overlap (Guigue and Devillers, “Fast and robust triangle-triangle overlap test using
+/// orientation predicates”, 2003). Returns false if rounding may decide, for example if pieces only touch or
+/// lie nearly in one plane.
 fn crosses(faces: &Faces, arena: &[Vertex], a: &Piece, b: &Piece) -> bool {
     if (0..3).any(|axis| a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) {
         return false;
@@ -93,7 +94,8 @@ struct Ends {
 }
 
 impl Ends {
-    /// The edges of a piece at the plane of a face; `None` if the outline may not cross it.
+    /// The edges in which the outline of a piece crosses the plane of a face; `None` if the outline does not
+    /// certainly cross the plane.
     fn of(faces: &Faces, arena: &[Vertex], piece: &Piece, plane: u32) -> Option<Self> {
         let triangle = faces.triangle(plane);
         let RoundedNormal { normal, size } = RoundedNormal::through(triangle);
@@ -146,7 +148,7 @@ mod crossing_tests {
         crosses(&fixture.faces, &[], &fixture.pieces[0], &fixture.pieces[1])
     }
 
-    /// A square of side 2 in the plane z = 0, and one in the plane x = 0, moved along y and z.
+    /// A square of side 2 in the plane z = 0, and a square in the plane x = 0, which is moved along y and z.
     #[test]
     fn pieces_cross_where_an_edge_of_one_goes_through_the_other() {
         let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
@@ -189,16 +191,16 @@ mod crossing_tests {
         })
     }
 
-    /// Triangles of every size, some of which miss each other by any power of two.
+    /// Half of the pairs nearly touch, at distances of many powers of two.
     #[test]
-    fn what_certainly_crosses_does_so_in_integers() {
+    fn pieces_that_certainly_cross_do_so_in_integers() {
         let mut random = SplitMix64::new(5);
         let (mut certain, mut near) = (0, 0);
         for round in 0..20_000 {
             let size = 2f64.powf(random.range(-40.0, 0.0));
             let [a, mut b] = [(); 2].map(|()| triangles(&mut random, 1, 1.0)[0]);
             if round % 2 == 0 {
-                // The first triangle with one corner moved off its plane, and each corner moved a little.
+                // Three points on the edges of the first triangle, each moved a little.
                 b = [a[0].lerp(a[1], 0.3), a[2].lerp(a[1], 0.2), a[2].lerp(a[0], 0.4)];
                 b = b.map(|corner| corner + random.point(-size, size));
             } else {

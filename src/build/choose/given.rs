@@ -15,9 +15,10 @@ use crate::progress::Watch;
 /// A set of two or more pieces of polygons that a build divides by a plane: the input of your own heuristic,
 /// [`BuildOptions::with_chooser`](crate::BuildOptions::with_chooser).
 ///
-/// A piece has a number, below [`piece_count`](Self::piece_count). It is a convex part of a polygon on one
-/// side of every plane nearer the root. Polygons that are not convex or not planar are divided into triangles.
-/// Positions are in the polygons' unit, rounded like [`Fragment::vertices`](crate::Fragment::vertices).
+/// Each piece has a number below [`piece_count`](Self::piece_count). A piece is a convex part of a polygon,
+/// and lies on one side of every plane nearer the root. Polygons that are not convex or not planar are
+/// divided into triangles. Positions are in the polygons' unit, rounded like
+/// [`Fragment::vertices`](crate::Fragment::vertices).
 ///
 /// # Panics
 ///
@@ -32,12 +33,14 @@ pub struct PieceSet<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SplitPlane {
-    /// The plane of a piece, given by its number. The piece itself lies on it, so it always divides a set.
+    /// The plane of a piece, given by the piece's number. The piece lies on its plane, so this plane always
+    /// divides the set.
     OfPiece(usize),
     /// A plane perpendicular to an axis. Its front is the side of larger coordinates.
     ///
-    /// Every plane of a tree contains a corner of a polygon. This plane contains the corner nearest the
-    /// coordinate, of all polygons of the build, after rounding to the grid and the tolerance.
+    /// Every plane of a tree contains a corner of a polygon. Among the corners of all polygons of the build,
+    /// this plane contains the corner nearest the coordinate. Corners have their positions after rounding to
+    /// the grid and flattening within the tolerance.
     Axis {
         /// 0, 1 or 2 for x, y or z.
         axis: usize,
@@ -98,8 +101,8 @@ impl<'a> PieceSet<'a> {
     ///
     /// These are the sides that the build will use: exact, except for the tolerance. The build uses another
     /// plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
-    /// [`Heuristic`](crate::Heuristic)). O(n) for n vertices. For an axis plane, it first searches all
-    /// corners in O(log n); the first search along an axis sorts them.
+    /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
+    /// first finds the nearest corner; the first search along an axis sorts all corners.
     pub fn sides(
         &self,
         plane: SplitPlane,
@@ -128,7 +131,7 @@ impl<'a> PieceSet<'a> {
 
 type Function = dyn Fn(&PieceSet<'_>) -> Option<SplitPlane> + Send + Sync;
 
-/// The function of a caller that chooses planes. Two functions are equal if one is a clone of the other.
+/// The caller's function that chooses planes. Two functions are equal if one is a clone of the other.
 #[derive(Clone)]
 pub(in crate::build) struct GivenChooser(pub(in crate::build) Arc<Function>);
 
@@ -145,8 +148,8 @@ impl fmt::Debug for GivenChooser {
 }
 
 impl GivenChooser {
-    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves
-    /// all pieces on one side. Writes the sides of the pieces on the plane, if known.
+    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves all
+    /// pieces on one side. Writes the pieces' sides to `division` if the function names a plane.
     pub(super) fn plane(
         &self,
         set: &Set<'_>,
@@ -155,7 +158,7 @@ impl GivenChooser {
         division: &mut Division,
     ) -> Result<Option<PlaneId>, Error> {
         let pieces = PieceSet { set, corners };
-        // A panic stops the other threads, which would call the function repeatedly.
+        // A panic stops the other threads, which would otherwise continue to call the function.
         let chosen = catch_unwind(AssertUnwindSafe(|| (self.0)(&pieces))).unwrap_or_else(|panic| {
             watch.stop();
             resume_unwind(panic)
@@ -172,8 +175,9 @@ impl GivenChooser {
 pub(in crate::build) struct SortedCorners([OnceLock<Vec<u32>>; 3]);
 
 impl SortedCorners {
-    /// Returns the corner nearest a world coordinate; of several, the corner with the smallest coordinate and
-    /// number. Takes O(log n) time for n corners, and O(n log n) at the first call for an axis.
+    /// Returns the corner nearest a world coordinate. Of several nearest corners, returns the corner with the
+    /// smallest coordinate, and among these the smallest number. Takes O(log n) time for n corners, and O(n
+    /// log n) at the first call for an axis.
     fn nearest(&self, faces: &Faces, axis: usize, coordinate: f64) -> Option<u32> {
         let at = faces.lattice().to_lattice(DVec3::splat(coordinate))[axis];
         let along = |corner: u32| faces.corner(corner)[axis];

@@ -3,9 +3,9 @@
 //! All choices go through `Chooser::choose`. `given` is the caller's function, which has priority. `auto` is
 //! the default heuristic; `own` contains the heuristics that only try the pieces' own planes, and compares
 //! these planes. `axis_planes` finds planes perpendicular to the axes. `frame_planes` finds a good enough own
-//! plane of a small set in frames. `peel` finds pieces that planes at the boundary of a set separate without
-//! a cut. `cost` compares planes, `tuning` contains the constants, and `set` a set's pieces, exact and
-//! rounded.
+//! plane for a small set in frames. `peel` finds pieces that planes at the boundary of a set separate without
+//! a cut. `cost` compares planes. `tuning` contains the constants, and `set` contains a set's pieces, exact
+//! and rounded.
 
 mod auto;
 mod axis_planes;
@@ -41,9 +41,9 @@ pub(super) struct Chooser {
 }
 
 impl Chooser {
-    /// Chooses the division of a set of at least one piece. `is_peeled` means that peeling left this set; if
-    /// it is small, peeling is not tried again. Not every chosen plane makes progress; the builder checks
-    /// this. Writes the sides of the pieces on the plane, or nothing if they are not known.
+    /// Chooses how a set of at least one piece is divided. `is_peeled` means that peeling left this set; if
+    /// the set is small, peeling is not tried again. Not every chosen plane makes progress; the builder
+    /// checks this. Writes the plane and the pieces' sides to `division`, if the sides are known.
     pub(super) fn choose(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -97,7 +97,7 @@ impl Chooser {
         }))
     }
 
-    /// The own plane of least weighted sum.
+    /// Returns the own plane with the lowest weighted sum.
     fn weighted(
         &mut self,
         rules: &ChooseContext<'_>,
@@ -114,12 +114,12 @@ impl Chooser {
     }
 }
 
-/// The division of a set.
+/// How a set is divided.
 #[derive(Debug)]
 pub(in crate::build) enum Choice {
-    /// It is divided by this plane.
+    /// This plane divides the set.
     Split(PlaneId),
-    /// These pieces are separated from it.
+    /// These pieces are separated from the set, one layer after the other.
     Peel(Peeled),
 }
 
@@ -131,7 +131,7 @@ pub(in crate::build) struct ChooseContext<'a> {
     pub(in crate::build) corners: SortedCorners,
     pub(in crate::build) heuristic: Heuristic,
     pub(in crate::build) tuning: &'a Tuning,
-    /// Once a build is cancelled, any plane is chosen, quickly.
+    /// Reports cancellation. In a cancelled build, any plane may be chosen, so that the build ends soon.
     pub(in crate::build) watch: &'a Watch<'a>,
 }
 

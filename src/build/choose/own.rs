@@ -13,12 +13,12 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
-    /// The cost of its plane, as far as known.
+    /// The cost of its plane, estimated from `counts`.
     cost: Cost,
     /// The share of the set's bounding box that the piece fills, 0 to 1.
     share: f64,
     plane: PackedPlane,
-    /// The counts of the pieces that it was compared with.
+    /// The numbers of compared pieces in front of its plane, behind it, and across it.
     counts: Counts,
 }
 
@@ -50,18 +50,18 @@ impl Shares {
 #[derive(Debug, Default)]
 pub(super) struct Candidates {
     field: Vec<Candidate>,
-    /// The number of groups of the packed pieces that they were compared with.
+    /// The number of groups of packed pieces that the candidates were compared with.
     seen: usize,
-    /// The costs of the field, by their places in it.
+    /// The costs of the candidates, with their places in the field.
     ranks: Vec<(Cost, u32)>,
-    /// The places of the candidates that had all pieces of the first sample on one side. A candidate had the
-    /// same place in the initial field and in the packed pieces.
+    /// The places of the candidates whose planes had all pieces of the first sample on one side. A candidate
+    /// had the same place in the initial field and in the packed pieces.
     one_sided: Vec<usize>,
 }
 
 impl Candidates {
-    /// Replaces the field by the first `count` pieces of the sample, and compares them with its first
-    /// pieces.
+    /// Replaces the field by the first `count` pieces of the sample, and compares their planes with the first
+    /// pieces of the sample.
     pub(super) fn begin(
         &mut self,
         set: &Set<'_>,
@@ -90,14 +90,14 @@ impl Candidates {
         self.one_sided.extend(found.map(|(place, _)| place));
     }
 
-    /// The places in the packed pieces of the candidates that had all pieces of the first sample on one
-    /// side of their planes.
+    /// Returns the places of the candidates whose planes had all pieces of the first sample on one side.
+    /// These are places in the list of packed pieces.
     pub(super) fn one_sided(&self) -> &[usize] {
         &self.one_sided
     }
 
-    /// Returns the best plane of the field, compared with larger and larger parts of the set; the earliest of
-    /// equal planes.
+    /// Returns the best plane of the field, after comparing the planes with larger and larger parts of the
+    /// set. Of equal planes, returns the earliest.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -117,7 +117,7 @@ impl Candidates {
         best.map(own)
     }
 
-    /// Keeps the best 1/`rate` of the candidates, in their order.
+    /// Keeps the best 1/`rate` of the candidates, in unchanged order.
     fn halve(&mut self, rate: usize) {
         let left = self.field.len().div_ceil(rate);
         if left == self.field.len() {
@@ -159,8 +159,9 @@ pub(super) struct Scored {
 }
 
 impl Scored {
-    /// Returns the plane of lowest score among those of `candidates` pieces; the earliest of equal planes.
-    /// The score depends on the counts and on whether the plane is perpendicular to an axis.
+    /// Returns the plane with the lowest score among the planes of `candidates` pieces. Of equal planes,
+    /// returns the earliest. The score depends on the counts and on whether the plane is perpendicular to an
+    /// axis.
     pub(super) fn best(
         &mut self,
         set: &Set<'_>,
@@ -252,7 +253,8 @@ impl Iterator for Spread {
 
 impl ExactSizeIterator for Spread {}
 
-/// A number coprime to `n`, near its golden section: its multiples are the most evenly spread.
+/// Returns a number coprime to `n`, near the golden section of `n`. Its multiples modulo `n` are spread most
+/// evenly.
 fn coprime(n: usize) -> usize {
     let section = (n as f64 * 0.618_034) as usize;
     (section.max(1)..n.max(2)).find(|&step| gcd(step as u64, n as u64) == 1).unwrap_or(1)

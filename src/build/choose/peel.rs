@@ -45,24 +45,24 @@ impl Peeled {
     }
 }
 
-/// Finds the pieces of a set whose planes have all remaining pieces on one side, and removes each at once.
-/// Its lists are reused.
+/// Finds the pieces of a set whose planes have all remaining pieces on one side. Removes each such piece
+/// before it tries the next. Its lists are reused.
 ///
 /// Separating such a piece first never adds a fragment: a tree of the whole set, without the piece and its
 /// plane, is a tree of the remaining pieces with no more fragments. A set in convex position is divided
 /// entirely if all places are tried.
 ///
-/// Exact: only certain results of the packed pieces are used, and exact arithmetic decides on pieces near a
-/// plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a piece. So a
-/// set in convex position takes O(n log n) if boxes can decide; if many pieces share a vertex, like the
-/// sides of a cone, it takes O(n²).
+/// The result is exact: only certain results of the packed pieces are used, and exact arithmetic decides on
+/// pieces near a plane. A tree of boxes around the pieces classifies all pieces except the neighbours of a
+/// piece. So a set in convex position takes O(n log n) time if boxes can decide. If many pieces share a
+/// vertex, like the sides of a cone, the set takes O(n²) time.
 #[derive(Debug, Default)]
 pub(super) struct Peeler {
     boxes: Boxes,
     /// For each group of the packed pieces, a bit for each remaining piece.
     left: Vec<u8>,
-    /// The reason why the current piece cannot be separated: a piece in front of its plane and a piece
-    /// behind, or twice the same piece across.
+    /// The reason why the current piece cannot be separated: a piece in front of its plane and a piece behind
+    /// it, or twice the same piece, which crosses the plane.
     witnesses: [u32; 2],
     /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
@@ -72,7 +72,7 @@ pub(super) struct Peeler {
     own: Vec<u32>,
 }
 
-/// The places of the two witnesses.
+/// Indices into `witnesses`.
 const FRONT: usize = 0;
 const BACK: usize = 1;
 
@@ -80,9 +80,9 @@ const BACK: usize = 1;
 const NO_PIECE: u32 = u32::MAX;
 
 impl Peeler {
-    /// Searches a set, all of whose pieces are packed, for peelable pieces at some places; returns the pieces
-    /// found, if any. If there are more groups than `tuning.groups_per_box`, each group's pieces must be near
-    /// one another (see [`arrange`]), or the boxes decide nothing.
+    /// Searches some places of a set for peelable pieces, and returns the pieces found, if any. All pieces of
+    /// the set must be packed. If there are more groups than `tuning.groups_per_box`, each group's pieces
+    /// must be near one another (see [`arrange`]), or the boxes decide nothing.
     pub(super) fn search(
         &mut self,
         set: &Set<'_>,
@@ -146,8 +146,8 @@ impl Search<'_, '_> {
         self.lists.left[p / LANES] >> (p % LANES) & 1 == 1
     }
 
-    /// Compares the other pieces with a piece's plane until some are on both sides. Returns the number of
-    /// comparisons, and whether one side may be empty.
+    /// Compares the other pieces with a piece's plane until a piece is found on each side. Returns the number
+    /// of comparisons, and whether one side may be empty.
     fn look(&mut self, p: usize, plane: &PackedPlane) -> (usize, bool) {
         self.lists.witnesses = [NO_PIECE; 2];
         let mut work = 0;
@@ -205,8 +205,8 @@ impl Search<'_, '_> {
         self.lists.near.extend(bits((near & left).into()).map(|bit| first + bit as u32));
     }
 
-    /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of it.
-    /// Returns the number of separated pieces.
+    /// Separates a piece, and the pieces on its plane, if all other remaining pieces are on one side of the
+    /// plane. Returns the number of separated pieces.
     fn take(&mut self, p: usize, plane: PlaneId) -> usize {
         let prepared = self.set.prepare(plane);
         let Peeler { left, witnesses, near, own, .. } = &mut *self.lists;
@@ -242,8 +242,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// Sorts the pieces of a large set so that the pieces of a group, and of a range of groups, are near one
-/// another, by repeatedly halving the longest side of their box.
+/// Sorts the pieces of a large set so that the pieces of each group, and of each range of groups, are near
+/// one another. Repeatedly divides the pieces in half along the longest side of their box.
 pub(in crate::build::choose) fn arrange(set: &Set<'_>, groups_per_box: usize) -> Vec<usize> {
     let mut order = (0..set.len()).collect::<Vec<_>>();
     let middle = |piece: usize, axis: usize| {

@@ -1,5 +1,5 @@
-//! A set of pieces for choosing a plane: the pieces themselves, and packed in single precision, four at a
-//! time.
+//! A set of pieces for choosing a plane: the pieces themselves, and the pieces packed in single precision,
+//! four at a time.
 
 use std::ops::Range;
 
@@ -9,20 +9,20 @@ use super::cost::Counts;
 use crate::build::piece::{Division, Piece};
 use crate::exact::{Faces, PlaneId, PlaneKind, PreparedPlane, Side, Vertex};
 
-/// Pieces compared with a plane at once.
+/// The number of pieces that are compared with a plane at once.
 pub(super) const LANES: usize = 4;
 
-/// Pieces of a set, moved to its middle and rounded to `f32`.
+/// Pieces of a set, relative to the middle of the set's box, and rounded to `f32`.
 ///
-/// They rank planes, and rounding may change the ranks. Results called certain are exact, beyond the
-/// tolerance.
+/// Packed pieces rank planes, and rounding may change the ranks. A result that is called certain is also true
+/// of the exact pieces: it allows for rounding errors and the tolerance.
 #[derive(Debug, Default)]
 pub(super) struct PackedPieces {
     middle: DVec3,
     /// The largest error of a distance, plus the tolerance, in lattice units like all coordinates.
     slack: f32,
-    /// The vertices of each group of pieces: the first of all four, the second of all four, and so on. A
-    /// piece with fewer vertices repeats its last one.
+    /// The vertices of each group of pieces: the first vertices of all four pieces, then the second vertices,
+    /// and so on. A piece with fewer vertices repeats its last one.
     rows: Vec<[Vec4; 3]>,
     /// The end of each group's rows.
     ends: Vec<u32>,
@@ -39,8 +39,8 @@ pub(super) struct PackedPlane {
     offset: f32,
 }
 
-/// A bit for each piece of a group that certainly reaches in front of a plane, behind it, or is within the
-/// slack of it, wholly or in part.
+/// Pieces of a group as bits: the pieces that certainly reach in front of a plane, the pieces that certainly
+/// reach behind it, and the pieces that come within the slack of the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) front: u8,
@@ -135,7 +135,7 @@ impl PackedPieces {
         start..self.ends[groups.end - 1] as usize
     }
 
-    /// The number in the set of a piece of the packed pieces.
+    /// Converts the number of a packed piece to the piece's number in the set.
     pub(super) fn number(&self, piece: usize) -> usize {
         self.numbers[piece] as usize
     }
@@ -148,7 +148,7 @@ impl PackedPieces {
         PackedPlane { normal: normal.to_array(), offset: offset as f32 }
     }
 
-    /// Whether a piece of the set may lie on the plane of another.
+    /// Whether a piece of the set may lie on the plane of the piece `own`.
     pub(super) fn may_be_on(&self, set: &Set<'_>, own: usize, piece: usize) -> bool {
         let (normal, point) = set.rounded_plane(own);
         let (normal, mut is_near) = (normal.as_dvec3(), true);
@@ -159,7 +159,7 @@ impl PackedPieces {
         is_near
     }
 
-    /// The sides of a group's pieces on a plane; bits of empty lanes mean nothing.
+    /// Compares a group's pieces with a plane. Bits of empty lanes mean nothing.
     #[inline]
     pub(super) fn reach(&self, plane: &PackedPlane, group: usize) -> Reach {
         let plane = Splat::new(plane, self.slack);
@@ -221,10 +221,11 @@ impl PackedPieces {
     }
 }
 
-/// A plane, with each of its numbers four times.
+/// A plane, with each of its numbers copied to all four lanes.
 struct Splat {
     normal: [Vec4; 3],
-    /// Along the normal, pieces certainly in front are above `above`, and pieces behind below `below`.
+    /// A vertex above `above` along the normal is certainly in front; a vertex below `below` is certainly
+    /// behind.
     above: Vec4,
     below: Vec4,
 }
@@ -239,7 +240,8 @@ impl Splat {
         }
     }
 
-    /// The extent of a group's pieces along the normal, rounded: the least, and the greatest.
+    /// The rounded extent of each piece of a group along the normal: the smallest and the largest
+    /// coordinates.
     #[inline]
     fn extents(&self, rows: &[[Vec4; 3]]) -> (Vec4, Vec4) {
         let [a, b, c] = self.normal;
@@ -253,7 +255,7 @@ impl Splat {
     }
 }
 
-/// A set of pieces to divide: at least one.
+/// A set of one or more pieces to divide.
 #[derive(Debug)]
 pub(crate) struct Set<'a> {
     pub(in crate::build) faces: &'a Faces,
@@ -266,7 +268,7 @@ pub(crate) struct Set<'a> {
     /// The bounding box of the pieces.
     pub(super) min: [f64; 3],
     pub(super) max: [f64; 3],
-    /// Along each axis, the end of the first piece to end, and the start of the last piece to begin.
+    /// Along each axis, the smallest end and the largest start of a piece.
     first_end: [f64; 3],
     last_begin: [f64; 3],
 }
@@ -303,9 +305,9 @@ impl<'a> Set<'a> {
         self.first_end[axis] <= self.last_begin[axis] + self.faces.tolerance()
     }
 
-    /// A closer test than [`may_part`](Self::may_part): false if a piece covers every place for such a plane.
-    /// Places are counted by bins, one bit each; a piece covers a bin if it reaches across it. For small sets
-    /// this takes less time than an unsuccessful sort.
+    /// A stricter test than [`may_part`](Self::may_part): returns false if some piece crosses the plane at
+    /// every place. The places are divided into bins, one bit each; a piece covers a bin if it reaches across
+    /// the bin. For small sets this takes less time than an unsuccessful sort.
     pub(super) fn may_have_gap(&self, axis: usize) -> bool {
         let tolerance = self.faces.tolerance();
         let (start, end) = (self.first_end[axis], self.last_begin[axis] + tolerance);
@@ -346,7 +348,7 @@ impl<'a> Set<'a> {
         known.copied().unwrap_or_else(|| PreparedPlane::new(self.faces, plane))
     }
 
-    /// The side of a plane on which a piece lies, exactly.
+    /// The side of a plane on which a piece lies, decided exactly.
     pub(super) fn classify(&self, prepared: &PreparedPlane, piece: usize) -> Side {
         self.pieces[piece].side(self.faces, prepared, self.arena)
     }
@@ -361,7 +363,7 @@ impl<'a> Set<'a> {
         division.classify(self.faces, (self.pieces, self.arena), self.prepare(plane), most)
     }
 
-    /// Calls a function with each vertex of a piece, in lattice units, rounded.
+    /// Calls a function with the rounded position of each vertex of a piece, in lattice units.
     #[inline]
     pub(super) fn for_each_vertex(&self, piece: usize, see: impl FnMut([f64; 3])) {
         self.pieces[piece].for_each_vertex(self.faces, self.arena, see);

@@ -91,7 +91,7 @@ fn what_lies_in_one_plane_is_one_node() {
     }
 }
 
-/// The sides of a rotated prism: in convex position, and no free plane separates them.
+/// The sides of a rotated prism. They are in convex position, and no free plane separates them.
 fn prism(sides: usize) -> Vec<[DVec3; 4]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let corner = |i: usize, z: f64| {
@@ -103,7 +103,7 @@ fn prism(sides: usize) -> Vec<[DVec3; 4]> {
         .collect()
 }
 
-/// The pieces that were not tried are left.
+/// The pieces that were not tried stay in the set.
 #[test]
 fn a_small_set_is_peeled_of_the_pieces_that_were_tried() {
     let tuning = Tuning { own_planes: 5, uneven: 2, reward: 0.0, ..Tuning::DEFAULT };
@@ -175,7 +175,7 @@ fn of_equal_scores_the_earliest_wins() {
     }
 }
 
-/// It is used at once even if other planes divide the set more evenly.
+/// The free plane is used even if other planes divide the set more evenly.
 #[test]
 fn a_free_plane_that_cuts_nothing_is_taken_at_once() {
     let mut random = SplitMix64::new(7);

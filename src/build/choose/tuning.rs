@@ -1,19 +1,19 @@
-//! The constants of choosing: how many planes are tried on how many pieces, and from which sizes on.
+//! The constants of choosing: how many planes are tried, on how many pieces, and for which sizes of sets.
 
 /// The constants that decide how planes are chosen. (The exponent of the cost is in `cost.rs`, the numbers
 /// of bins in `axis_planes.rs`.) `benches/ABLATION.md` measures the effect of each.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// Smaller sets sort their pieces to find an axis plane that cuts nothing; `Auto` tries no other axis
-    /// planes on them. Too large: fewer axis planes to choose from. Too small: time, because counting by
-    /// bins takes longer than sorting.
+    /// In sets of fewer pieces, sorting the pieces finds an axis plane that cuts nothing; `Auto` tries no
+    /// other axis planes on such sets. Too large: fewer axis planes to choose from. Too small: time, because
+    /// counting by bins takes longer than sorting.
     pub clean_below: usize,
-    /// Smaller sets try more own planes, and peel off pieces that need no cut. Too large: more time and
-    /// deeper trees for slightly fewer fragments. Too small: more fragments on scans, whose surfaces no free
-    /// plane follows.
+    /// On sets of fewer pieces, more own planes are tried, and pieces that need no cut are peeled off. Too
+    /// large: more time and deeper trees for slightly fewer fragments. Too small: more fragments on scans,
+    /// whose surfaces no free plane follows.
     pub small: usize,
-    /// The number of own planes tried in a small set, and the most tried by heuristics that only score own
-    /// planes. Too large: time. Too small: more fragments.
+    /// The number of own planes tried in a small set, and the largest number tried by heuristics that only
+    /// score own planes. Too large: time. Too small: more fragments.
     pub own_planes: usize,
     /// The number of own planes tried in a large set. Too large: time. Too small: more fragments.
     pub few_own_planes: usize,
@@ -24,9 +24,9 @@ pub struct Tuning {
     /// A plane that cuts nothing is used at once if each side keeps at least 1/`uneven` of the pieces. Too
     /// large: unbalanced trees. Too small: a longer search for little gain.
     pub uneven: usize,
-    /// The number of pieces in the first sample that own planes are compared with; the largest piece of the
-    /// sample decides whether all pieces lie on one plane. Too large: time. Too small: good planes are
-    /// dropped by chance, and the pieces tried for the common plane may be too small.
+    /// The number of pieces in the first sample that own planes are compared with. A sample of the same size
+    /// yields the large piece whose plane is tested as the common plane of all pieces. Too large: time. Too
+    /// small: good planes are dropped by chance, and the piece tested for the common plane may be too small.
     pub first_sample: usize,
     /// Each round keeps 1/`rate` of the own planes and compares them with `rate` times as many pieces. Too
     /// large: the best are dropped by chance. Too small: time.
@@ -37,11 +37,11 @@ pub struct Tuning {
     /// plane would cut. Too small: large polygons are cut.
     pub reward: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
-    /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) these
+    /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) boxes
     /// decide nothing, because the pieces of a group are not near one another.
     pub groups_per_box: usize,
-    /// The constants for dividing small sets quickly; `None` in permanent trees. With them, orders take a
-    /// fifth longer.
+    /// The constants for dividing small sets in less time; `None` in permanent trees, because orders of the
+    /// resulting trees take a fifth longer.
     pub frames: Option<FrameTuning>,
 }
 
@@ -61,31 +61,33 @@ impl Tuning {
         frames: None,
     };
 
-    /// The constants of frames, each of which is ordered once or twice.
+    /// The constants of frames. Each frame's tree is ordered once or twice.
     pub const FRAMES: Self = Self { frames: Some(FrameTuning::FRAMES), ..Self::DEFAULT };
 }
 
-/// The constants for dividing small sets quickly in frames.
+/// The constants for dividing small sets of frames in less time.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameTuning {
-    /// The largest number of pieces that a plane used at once may cut. It must cut at least one, and each cut
+    /// The largest number of pieces that an own plane may cut if it is used without further search. Each cut
     /// piece must cross the plane's own piece: any tree has to cut one of the two. Too large: polygons that
-    /// cross at random are cut by worse planes. Too small: all planes of rings are compared repeatedly.
+    /// cross at random are cut by worse planes. Too small: in a ring of polygons, each crossing the next, all
+    /// planes are compared repeatedly.
     pub crossings: usize,
     /// The number of own planes tried first in a set of fewer than `small` pieces. Such a plane is used at
     /// once if it cuts nothing and divides the set evenly, or as `crossings` allows. Too large: time if each
     /// plane cuts something. Too small: stacks of layers are searched for the best plane, though any plane is
     /// good.
     pub probes: usize,
-    /// The share of its set's box that a piece has to fill for its plane to be trusted at once, if the
-    /// tolerance is coarse. Corners in `f32` are rounded, so small polygons that were meant to lie in one
-    /// plane have different planes, which separate other polygons that belong together. Too small: of 400
-    /// pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50. Too large: each
-    /// set of layers in `f32` is searched for its best plane.
+    /// If the tolerance is coarse, a piece's plane is used without further search only if the piece fills at
+    /// least this share of the set's bounding box. Corners in `f32` are rounded, so small polygons that were
+    /// meant to lie in one plane have different planes, which separate other polygons of that plane. Too
+    /// small: of 400 pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50.
+    /// Too large: each set of layers in `f32` is searched for its best plane.
     pub trusted_share: f64,
-    /// A tolerance is coarse if it is a larger share of the extent than this: a share above the tolerance of
-    /// numbers in `f64`, and below that of `f32`. Too small: layers in `f64` are searched for the best plane;
-    /// stacks take 1.4 times as long. Too large: small cards in `f32` lose their order.
+    /// A tolerance is coarse if it is a larger share of the extent than this. The value is above the default
+    /// tolerance of corners in `f64`, and below the default tolerance of corners in `f32`. Too small: layers
+    /// in `f64` are searched for the best plane; stacks take 1.4 times as long. Too large: small cards in
+    /// `f32` lose their order.
     pub coarse: f64,
 }
 

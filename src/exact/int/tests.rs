@@ -55,7 +55,7 @@ proptest! {
     }
 }
 
-/// The nearest float by another way: through the decimal digits.
+/// The nearest float, computed in another way: through the decimal digits.
 fn nearest<const N: usize>(value: &Int<N>) -> f64 {
     big(value).to_string().parse().expect("a number")
 }
@@ -65,8 +65,8 @@ fn power<const N: usize>(exponent: u32) -> Int<N> {
     Int::<1>::from_limbs([1]).shifted(exponent)
 }
 
-/// Half-way between two floats a single bit decides, in any lower limb: the limb of the last kept bits, the
-/// next, or any other.
+/// Half-way between two floats, a single lower bit decides. It may be in the limb of the last kept bits, in
+/// the next limb, or in any other.
 #[test]
 fn one_bit_far_below_a_tie_decides() {
     let mut ties = 0;

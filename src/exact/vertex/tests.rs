@@ -36,14 +36,14 @@ fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
     prop_oneof![prop::array::uniform3(point()), near]
 }
 
-/// A plane at a lattice point.
+/// The value of a plane at a lattice point.
 fn value(plane: &Plane, point: &[f64; 3]) -> IBig {
     let through = plane.point();
     let arm = |i: usize| IBig::from(point[i] as i64) - IBig::from(through[i]);
     (0..3).map(|i| IBig::from(plane.normal()[i]) * arm(i)).sum()
 }
 
-/// The distance of a position from the exact mean, times 2⁵³ by the lattice's size: in roundings.
+/// The distance of a position from the exact mean, in roundings: in units of 2⁻⁵³ of the lattice's size.
 fn roundings(position: [f64; 3], points: &[[f64; 3]], weights: &[IBig]) -> f64 {
     let total: IBig = weights.iter().sum();
     let off = (0..3).map(|axis| {
@@ -108,7 +108,7 @@ proptest! {
     }
 }
 
-/// A triangle and two almost equal planes: their weights cancel, more or less.
+/// A triangle and two almost equal planes. Their weights cancel to any degree.
 fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
     let mut corner = || (random.point(-1.0, 1.0) * (LATTICE_LIMIT - 1e13)).round();
     let (triangle, plane) = ([(); 3].map(|()| corner()), [(); 3].map(|()| corner()));
@@ -120,7 +120,7 @@ fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
 /// For any cancellation, and on either side of the triangle's edges, results are right, and the same if the
 /// triangle and the planes are reversed.
 #[test]
-fn positions_inside_are_right_or_not_told() {
+fn positions_inside_are_right_or_undecided() {
     let mut random = SplitMix64::new(7);
     let (mut told, mut untold) = (0, 0);
     for turn in 0..20_000 {
@@ -155,7 +155,7 @@ fn positions_inside_are_right_or_not_told() {
 
 /// Leading bits nearly always decide, and then compute the same results as all bits.
 #[test]
-fn leading_bits_nearly_always_tell() {
+fn leading_bits_nearly_always_decide() {
     let mut random = SplitMix64::new(5);
     let mut some = || {
         let mut point = || (random.point(-1.0, 1.0) * (LATTICE_LIMIT - 1.0)).round().to_array();
@@ -205,7 +205,7 @@ fn edge(own: &Plane, ends: [[f64; 3]; 2]) -> ExactEdge {
 /// The position is exactly on the edge between the moved ends, and the same if the triangle, the plane and
 /// the edge are reversed.
 #[test]
-fn positions_on_moved_edges_are_right_or_not_told() {
+fn positions_on_moved_edges_are_right_or_undecided() {
     let mut random = SplitMix64::new(11);
     let (mut told, mut untold, mut moved) = (0, 0, 0);
     for turn in 0..20_000 {

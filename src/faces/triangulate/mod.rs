@@ -36,10 +36,10 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     Triangulation { triangles, crosses_itself: false }
 }
 
-/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal).
-/// Exact, with O(n log n) comparisons. The triangles have the orientation of the polygon. A polygon that is
-/// far from planar may cross or touch itself in that projection, and lose corners. If it does not in the
-/// projection along another axis, that axis is used.
+/// Triangulates any polygon, in the projection along the main axis of its vector area (Newell's normal). The
+/// result is exact, and takes O(n log n) comparisons. The triangles have the orientation of the polygon. A
+/// polygon that is far from planar may cross or touch itself in that projection, and lose corners. If the
+/// projection along another axis has no such fault, that axis is used.
 ///
 /// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
 /// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas
@@ -94,8 +94,8 @@ fn vector_area(corners: &[[f64; 3]]) -> [Int<3>; 3] {
     area
 }
 
-/// The axis of the projection, and the sign of a triangle's area in it if the triangle has the polygon's
-/// orientation.
+/// The axis of the projection, and the sign that the projected area of a triangle has if the triangle has the
+/// polygon's orientation.
 fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     let normal = plane.normal();
     let size = DVec3::from_array(area.map(|component| component.to_f64())).abs();
@@ -108,8 +108,8 @@ fn facing(area: &[Int<3>; 3], plane: &Plane) -> (usize, Ordering) {
     (axis, if facing.is_eq() { normal[axis].cmp(&0) } else { facing })
 }
 
-/// A vector area counts as cancelled if it is no more than this share of a triangle of the polygon: then only
-/// rounding determines its direction.
+/// A vector area counts as cancelled if it is no more than this share of the area of a triangle of the
+/// polygon. Only rounding determines the direction of a cancelled vector area.
 ///
 /// Too large: a thin polygon that is far from planar may be projected edge-on. Too small: a polygon that is
 /// planar except for rounding may be projected edge-on.
@@ -132,7 +132,7 @@ fn in_plane(corners: &[Point], watch: &Watch<'_>) -> Result<Triangulation, Error
 /// A polygon's distinct points and its edges.
 struct Outline {
     points: Vec<Point>,
-    /// For each point, a corner of the polygon there.
+    /// For each point, a corner of the polygon at that point.
     corners: Vec<u32>,
     edges: Vec<Edge>,
 }

@@ -11,7 +11,7 @@ use super::sweep::{Point, turn};
 
 /// The region between two neighbouring edges on the sweep line: empty outside the polygon; a monotone
 /// polygon; or, where two regions became one, two monotone polygons that share their last point, the lower
-/// first.
+/// polygon first.
 #[derive(Default)]
 pub(super) struct Region(SmallVec<[Chain; 1]>);
 

@@ -17,8 +17,8 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 /// then by y.
 pub(super) type Point = [i64; 2];
 
-/// The side of a point on the line from `a` to `b`, exactly: `Greater` is to the left, above an edge whose
-/// ends are in the sweep's order.
+/// The side of the line from `a` to `b` on which `c` lies, exactly. `Greater` is on the left, which is above
+/// an edge whose ends are in the sweep's order.
 #[inline]
 pub(super) fn turn(a: Point, b: Point, c: Point) -> Ordering {
     area(a, b, c).cmp(&0)
@@ -53,7 +53,7 @@ impl Edge {
         Self { ends: [low.1, high.1], corners: [low.0, high.0], weight }
     }
 
-    /// Divides the edge at a point on it: the part before the point, and the part behind it.
+    /// Divides the edge at a point on it. Returns the part before the point, and the part behind it.
     const fn cut(self, point: u32) -> [Self; 2] {
         [
             Self { ends: [self.ends[0], point], corners: [self.corners[0], NONE], ..self },
@@ -62,7 +62,8 @@ impl Edge {
     }
 }
 
-/// The corner at an end that edges share: preferably of an edge with the direction of their sum.
+/// The polygon's corner at an end that several edges share: preferably the corner of an edge whose direction
+/// is the sign of `weight`, the edges' sum.
 fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
     let at = |edge: &&Edge| edge.corners[end] != NONE;
     let along = |edge: &&Edge| at(edge) && edge.weight.signum() == weight.signum();
@@ -83,9 +84,9 @@ pub(super) enum Rule {
 /// A sweep over the points of an outline.
 ///
 /// Allocations of its lists are not checked. Edges that overlap are merged, so `n` edges and `n` points have
-/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). An outline of 20
-/// 000 random corners takes some megabytes; an outline with the largest allowed number of corners takes a
-/// gigabyte.
+/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). Some megabytes
+/// suffice for an outline of 20 000 random corners; an outline with the largest allowed number of corners
+/// takes a gigabyte.
 pub(super) struct Sweep<'a> {
     outline: &'a Outline,
     rule: Rule,
@@ -96,7 +97,7 @@ pub(super) struct Sweep<'a> {
     waiting: Vec<(Edge, u32)>,
     /// For each point, the last edge that waits for it: the head of a list in `waiting`.
     heads: Vec<u32>,
-    /// For each point, the number of edges on the line that end there.
+    /// For each point, the number of edges on the line that end at the point.
     arriving: Vec<u32>,
     /// The edges that begin at the current point.
     starting: Vec<Edge>,
@@ -152,7 +153,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sweeps over all points. Returns `None` if there are too many parts, or if edges cross and the rule
-    /// does not allow it. If the rule allows it, edges that cross are left out from there on.
+    /// does not allow it. If the rule allows it, edges that cross are removed from the line when their
+    /// crossing is found.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {
@@ -175,7 +177,7 @@ impl<'a> Sweep<'a> {
         self.windings[1] - self.windings[0] <= 1
     }
 
-    /// The edges found, without those that cross.
+    /// The edges found, without the edges that cross.
     pub(super) fn uncrossed(&self) -> impl Iterator<Item = Edge> {
         self.edges.iter().map(|swept| swept.edge).filter(|edge| edge.weight != 0)
     }
@@ -190,7 +192,7 @@ impl<'a> Sweep<'a> {
         self.waiting.push((edge, next));
     }
 
-    /// Removes the edges through a point from the line, and inserts the edges that begin there.
+    /// Removes the edges through a point from the line, and inserts the edges that begin at the point.
     fn visit(&mut self, point: u32) {
         let mut head = self.heads[point as usize];
         if self.arriving[point as usize] == 0 && head == NONE {
@@ -221,8 +223,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The place on the line of the first edge above a point; unless `above_all` is set, an edge through the
-    /// point counts.
+    /// The place on the line of the first edge above a point. Unless `above_all` is set, edges through the
+    /// point count as above it.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -234,15 +236,15 @@ impl<'a> Sweep<'a> {
         place
     }
 
-    /// The side of a point on an edge: `Greater` is above it.
+    /// The side of an edge on which a point lies: `Greater` is above the edge.
     fn side(&self, edge: u32, point: u32) -> Ordering {
         let [a, b] = self.edge(edge).ends;
         let points = &self.outline.points;
         turn(points[a as usize], points[b as usize], points[point as usize])
     }
 
-    /// Removes the edges through a point from the line, from the lowest to the highest. Their parts behind
-    /// the point begin there.
+    /// Removes the edges through a point from the line, from the lowest to the highest. The parts of these
+    /// edges behind the point begin at the point.
     fn end_all(&mut self, point: u32, place: Place) {
         self.ended.clear();
         loop {
@@ -263,7 +265,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sorts the edges that begin at a point from the lowest to the highest, and merges overlapping edges.
-    /// Where the shortest of these ends, the remaining parts begin again.
+    /// Where the shortest overlapping edge ends, the remaining parts of the others begin.
     fn merge(&mut self, point: u32) {
         let points = &self.outline.points;
         let at = points[point as usize];
@@ -306,7 +308,8 @@ impl<'a> Sweep<'a> {
         kept
     }
 
-    /// Adds a point to the regions around it, and inserts the edges that begin there between these regions.
+    /// Adds a point to the regions around it, and inserts the edges that begin at the point between these
+    /// regions.
     fn begin_all(&mut self, point: u32, below: u32) {
         let mut winding = self.edges.get(below as usize).map_or(0, |swept| swept.winding);
         // Once edges have left the line, regions are no longer known.
@@ -341,7 +344,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Adds a point to the regions around it. Returns the remaining regions below and above the edges that
-    /// begin there.
+    /// begin at the point.
     fn regions(&mut self, point: u32, below: u32) -> [Region; 2] {
         let ends = [self.starting.first(), self.starting.last()];
         let [first, last] = ends.map(|edge| edge.map_or(NONE, |edge| edge.corners[0]));
@@ -375,8 +378,9 @@ impl<'a> Sweep<'a> {
     }
 
     /// A point of a region, with the corner of the first of two edges that has a corner there. The direction
-    /// of a region's outline decides which corner at one point belongs to it: with a winding number above 0,
-    /// the upper boundary leads from right to left, and leaves the point along the edge on the left.
+    /// of a region's outline decides which of several corners at a point belongs to the region: with a
+    /// winding number above 0, the upper boundary leads from right to left, and leaves the point along the
+    /// edge on the left.
     fn vertex(&self, point: u32, mut corners: [u32; 2], winding: i32) -> Vertex {
         if winding < 0 {
             corners.reverse();
@@ -386,7 +390,8 @@ impl<'a> Sweep<'a> {
         Vertex { point: self.outline.points[point as usize], corner }
     }
 
-    /// Removes neighbours that cross from the line, first next to a point and then next to each other.
+    /// Removes neighbours that cross from the line: first below the edges through a point, and then above
+    /// them. After each removal, the new neighbours are tested too.
     fn remove_crossings(&mut self, point: u32) {
         for above_all in [false, true] {
             loop {
@@ -407,8 +412,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether two edges on the line, one above the other, cross before either ends: then the edge that ends
-    /// first ends on the wrong side of the other edge.
+    /// Whether two edges on the line, one above the other, cross before either ends. In this case the edge
+    /// that ends first ends on the wrong side of the other edge.
     fn cross(&self, low: u32, high: u32) -> bool {
         if low == NONE || high == NONE {
             return false;

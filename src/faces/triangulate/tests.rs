@@ -34,9 +34,8 @@ fn triangles<'a>(
     found.triangles.iter().map(|triple| triple.map(|k| corners[k as usize]))
 }
 
-/// For each straight line between two neighbours of all points on it, the number of times that closed lines
-/// traverse it, minus the number of times in reverse. Two sets of lines with equal counts have the same
-/// winding numbers.
+/// Divides closed lines at all points on them. For each part, counts how often the lines traverse it, minus
+/// how often in reverse. Two sets of lines with equal counts have the same winding numbers.
 fn chain(points: &[Point], lines: impl Iterator<Item = [Point; 2]>) -> BTreeMap<[Point; 2], i32> {
     let mut chain = BTreeMap::new();
     for [a, b] in lines {
@@ -157,7 +156,7 @@ fn outlines_that_touch_themselves_are_covered() {
 }
 
 #[test]
-fn what_is_gone_round_twice_is_covered_once_and_told() {
+fn areas_wound_twice_are_covered_once_and_reported() {
     let square = [[0, 0], [4, 0], [4, 4], [0, 4]];
     for times in 2..5 {
         in_all_ways(&square.repeat(times), |corners| {
@@ -193,7 +192,7 @@ fn winding(corners: &[Point], triangle: [Point; 3]) -> i32 {
 
 /// Corners on a small grid: they touch, repeat and overlap in every way.
 #[test]
-fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
+fn polygons_on_a_small_grid_are_covered_or_reported_as_crossing() {
     let mut random = SplitMix64::new(2);
     let mut counts = [0; 3];
     for round in 0..60_000 {
@@ -221,9 +220,10 @@ fn polygons_on_a_small_grid_are_covered_or_told_to_cross() {
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
 }
 
-/// Outlines that do not cross themselves but have any winding numbers, compared with the sum of windings.
+/// Outlines that do not cross themselves but have any winding numbers. The triangles, each repeated as often
+/// as the outline winds around it, add up to the outline.
 #[test]
-fn what_is_wound_round_is_covered_once() {
+fn areas_with_any_nonzero_winding_are_covered_once() {
     let mut random = SplitMix64::new(3);
     let mut count = 0;
     while count < 2000 {
@@ -310,7 +310,7 @@ fn sides_that_cross_near_their_ends_are_joined_there() {
 }
 
 #[test]
-fn a_cancel_is_heard_within_one_polygon() {
+fn one_polygon_polls_for_cancellation() {
     for (name, corners) in large(120_000) {
         let (_, all) = steps(&corners);
         for share in [0, 1, 3, 5] {

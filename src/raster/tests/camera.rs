@@ -38,8 +38,8 @@ fn the_ray_of_a_pixel_projects_to_its_centre() {
     }
 }
 
-/// The distance of a camera's rays from their true positions, in pixels, at the corners of the picture; for
-/// a parallel camera, as seen from the middle of the picture. `None` if there are no rays.
+/// The largest distance of a ray from its true position, in pixels, over the corners of the picture. For a
+/// parallel camera, positions are relative to the middle of the picture. `None` if there are no rays.
 fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     let rays = Rays::sampled(camera, faces, samples).ok()?;
     let is_parallel = camera.eye().is_none();
@@ -80,7 +80,8 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     Some(most)
 }
 
-/// Down to the narrowest views that are accepted, with oblong and skewed pixels, and far off-axis.
+/// The views include the narrowest views that are accepted, oblong and skewed pixels, and pictures far
+/// off-axis.
 #[test]
 fn rays_of_skewed_cameras_are_less_than_a_thousandth_of_a_pixel_off() {
     let mut random = Random::new(11);

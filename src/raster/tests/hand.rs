@@ -14,8 +14,8 @@ use crate::view::Camera;
 
 const SIZE: [u32; 2] = [6, 6];
 
-/// Looks down the z axis at the square from 0 to 6, so that pixel (x, y) is the world's
-/// (x + ½, 5½ − y).
+/// Looks down the z axis at the square from 0 to 6, so that the centre of pixel (x, y) is the point (x + ½,
+/// 5½ − y) of the world.
 fn rays(faces: &Faces) -> Rays {
     let centre = DVec3::new(3.0, 3.0, 0.0);
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, centre, 6.0, SIZE).unwrap();
@@ -124,7 +124,7 @@ fn wrong_orders_holes_and_spills_are_told_apart() {
 }
 
 #[test]
-fn what_the_tolerance_makes_equal_is_contested() {
+fn polygons_within_the_tolerance_of_each_other_are_contested() {
     let pair = |gap: f64, tolerance| {
         let (a, b) = (square([0.0; 2], [6.0; 2], gap), square([0.0; 2], [6.0; 2], 0.0));
         faces(&[a, b], Some(tolerance))
@@ -206,7 +206,7 @@ fn rays_through_lines_belong_to_the_piece_on_their_right() {
     assert_eq!(show(&below), "...... ...... ...... ...... ....A. ...AA.");
 }
 
-/// Looking down at a steep face that crosses a flat face.
+/// The camera looks down at a steep face that crosses a flat face.
 #[test]
 fn both_faces_have_to_be_near_the_plane_of_the_other() {
     let tolerance = 0.01;

@@ -1,4 +1,5 @@
-//! Compares the raster with exact rationals, with hand-made pictures, and by conservation.
+//! Compares the raster with exact rationals and with hand-made pictures, and tests that pieces tile their
+//! faces.
 
 mod camera;
 mod hand;

@@ -88,8 +88,8 @@ fn hit(rays: &Rays, faces: &Faces, face: u32, ray: &Ray) -> Option<(Point, [IBig
     Some((Point(times(&point, &sign), divisor.clone()), [-from * sign, divisor]))
 }
 
-/// Whether a point of a face's plane is inside all its edges, seen along the axis in which the plane is
-/// least steep; `None` if it is on an edge, and not outside another.
+/// Whether a point of a face's plane is inside all edges of the face, seen along the axis in which the plane
+/// is least steep; `None` if it is on an edge, and not outside another edge.
 fn within(faces: &Faces, face: u32, Point(point, divisor): &Point) -> Option<bool> {
     let (n, _) = plane(faces, face);
     let steepest = (0..3).max_by_key(|&i| n[i].abs()).unwrap();
@@ -155,7 +155,7 @@ fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
 }
 
 /// The height above a plane at which the ray of a pixel meets the plane of a face, or, without a face,
-/// starts; `None` if it does not.
+/// starts; `None` if the ray does neither.
 pub(crate) fn height(
     rays: &Rays,
     faces: &Faces,

@@ -7,7 +7,7 @@ use crate::exact::{EdgeLine, Faces, PlaneId, PreparedPlane, Vertex, split};
 use crate::raster::coverage::Coverage;
 use crate::raster::{Outline, Rays};
 
-/// Powers of two: rays along an axis then pass through points of a binary grid.
+/// The sides are powers of two, so that rays along an axis pass through points of a binary grid.
 const PIXELS: [u32; 2] = [64, 32];
 
 struct Tile {

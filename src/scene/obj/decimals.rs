@@ -9,14 +9,14 @@ const FEWEST_DIGITS: i32 = 6;
 /// computation, as in `0.30000000000000004`.
 const DIGITS_OF_F64: i32 = 15;
 /// A number that begins more than this many places after the largest number is zero plus noise. Too small:
-/// thin layers near zero are ignored. Too large: one sine of a rounded π decides.
+/// thin layers near zero are ignored. Too large: one computed zero, such as the sine of a rounded π, decides.
 const NOISE_PLACES: i32 = 11;
-/// Numbers of this many significant digits are long: as many as distinguish one `f32` from another. Too
-/// small: the heights of thin layers, as people write them, are long. Too large: numbers from `f32` are not
-/// long.
+/// Numbers of this many significant digits or more are long: 9 digits distinguish every `f32` from all
+/// others. Too small: the heights of thin layers, as people write them, are long. Too large: numbers from
+/// `f32` are not long.
 const LONG: i32 = 9;
-/// At most one number in this many is a stray. Too small: parts of a scene that are more precise than others
-/// are overlooked. Too large: a few long numbers decide for all.
+/// Unusually long numbers are strays if they are at most one in this many. Too small: parts of a scene that
+/// are more precise than others are overlooked. Too large: a few long numbers decide for all.
 const STRAYS: usize = 100;
 /// The least number of long numbers that shows whether all were `f32`. Too small: some are near an `f32` by
 /// chance. Too large: files with few `f32` are not recognised.
@@ -29,15 +29,15 @@ const DIGITS_OF_STRAYS: i32 = 3;
 ///
 /// Programs write either a fixed number of decimals, or a fixed number of significant digits. In the latter
 /// case numbers of different size have equally many digits; otherwise only the largest numbers have the most
-/// digits. Zeros that a program adds at the end do not count. Zeros that it omits there do no harm, because
-/// the longest numbers decide. The exceptions are numbers far longer than nearly all others: see
-/// `Digits::without_noise` and `Decimals::counted`.
+/// digits. Zeros that a program adds at the end do not count. Zeros that a program omits at the end do no
+/// harm, because the longest numbers decide. The exceptions are numbers far longer than nearly all others:
+/// see `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,
-    /// For each kind of digits, how many numbers have it; zeros are not counted.
+    /// The number of numbers with each kind of digits. Numbers equal to 0 are not counted.
     seen: BTreeMap<Digits, usize>,
-    /// How many long numbers there are, and how many of these are `f32` up to their written digits.
+    /// The number of long numbers, and the number of these that are `f32` up to their written digits.
     long: usize,
     long_of_f32: usize,
     /// The largest number, by its size.
@@ -49,9 +49,9 @@ pub struct Decimals {
 struct Digits {
     /// The place of the first digit that is not 0.
     first: i32,
-    /// The place of the last digit, without zeros after the point.
+    /// The place of the last digit. Zeros at the end of the decimals do not count.
     last: i32,
-    /// The number of digits written from the first on, zeros included.
+    /// The number of written digits, from the first digit that is not 0. Later zeros count.
     written: i32,
 }
 
@@ -113,16 +113,17 @@ impl Decimals {
         }
     }
 
-    /// Returns one unit in the last decimal of the largest numbers; 0 if no number was seen. For numbers that
-    /// were `f32`, and are written with more digits than an `f32` has, it is a step of the largest.
+    /// Returns one unit in the last decimal of the largest numbers; 0 if no number was seen. If the numbers
+    /// were `f32`, and are written with more digits than an `f32` has, returns the `f32` step of the largest
+    /// number.
     pub fn unit(&self) -> f64 {
         let is_f32 = self.long >= TELLING && self.long_of_f32 >= self.long - self.long / STRAYS;
         let step = if is_f32 { f64::from(f32::EPSILON) * self.largest } else { 0.0 };
         step.max(self.decimal())
     }
 
-    /// The digits that count: without the digits of zeros with noise, and only the first digits of the few
-    /// long numbers that have more decimals than any short number.
+    /// The digits that count. Numbers that are zero plus noise do not count. If only a few long numbers have
+    /// more decimals than all short numbers, only the first digits of these long numbers count.
     fn counted(&self) -> Vec<Digits> {
         let largest = self.seen.keys().map(|digits| digits.first).max().unwrap_or(0);
         let is_noise = |digits: &Digits| digits.first < largest.saturating_sub(NOISE_PLACES);
@@ -168,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_unit_is_that_of_the_numbers_as_they_are_written() {
+    fn the_unit_follows_the_written_digits() {
         let cases: [(&[&str], f64); 16] = [
             (&[], 0.0),
             (&["0", "0"], 1.0),
@@ -197,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_as_programs_write_them_tell_their_unit() {
+    fn the_unit_of_fixed_and_significant_digits_is_found() {
         let mut state = 1_u64;
         let mut random = || {
             state = crate::random::mix(state);
@@ -257,9 +258,9 @@ mod tests {
         assert_eq!(unit(sums.iter().map(|sum| &**sum)), 0.1);
     }
 
-    /// With any number of written digits.
+    /// The number of written digits does not matter.
     #[test]
-    fn numbers_that_were_f32_are_as_precise_as_those() {
+    fn numbers_that_were_f32_have_the_unit_of_f32() {
         let mut state = 7_u64;
         let mut random = || {
             state = crate::random::mix(state);

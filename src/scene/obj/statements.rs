@@ -38,7 +38,7 @@ pub(super) struct Place {
     pub(super) face: Option<usize>,
 }
 
-/// Names, as bytes, by the numbers of their first mention.
+/// Names as bytes, numbered in the order of their first mention.
 type Names = HashMap<Vec<u8>, u32>;
 
 /// The contents of a file besides its statements.
@@ -52,7 +52,7 @@ pub(super) struct Contents {
     materials: Names,
     /// The name of the material in use, and its number once a face has used it.
     material: (Vec<u8>, Option<u32>),
-    /// The number from 1 of the last vertex that a face names, and that face.
+    /// The largest number, counted from 1, of a vertex that a face names, and the place of that face.
     highest: (usize, Place),
 }
 
@@ -211,8 +211,9 @@ fn in_order(names: &Names) -> Vec<&[u8]> {
     names.into_iter().map(|(name, _)| &name[..]).collect()
 }
 
-/// The number, counted from 0, of a vertex, texture coordinate or normal. A word counts from 1, or, if it is
-/// negative, backwards from the last of `count` so far. The number may be beyond the last of the file.
+/// The number, counted from 0, of a vertex, texture coordinate or normal. A positive word counts from 1; a
+/// negative word counts backwards from the last of the `count` items so far. The number may be beyond the
+/// last item of the file.
 pub(super) fn index(word: &str, count: usize) -> Option<usize> {
     let number: i64 = word.parse().ok()?;
     let from_0 = if number < 0 { number.checked_add_unsigned(count as u64)? } else { number - 1 };

@@ -12,7 +12,7 @@ use crate::exact::{Faces, PlaneId, PlaneKind, Side};
 use crate::progress::Watch;
 use crate::random::SplitMix64;
 
-/// The least cost of all planes perpendicular to an axis through a corner, testing every piece for each.
+/// The lowest cost of all planes through a corner and perpendicular to an axis, found by testing every piece.
 fn least(pieces: &[Piece], axis: usize, tolerance: f64) -> Cost {
     let coordinates = pieces.iter().flat_map(|piece| [piece.min[axis], piece.max[axis]]);
     coordinates.map(|c| at(pieces, axis, c, tolerance)).min_by(Cost::cmp).unwrap_or(Cost::MOST)
@@ -52,7 +52,8 @@ fn assert_good(name: &str, polygons: &[[DVec3; 3]], tolerance: f64) {
     };
     assert!(clean.is_none_or(|clean| !cost_of(&clean).cuts), "{name}: {clean:?} cuts");
     assert!(found.is_none_or(|found| cost_of(&found) == found.cost), "{name}: {found:?}");
-    // Bins may miss the best plane, but not by much, except in sets for `clean`.
+    // By bins, the found plane may cost slightly more than the best plane. Sets small enough for `clean` are
+    // not checked.
     let found = found.map_or(Cost::MOST, |plane| plane.cost);
     let is_good = found == best || found.amount <= 1.02 * best.amount;
     assert!(is_good || pieces.len() < Tuning::DEFAULT.clean_below, "{name}: {found:?}, {best:?}");
@@ -88,7 +89,8 @@ fn on_a_lattice_planes_touch_many() {
     }
 }
 
-/// Planes between rows of vertices cut a row; planes through the vertices cut nothing, or less.
+/// Planes between rows of vertices cut a row of pieces; planes through the vertices cut fewer pieces, or
+/// none.
 #[test]
 fn planes_go_through_rows_of_vertices() {
     let rows = 9;
@@ -124,7 +126,7 @@ fn crowds_are_searched_like_others() {
     assert_good("a crowd", &polygons, 0.0);
 }
 
-/// A triangle with this extent along an axis, and from −1 to 1 along the others.
+/// A triangle with this extent along an axis, and from −1 to 1 along the other axes.
 fn reaching([begin, end]: [f64; 2], axis: usize) -> [DVec3; 3] {
     let middle = 0.5 * (begin + end);
     [[begin, -1.0, -1.0], [middle, 1.0, -1.0], [end, 1.0, 1.0]].map(|mut p| {
@@ -140,7 +142,7 @@ fn axis_of(found: &PricedPlane) -> usize {
 
 /// Two groups that overlap by no more than the tolerance.
 #[test]
-fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
+fn groups_that_overlap_within_the_tolerance_are_separated_without_a_cut() {
     const TOLERANCE: f64 = 1e-3;
     for axis in 0..3 {
         let of = |ends: [f64; 2], begins: [f64; 2]| {
@@ -160,7 +162,7 @@ fn what_overlaps_within_the_tolerance_is_parted_without_a_cut() {
     }
 }
 
-/// The others begin at cuts, so no corner there names a plane.
+/// The pieces on the other side begin at cuts, so no corner at their beginnings names a plane.
 #[test]
 fn a_plane_is_found_where_pieces_only_end() {
     let floor = [DVec3::NEG_Y, DVec3::new(0.0, -1.0, 1.0), DVec3::new(1.0, -1.0, 0.0)];
@@ -183,7 +185,7 @@ fn a_tolerance_may_be_wider_than_bins() {
     assert!(found.is_some());
 }
 
-/// Also for pieces that were cut: where they end at a cut, no corner names a plane.
+/// Some pieces were cut. Where a piece ends at a cut, no corner names a plane.
 #[test]
 fn planes_go_through_the_corners_that_name_them() {
     let mut random = SplitMix64::new(5);
@@ -208,7 +210,7 @@ fn planes_go_through_the_corners_that_name_them() {
     assert!(named > 300, "{named}");
 }
 
-/// Finds the plane that divides best among those that cut nothing, unless another is good enough.
+/// The search may stop at a plane that is good enough; otherwise it finds the best plane that cuts nothing.
 #[test]
 fn the_best_of_the_planes_that_cut_nothing_is_found() {
     let mut random = SplitMix64::new(6);

@@ -23,7 +23,7 @@ fn best(set: &Set<'_>, tuning: &Tuning) -> PricedPlane {
     candidates.best(set, &mut sample, &terms, tuning).unwrap()
 }
 
-/// The whole face whose plane a candidate is.
+/// The face whose plane was found.
 fn piece(found: &PricedPlane) -> usize {
     let PlaneKind::Face(face) = found.plane.kind() else { panic!("{found:?}") };
     face as usize

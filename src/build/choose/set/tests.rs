@@ -42,8 +42,8 @@ fn assert_certain(name: &str, fixture: &Fixture) -> usize {
     certain
 }
 
-/// All but one are exactly in one plane, at a corner of the box, so that coordinates and distances, and
-/// their rounding errors, are as large as possible.
+/// All pieces except one lie exactly in one plane, at a corner of the box, so that coordinates and distances,
+/// and their rounding errors, are as large as possible.
 #[test]
 fn rounding_makes_nothing_certain() {
     let mut random = SplitMix64::new(1);
