@@ -1,4 +1,4 @@
-"""matplotlib's own tests of 3D axes, with and without exact ones: ``python -m binspace.compare --matplotlib-tests FOLDER``."""
+"""Runs matplotlib's own tests of 3D axes, also with exact axes: ``python -m binspace.compare --matplotlib-tests FOLDER``."""
 
 from __future__ import annotations
 
