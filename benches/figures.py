@@ -25,7 +25,7 @@ UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 # value that select rows, the columns of our errors and of the peer's errors, and the column of the number of judged
 # pixels or points (none if errors are shares already).
 PEERS = [
-    ("order of a frame", "`radsort`: one depth a polygon", "Order of a frame", "sort ÷ order", None,
+    ("order of a frame", "`radsort`: one depth per polygon", "Order of a frame", "sort ÷ order", None,
      "wrong", "wrong by sort", None),
     ("page of layers", "`plane-split` 0.18", "Page of layers", "its time ÷ ours", None,
      "our wrong", "its wrong", "points"),

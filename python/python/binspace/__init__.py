@@ -183,10 +183,12 @@ class Tree(_binspace.Tree):
         """All fragments as arrays.
 
         Fragment `i` is a part of ``polygon[i]``. Its vertices are the rows of `points` from ``offsets[i]`` to
-        ``offsets[i + 1]``. The side from vertex `v` to the next vertex lies on edge ``edges[v]`` of the polygon, which
-        begins at the corner of this number. It is -1 if the side is a cut. Vertex `v` is a weighted sum of corners of the
-        polygon: `weight_corners` has their numbers, and `weights` their weights, both from ``weight_offsets[v]`` to
-        ``weight_offsets[v + 1]``.
+        ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that contains the side from vertex `v` to the next
+        vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+
+        Vertex `v` is a weighted sum of corners of the polygon. The entries from ``weight_offsets[v]`` to
+        ``weight_offsets[v + 1]`` of `weight_corners` are the numbers of these corners, and the same entries of `weights`
+        are their weights.
         """
         return self._fragments()
 

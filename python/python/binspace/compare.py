@@ -234,7 +234,7 @@ class Depths:
     def certain(self):
         """Returns the mask of pixels whose nearest polygon is certain."""
         other = np.where(self.low_number == self.number, self.low[1], self.low[0])
-        # Nor is it certain within a pixel of places where another polygon may be as near, such as crossings.
+        # Next to a crossing, another polygon may be as near: the pixels around it are uncertain too.
         is_apart = _spread(other > self.best + self.margin, 1, np.minimum)
         return is_apart & (self.edge > self.best + self.margin) & _is_alike(self.number)
 

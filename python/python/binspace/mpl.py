@@ -650,7 +650,7 @@ def _are_equal(some, others):
 
 
 def _are_all(values, starts, lengths):
-    """Returns for each start whether all values from there are true, up to the given length."""
+    """Returns for each range, given by its start and length, whether all its values are true."""
     wrong = np.append(0, np.cumsum(~values))
     return wrong[starts] == wrong[starts + lengths]
 
