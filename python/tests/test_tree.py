@@ -319,7 +319,7 @@ def test_crossings_and_creases():
 
 
 def test_lines_and_points():
-    # Over the tree, through it, broken by NaN, and under it.
+    # The line runs above the square and through it. After a NaN, it runs below the square.
     line = np.array([[-0.5, 0.5, 1], [0.25, 0.5, 1], [0.75, 0.5, -1], [np.nan] * 3, [0.1, 0.1, -1], [0.9, 0.1, -1],
                      [1.5, 0.1, -1]])
     polygons = [SQUARE]

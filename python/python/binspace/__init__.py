@@ -395,7 +395,7 @@ class Visibility:
         return self._write("svg", path, **options)
 
     def to_pdf(self, path=None, **options):
-        """Returns the picture as PDF in bytes, or writes it to a file; the options as for `to_svg`."""
+        """Returns the picture as PDF in bytes, or writes it to a file. For the options see `to_svg`."""
         return self._write("pdf", path, **options)
 
     def _write(

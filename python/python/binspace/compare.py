@@ -104,7 +104,7 @@ def _recolored(axes, keeps_colors):
         nonlocal count
         numbers = np.arange(count + 1, count + 1 + number)
         count += number
-        # Far apart, so that no two are mixed up: a permutation of all colours.
+        # A permutation of all colours, in which consecutive numbers have very different colours.
         codes = numbers * 7919 % (1 << 24)
         return np.stack([codes >> 16, codes >> 8 & 255, codes & 255], -1) / 255
 
@@ -354,8 +354,8 @@ def judged(scene, projection="exact3d", dpi=300, keep=None):
     if is_translucent:
         expected, certain = depths.blended([255, 255, 255])
         # Without antialiasing, Agg fills each pixel that an area touches, so both sides of a cut fill a pixel. With
-        # antialiasing, both sides cover a part of the pixel, together up to a sixteenth too little. In this scene, wrong
-        # orders differ by more.
+        # antialiasing, each side covers a part of the pixel, and both together cover up to a sixteenth too little. A wrong
+        # order changes pixels by more.
         is_wrong = np.abs(expected - image).max(-1) > 16
     else:
         certain = depths.certain() | np.isinf(np.minimum(depths.low[0], depths.edge))

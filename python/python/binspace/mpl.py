@@ -35,8 +35,8 @@ import binspace
 __all__ = ["ExactAxes3D", "exact", "install", "uninstall"]
 
 _IDENTITY = mtransforms.IdentityTransform()
-# Corners behind the eye, or nearer to its plane than this share of the furthest, are cut off. Too small: corners
-# that lie far outside of the picture overflow. Too large: parts near the eye are missing.
+# Polygons are clipped at this distance from the eye's plane, as a share of the distance of the furthest corner. Too small:
+# corners far outside the picture overflow. Too large: parts near the eye are missing.
 _NEAR = 1e-6
 # The number of lines that replace a Bézier curve.
 _CURVE = 16
@@ -141,7 +141,7 @@ def _nested(rings):
     following[starts + lengths - 1] = starts
     b, ring = a[following], np.repeat(np.arange(len(rings)), lengths)
     least = np.minimum.reduceat(a[:, 0], starts)
-    # First corners sorted by y: an edge is beside a range of them.
+    # Sorted by y, the first corners beside an edge form a range.
     sorting = np.argsort(a[starts, 1])
     x, y = a[starts[sorting]].T
     low, high = (np.searchsorted(y, ends) for ends in (np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])))
