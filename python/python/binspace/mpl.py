@@ -40,8 +40,8 @@ _IDENTITY = mtransforms.IdentityTransform()
 _NEAR = 1e-6
 # The number of lines that replace a Bézier curve.
 _CURVE = 16
-# Raster pictures, and vector pictures, with more fragments are painted in the order of the tree. Too small: seams at cuts,
-# and large files. Too large: pictures that take one or many seconds.
+# Limits of fragments, for raster pictures and for vector pictures. Pictures with more fragments are painted in the order of
+# the tree. Too small: seams at cuts, and large files. Too large: pictures that take one or many seconds.
 _MOST_PIXELS = 10_000
 _MOST_VECTORS = 200_000
 # The number of pairs of a corner and an edge that are compared at once. Too small: slow. Too large: much memory.
