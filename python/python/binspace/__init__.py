@@ -378,7 +378,7 @@ class Visibility:
         ----------
         path : path, optional
             The file to write.
-        colors : colour, or a list of one for each polygon
+        colors : a colour, or a list with a colour for each polygon
             Names, ``#rrggbb``, or three numbers from 0 to 1.
         outlines, edges : (width, colour), optional
             `outlines` are lines along the edges of each polygon, painted with the polygon. `edges` are lines along

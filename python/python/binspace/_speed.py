@@ -56,7 +56,7 @@ class Timed:
         self._time("first PNG", lambda: new.savefig(io.BytesIO(), format="png"))
         self._time("PNG", lambda: self.figure.savefig(io.BytesIO(), format="png"))
         self._time("SVG", lambda: self.figure.savefig(io.BytesIO(), format="svg"))
-        # As while a mouse button turns the axes.
+        # A pressed mouse button turns the axes.
         self.axes.view_init(30, self.axes.azim + 1)
         self.axes.button_pressed = 1
         self._time("turn", self.figure.canvas.draw)

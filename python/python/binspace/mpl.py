@@ -448,7 +448,7 @@ def _marked(axes, artist, points):
     if isinstance(every, tuple) and all(isinstance(number, (int, np.integer)) for number in every):
         return numbers[every[0] :: every[1]]
     if isinstance(every, (float, tuple)):
-        # At distances in the picture.
+        # `every` is a distance in the picture.
         places = _projected(axes.M, points)
         chosen = mlines._mark_every_path(every, Path(places), axes.transData, axes).vertices
         return np.array([np.flatnonzero((places == place).all(1))[0] for place in chosen], int)
@@ -540,7 +540,7 @@ def _project_late(artist):
 def _projected(matrix, points):
     """Returns x and y of points in the plane of the projection."""
     result = np.empty((*points.shape[:-1], 2))
-    # Column by column: products of such long matrices are slower.
+    # One column at a time, which is faster than a matrix product.
     depth = _times(matrix[3], points)
     with np.errstate(all="ignore"):
         for axis in range(2):
