@@ -96,11 +96,16 @@ class Tree(_binspace.Tree):
     Parameters
     ----------
     polygons
-        A list of polygons, each an array of shape (n, 3); one array of shape (polygons, n, 3); a tuple
-        ``(vertices, faces)`` of an array of shape (n, 3) and an array of indices, one row a face, or a list of
-        lists of indices; or a tuple ``(flat, offsets)``: polygon `i` has the rows of `flat` from ``offsets[i]`` to
-        ``offsets[i + 1]``. Arrays of f64 and of f32 are read without a copy. A polygon that has NaN or masked
-        numbers is left out, and keeps its number. (A tuple of two is never a list of two polygons.)
+        One of these:
+
+        - a list of polygons, each an array of shape (n, 3);
+        - one array of shape (polygons, n, 3);
+        - a tuple ``(vertices, faces)``: an array of shape (n, 3), and the indices of the corners of each face, as an array
+          with a row for each face, or as a list of lists;
+        - a tuple ``(flat, offsets)``: polygon `i` has the rows of `flat` from ``offsets[i]`` to ``offsets[i + 1]``.
+
+        A tuple of two is never read as a list of two polygons. Arrays of f64 and f32 are read without a copy. A polygon with
+        NaN or masked numbers is left out, but keeps its number.
     opacity : array of float, optional
         The opacity of each polygon, from 0 to 1. By default all are opaque.
     tolerance : float, optional
@@ -230,7 +235,7 @@ class Tree(_binspace.Tree):
         Parameters
         ----------
         lines : list of arrays of shape (n, 3), or a tuple (flat, offsets)
-            Polylines. A line is broken where it has NaN.
+            Polylines. NaN breaks a line into parts.
         points : array of shape (n, 3)
             Points. A point with NaN is left out.
         progress : callable, optional
