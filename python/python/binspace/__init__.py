@@ -360,8 +360,8 @@ class Visibility:
         return self._map.drawing(progress=progress)
 
     def edges(self, hidden="skip", *, progress=None) -> EdgeRuns:
-        """Returns the visible parts of edges. `hidden` is "skip", "keep" for hidden parts too, or "count" for hidden parts
-        with the number of polygons in front of each."""
+        """Returns the visible parts of edges. With "keep", also returns the hidden parts. With "count", also returns how many
+        polygons are in front of each hidden part."""
         return self._map.edges(hidden, progress=progress)
 
     def crossings(self, hidden="skip", *, progress=None) -> EdgeRuns:
