@@ -21,30 +21,32 @@ DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted
 BENCHES = ["peers", "memory", "heuristics", "ablation"]
 UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 
-# Work, peer, its table, the column of its time ÷ ours or the columns of both, perhaps the value of another column, our
-# errors, its errors.
+# The work, the peer, the title of their table, the column of the ratio (or the columns of both figures), a column and its
+# value that select rows, the columns of our errors and of the peer's errors, and the column of the number of judged
+# pixels or points (none if errors are shares already).
 PEERS = [
-    ("order of a frame", "`radsort`: one depth a polygon", "Order of a frame", "sort ÷ order", None,
-     "wrong", "wrong by sort"),
-    ("page of layers", "`plane-split` 0.18", "Page of layers", "its time ÷ ours", None, "our wrong", "its wrong"),
+    ("order of a frame", "`radsort`: one depth per polygon", "Order of a frame", "sort ÷ order", None,
+     "wrong", "wrong by sort", None),
+    ("page of layers", "`plane-split` 0.18", "Page of layers", "its time ÷ ours", None,
+     "our wrong", "its wrong", "points"),
     ("SVG of a mesh", "`gl2ps`, its tree", "SVG of a mesh", "its time ÷ ours", ("gl2ps sorts by", "bsp"),
-     "our wrong", "its wrong"),
+     "our wrong", "its wrong", "pixels"),
     ("SVG of a mesh", "`gl2ps`, sorted depths", "SVG of a mesh", "its time ÷ ours", ("gl2ps sorts by", "simple"),
-     "our wrong", "its wrong"),
-    ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
+     "our wrong", "its wrong", "pixels"),
+    ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None, None),
 ]
-# The same columns, for peers that compute no order or are not tuned.
+# As above, for peers that compute no order or are not tuned.
 OTHERS = [
-    ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
-    ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),
-    ("memory", "`bvh`, no order", "Memory", ("bvh, a polygon", "bytes a polygon"), None, None, None),
+    ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None, None),
+    ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None, None),
+    ("memory", "`bvh`, no order", "Memory", ("bvh, a polygon", "bytes a polygon"), None, None, None, None),
 ]
-# Work, its table, the column of its time, and the pattern of the rows.
+# The work, the title of its table, the column of its figure, the pattern of the rows, and the unit.
 SPEEDS = [
-    ("order of a frame, a fragment", "Order of a frame", "ns a fragment", ".*", " ns"),
+    ("order of a frame, for each fragment", "Order of a frame", "ns a fragment", ".*", " ns"),
     ("tree of 100 000 polygons, two threads", "Build", "two threads", ".*:100000", ""),
-    ("200 polygons that move ÷ a new tree", "Moving polygons", "replace ÷ rebuild", ".*", ""),
-    ("saved tree: read ÷ build", "Saved trees", "read ÷ build", ".*", ""),
+    ("moving 200 polygons ÷ building a new tree", "Moving polygons", "replace ÷ rebuild", ".*", ""),
+    ("reading a saved tree ÷ building it", "Saved trees", "read ÷ build", ".*", ""),
 ]
 
 
@@ -62,9 +64,9 @@ def read_tables(text):
     for title, body in re.findall(r"^## (.+)\n\n((?:\|.*\n)+)", text, re.MULTILINE):
         head, _, *rows = body.splitlines()
         tables[title] = [cells(head), *map(cells, rows)]
-    head = ["work", "peer", "its ÷ ours", "our errors", "its errors"]
+    head = ["work", "peer", "peer's time ÷ ours", "our errors", "peer's errors"]
     tables["Peers"] = [head, *(peer(tables, *row) for row in PEERS)]
-    tables["Others"] = [head[:3], *(peer(tables, *row)[:3] for row in OTHERS)]
+    tables["Others"] = [["work", "peer", "peer ÷ ours"], *(peer(tables, *row)[:3] for row in OTHERS)]
     tables["Speeds"] = [["work", "measured"], *(speed(tables, *row) for row in SPEEDS)]
     return tables
 
@@ -96,12 +98,22 @@ def span(found, unit=""):
     return (least.split()[0] if of_least == of_greatest else least) + "–" + greatest + unit
 
 
-def peer(tables, work, name, title, ratio, only, ours, theirs):
+def shares(table, rows, wrong, judged):
+    """The cells of a column of errors, as shares."""
+    found = column(table, wrong, rows)
+    if not judged:
+        return found
+    # “0” for no errors, as in the benches.
+    percent = [100 * value(cell) / value(count) for cell, count in zip(found, column(table, judged, rows))]
+    return [f"{share:.2g} %" if share else "0" for share in percent]
+
+
+def peer(tables, work, name, title, ratio, only, ours, theirs, judged):
     table = table_of(tables, title)
     rows = table[1:]
     if only:
         rows = [row for row, cell in zip(rows, column(table, only[0])) if cell == only[1]]
-    errors = [span(column(table, errors, rows)) if errors else "–" for errors in (ours, theirs)]
+    errors = [span(shares(table, rows, wrong, judged)) if wrong else "–" for wrong in (ours, theirs)]
     if isinstance(ratio, tuple):
         both = zip(*(map(value, column(table, one, rows)) for one in ratio))
         ratios = [f"{theirs / ours:.2f}" for theirs, ours in both]

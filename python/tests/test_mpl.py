@@ -1,4 +1,4 @@
-"""Exact axes: pictures judged pixel by pixel, and that all else is as with mplot3d's axes."""
+"""Tests exact axes: pictures are judged pixel by pixel, and everything else is compared with mplot3d's axes."""
 
 import copy
 import io
@@ -30,13 +30,13 @@ def closed():
 
 @pytest.fixture(params=["drawing", "order"])
 def way(request, monkeypatch):
-    """Pictures are painted by a drawing of the view, or by the order of the tree."""
+    """Chooses how pictures are painted: by a drawing of the view, or in the order of the tree."""
     if request.param == "order":
         monkeypatch.setattr(binspace.mpl, "_MOST_PIXELS", -1)
     return request.param
 
 
-# Scenes that mplot3d draws right at places that are judged, if any.
+# Scenes that mplot3d draws right, or nearly right, at the judged pixels.
 NEARLY_RIGHT = {"moebius_strip", "arrows_through_plane"}
 
 
@@ -48,8 +48,8 @@ def test_no_pixel_is_wrong(scene, way):
     result = compare.judged(scene, "exact3d", dpi=100, keep=found)
     assert result.wrong_probes == 0
     if way == "order":
-        # Without antialiasing, Agg fills each pixel that an area touches: a part of a polygon that was cut reaches a pixel
-        # over what lies in front of the other part.
+        # Without antialiasing, Agg fills each pixel that an area touches. So a part of a polygon that was cut covers up to a
+        # pixel of objects in front of the other part.
         assert not compare._spread(found["wrong"], 1, np.minimum).any() and result.percent < 0.1
     else:
         assert result.wrong == 0
@@ -183,13 +183,13 @@ def test_what_mplot3d_draws_right_is_the_same(draw, way):
 
 
 def turns(a, b, c):
-    """Whether lines from `a` over `b` to `c` turn left, by the sign."""
+    """Returns a positive number if the lines from `a` to `b` and from there to `c` turn left, and a negative one for right."""
     (x, y), (u, v) = (b - a).T, (c - a).T
     return x * v - y * u
 
 
 def test_bridges_to_holes_cross_no_sides():
-    # Many holes of noise, with corners of one y.
+    # Contours of noise have many holes, and many corners with equal y.
     x, y = np.meshgrid(np.arange(20), np.arange(20))
     levels = plt.figure().add_subplot().contourf(x, y, np.random.default_rng(1).normal(size=x.shape))
     count = 0
@@ -201,7 +201,7 @@ def test_bridges_to_holes_cross_no_sides():
                 of_p, of_q = (turns(a, b, end) for end in (p, q))
                 of_a, of_b = (turns(p, q, end) for end in (a, b))
                 assert not ((of_p * of_q < 0) & (of_a * of_b < 0)).any()
-                # Nor do they go through corners.
+                # Bridges also pass through no corners.
                 is_between = ((a - p) @ (q - p) > 0) & ((a - q) @ (p - q) > 0)
                 assert not (is_between & (of_a == 0)).any()
                 count += 1
@@ -245,7 +245,7 @@ def test_svg_has_one_path_a_polygon():
     ax.set_axis_off()
     file = io.StringIO()
     figure.savefig(file, format="svg")
-    # Nothing of the halves that are hidden, and no polygon twice.
+    # Hidden halves are left out, and no polygon is painted twice.
     assert 100 <= file.getvalue().count("fill: #ff0000") + file.getvalue().count("fill: #00ff00") <= 200
 
 
@@ -299,7 +299,7 @@ def test_picking_and_coordinates_are_as_before():
 
 
 def test_orders_of_equals_and_zorders_stay():
-    """Of polygons in one plane the later one is above, and that of the larger z-order."""
+    """In one plane, the polygon with the larger zorder is painted above, and at equal zorder the later polygon."""
     square = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]], float)
     for zorders, expected in (((1, 1), (0, 0, 255)), ((2, 1), (255, 0, 0))):
         figure = plt.figure(figsize=(3, 3), dpi=50)

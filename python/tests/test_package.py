@@ -1,4 +1,4 @@
-"""The README's code runs, and the stubs describe the module."""
+"""Tests that the README's code runs, and that the stubs describe the module."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""The arrays, orders, fragments, rays and pictures of `binspace`."""
+"""Tests the arrays, orders, fragments, rays and pictures of `binspace`."""
 
 import doctest
 import itertools
@@ -86,7 +86,7 @@ def test_arrays_of_any_layout_are_read():
         vertices = polygons.reshape(-1, 3)
         faces = np.arange(150).reshape(50, 3)
         assert np.array_equal(binspace.Tree((vertices, faces)).fragments.points, expected)
-    # As f32, rows of strided arrays are read in place too.
+    # Rows of strided f32 arrays are also read without a copy.
     narrow = wide.astype(np.float32)[..., ::2]
     tree = binspace.Tree((narrow.reshape(-1, 3), faces))
     assert np.allclose(tree.fragments.points.min(0), expected.min(0), atol=1e-6)
@@ -105,7 +105,7 @@ def test_fragments_are_parts_of_their_polygons():
         area[polygon] += 0.5 * np.linalg.norm(np.cross(points - points[0], np.roll(points - points[0], -1, 0)).sum(0))
         steps = np.linalg.norm(np.roll(points, -1, 0) - points, axis=1)
         own_length[polygon] += steps[fragments.edges[part] >= 0].sum()
-        # Weights over the corners give the same points.
+        # The weighted sums of the corners are the same points.
         for v, point in zip(range(part.start, part.stop), points):
             row = slice(fragments.weight_offsets[v], fragments.weight_offsets[v + 1])
             corners = polygons[polygon][fragments.weight_corners[row]]
@@ -117,7 +117,7 @@ def test_fragments_are_parts_of_their_polygons():
 
 
 def test_orders_are_those_of_depths():
-    """Of random triangles, along random rays, each fragment that is hit later in the order is nearer."""
+    """Along each random ray, fragments that come later in the order are nearer."""
     polygons = random_triangles(40)
     tree = binspace.Tree(polygons)
     fragments = tree.fragments
@@ -319,7 +319,7 @@ def test_crossings_and_creases():
 
 
 def test_lines_and_points():
-    # Over the tree, through it, broken by NaN, and under it.
+    # The line runs above the square and through it. After a NaN, it runs below the square.
     line = np.array([[-0.5, 0.5, 1], [0.25, 0.5, 1], [0.75, 0.5, -1], [np.nan] * 3, [0.1, 0.1, -1], [0.9, 0.1, -1],
                      [1.5, 0.1, -1]])
     polygons = [SQUARE]
@@ -385,14 +385,14 @@ def test_progress_and_cancel():
     seen = tree.visibility(camera)
     with pytest.raises(InterruptedError, match="enough"):
         seen.edges(progress=stop)
-    # The map is as before.
+    # The map is unchanged.
     assert len(seen.edges().polygon) > 100
 
 
 ENDLESS = """
 import signal
 import numpy as np, binspace
-# Programs in the background of a shell ignore it.
+# Programs in the background of a shell ignore SIGINT.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 random = np.random.default_rng(1)
 polygons = random.uniform(-1, 1, (3000, 3, 3))

@@ -1,4 +1,4 @@
-"""A window: axes that a mouse turns are painted in exact order, and picking and coordinates work."""
+"""Tests a window: axes that the mouse turns are painted in exact order, and picking and coordinates work."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ canvas = figure.canvas
 
 
 def send(kind, x, y, button, held):
-    # In pixels of the picture, from the bottom left corner.
+    # x and y are pixels from the bottom left corner of the picture.
     at = QtCore.QPointF(x / canvas.device_pixel_ratio, canvas.height() - y / canvas.device_pixel_ratio)
     event = QtGui.QMouseEvent(getattr(QtCore.QEvent.Type, kind), at, canvas.mapToGlobal(at), button, held,
                               QtCore.Qt.KeyboardModifier.NoModifier)
@@ -41,7 +41,7 @@ left, none = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.MouseButton.NoButton
 
 
 def judge():
-    # A point of one plane is hidden where the way to the eye leads through the other one.
+    # A point of one plane is hidden if the line to the eye crosses the other plane.
     azim, elev = np.radians([ax.azim, ax.elev])
     aspect = ax._box_aspect
     limits = np.array(ax.get_w_lims()).reshape(3, 2)

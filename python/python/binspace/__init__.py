@@ -1,6 +1,6 @@
 """Exact back-to-front orders of polygons from one BSP tree.
 
-A `Tree` is built once, and cuts polygons where they cross. It gives the order to paint them in for any viewpoint:
+Build a `Tree` once. It cuts polygons where they cross. For any viewpoint it returns the order in which to paint them:
 
 >>> import binspace
 >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
@@ -8,7 +8,7 @@ A `Tree` is built once, and cuts polygons where they cross. It gives the order t
 >>> tree.fragments.polygon[tree.order(eye=(0.5, 0.5, 9.0))].tolist()
 [1, 2, 0]
 
-`binspace.mpl` has axes for matplotlib that paint in this order.
+`binspace.mpl` has axes for matplotlib that paint in such an order.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ __version__ = "0.1.0"
 
 
 def _points(array, name="points"):
-    """Rows of three numbers, f64 or f32, without a copy where they are that already. Masked numbers become NaN."""
+    """Returns points as rows of three f64 or f32, without a copy if they are such rows. Masked numbers become NaN."""
     try:
         if isinstance(array, np.ma.MaskedArray):
             array = np.ma.filled(array.astype(float), np.nan)
@@ -79,7 +79,7 @@ def _integers(array, name):
 
 
 def _lists(lists, name):
-    """Arrays of points one after the other, and where each begins."""
+    """Concatenates arrays of points. Also returns the row where each array begins."""
     if isinstance(lists, np.ndarray) and lists.ndim == 3:
         count, length, _ = lists.shape
         flat = lists.reshape(-1, lists.shape[2])
@@ -96,22 +96,28 @@ class Tree(_binspace.Tree):
     Parameters
     ----------
     polygons
-        A list of polygons, each an array of shape (n, 3); one array of shape (polygons, n, 3); a tuple
-        ``(vertices, faces)`` of an array of shape (n, 3) and an array of indices, one row a face, or a list of
-        lists of indices; or a tuple ``(flat, offsets)``: polygon `i` has the rows of `flat` from ``offsets[i]`` to
-        ``offsets[i + 1]``. Arrays of f64 and of f32 are read without a copy. A polygon that has NaN or masked
-        numbers is left out, and keeps its number. (A tuple of two is never a list of two polygons.)
+        One of these:
+
+        - a list of polygons, each an array of shape (n, 3);
+        - one array of shape (polygons, n, 3);
+        - a tuple ``(vertices, faces)``: an array of shape (n, 3), and the indices of the corners of each face, as an array
+          with a row for each face, or as a list of lists;
+        - a tuple ``(flat, offsets)``: polygon `i` has the rows of `flat` from ``offsets[i]`` to ``offsets[i + 1]``.
+
+        A tuple of two is never read as a list of two polygons. Arrays of f64 and f32 are read without a copy. A polygon with
+        NaN or masked numbers is left out, but keeps its number.
     opacity : array of float, optional
         The opacity of each polygon, from 0 to 1. By default all are opaque.
     tolerance : float, optional
-        Polygons that reach no further than this from a plane lie on it. By default it follows the precision
-        of the numbers.
+        Polygons that reach no further than this from a plane count as lying on the plane. The default follows the
+        precision of the numbers.
     bounds : array of shape (2, 3), optional
-        Two corners of a box that holds all lines and points of later overlays.
+        Two opposite corners of a box that contains all lines and points of later overlays.
     max_fragments : int, optional
-        The most fragments. By default 2**25.
+        The largest number of fragments. By default 2**25.
     progress : callable, optional
-        A function of the finished and the total work, called several times a second. An exception cancels the build.
+        A function that is called several times a second with the finished and the total work. An exception in it
+        cancels the build.
 
     Raises
     ------
@@ -181,10 +187,13 @@ class Tree(_binspace.Tree):
     def fragments(self) -> Fragments:
         """All fragments as arrays.
 
-        Fragment `i` is a part of ``polygon[i]`` and has the rows of `points` from ``offsets[i]`` to
-        ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that leads from vertex `v` to the next, by the
-        number of its first corner, or -1 where a cut made it. Vertex `v` has the `weights` from
-        ``weight_offsets[v]`` to ``weight_offsets[v + 1]`` over the corners `weight_corners` of its polygon.
+        Fragment `i` is a part of ``polygon[i]``. Its vertices are the rows of `points` from ``offsets[i]`` to
+        ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that contains the side from vertex `v` to the next
+        vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+
+        Vertex `v` is a weighted sum of corners of the polygon. The entries from ``weight_offsets[v]`` to
+        ``weight_offsets[v + 1]`` of `weight_corners` are the numbers of these corners, and the same entries of `weights`
+        are their weights.
         """
         return self._fragments()
 
@@ -198,7 +207,7 @@ class Tree(_binspace.Tree):
         direction, end : array of the same shape
             The direction of each ray, or the point where each segment ends.
         limit : int, optional
-            The largest number of hits for each ray; all if None.
+            The largest number of hits for each ray. By default all hits are returned.
 
         Returns
         -------
@@ -214,20 +223,21 @@ class Tree(_binspace.Tree):
         return self._hits(start, other, direction is None, limit)
 
     def is_occluded(self, start, end):
-        """Whether a polygon lies between two points, or between each of two lists of points."""
+        """Returns whether a polygon lies between two points. For two lists of points, returns an array: a result for each
+        pair."""
         start, end, is_single = _pair(start, end)
         occluded = self._is_occluded(start, end)
         return bool(occluded[0]) if is_single else occluded
 
     def overlay(self, lines=(), points=(), *, progress=None) -> Overlay:
-        """Lines and points in one order with the tree.
+        """Returns an overlay: lines and points that are ordered together with the tree.
 
         Parameters
         ----------
         lines : list of arrays of shape (n, 3), or a tuple (flat, offsets)
-            Polylines. A line is broken where it has NaN.
+            Polylines. NaN breaks a line into parts.
         points : array of shape (n, 3)
-            Points; those with NaN are left out.
+            Points. A point with NaN is left out.
         progress : callable, optional
             As for `Tree`.
         """
@@ -255,7 +265,7 @@ class Tree(_binspace.Tree):
         return Visibility(_binspace.Visibility(self, camera, front_faces_only, least_area, progress))
 
     def translucent(self, camera, overlay=None, *, front_faces_only=False, progress=None) -> Drawing:
-        """All polygons as paths, nothing hidden, with the lines and points of an overlay between them.
+        """Returns a drawing of all polygons, hidden ones too, and of the lines and points of an overlay, in one order.
 
         Polygons are split only where no painting order exists.
         """
@@ -280,8 +290,8 @@ class Camera(_binspace.Camera):
     Parameters
     ----------
     matrix : array of shape (4, 4)
-        From points to clip coordinates (column vectors): a point with clip coordinates (x, y, z, w) appears at
-        ``((0.5 + 0.5 * x / w) * width, (0.5 - 0.5 * y / w) * height)``. Depths of parallel projections must increase
+        The matrix from points to clip coordinates, both column vectors. A point with clip coordinates (x, y, z, w)
+        appears at ``((0.5 + 0.5 * x / w) * width, (0.5 - 0.5 * y / w) * height)``. Depths of parallel projections must increase
         away from the viewer.
     size : (int, int)
         The width and the height of the picture in pixels.
@@ -289,7 +299,7 @@ class Camera(_binspace.Camera):
     Raises
     ------
     ValueError
-        If the matrix has no camera, or mirrors the picture.
+        If the matrix determines no camera, or mirrors the picture.
     """
 
     def __new__(cls, matrix, size):
@@ -302,14 +312,15 @@ class Camera(_binspace.Camera):
         return super().__new__(cls, matrix.tolist(), [width, height])
 
     def project(self, points):
-        """Where points appear, in pixels from the top left corner; NaN behind the eye."""
+        """Returns where points appear, in pixels from the top left corner. Points behind the eye become NaN."""
         points = np.asarray(points)
         places = self._project(_points(np.atleast_2d(points)))
         return places[0] if points.ndim == 1 else places
 
 
 def _color(color):
-    """Red, green and blue from 0 to 255, of three numbers from 0 to 1 or a name that matplotlib knows."""
+    """Converts three numbers from 0 to 1, ``#rrggbb``, or a name that matplotlib knows, to red, green and blue from 0 to
+    255."""
     if isinstance(color, str):
         if len(color) == 7 and color[0] == "#":
             return [int(color[i : i + 2], 16) for i in (1, 3, 5)]
@@ -330,53 +341,55 @@ def _stroke(stroke):
 
 
 class Visibility:
-    """The visible parts of polygons, edges, lines and points for a camera: `Tree.visibility`."""
+    """The visible parts of polygons, edges, lines and points for a camera. `Tree.visibility` computes them."""
 
     def __init__(self, map):
         self._map = map
 
     @property
     def size(self):
-        """The width and the height of the picture."""
+        """The width and the height of the picture in pixels."""
         return tuple(self._map.size)
 
     def polygons(self) -> VisiblePolygons:
-        """The visible polygons: `polygon`, visible `area`, and a `point` where each is visible."""
+        """Returns the visible polygons: `polygon`, visible `area` in square pixels, and a `point` where each is visible."""
         return self._map.polygons()
 
     def drawing(self, *, progress=None) -> Drawing:
-        """One path for each visible polygon, in the order to paint them."""
+        """Returns one path for each visible polygon, in the order to paint them."""
         return self._map.drawing(progress=progress)
 
     def edges(self, hidden="skip", *, progress=None) -> EdgeRuns:
-        """Visible parts of edges; hidden ones too with "keep", and by the polygons in front with "count"."""
+        """Returns the visible parts of edges. With "keep", also returns the hidden parts. With "count", also returns how many
+        polygons are in front of each hidden part."""
         return self._map.edges(hidden, progress=progress)
 
     def crossings(self, hidden="skip", *, progress=None) -> EdgeRuns:
-        """Parts of the lines in which polygons cross."""
+        """Returns parts of the lines along which polygons cross; `hidden` as for `edges`."""
         return self._map.crossings(hidden, progress=progress)
 
     def lines(self, overlay, hidden="skip", *, progress=None) -> LineRuns:
-        """Visible parts of an overlay's lines."""
+        """Returns the visible parts of an overlay's lines; `hidden` as for `edges`."""
         return self._map.lines(overlay, hidden, progress=progress)
 
     def markers(self, overlay, *, progress=None) -> Markers:
-        """The points of an overlay in the picture, and whether they are visible."""
+        """Returns the points of an overlay that are in the picture, and whether they are visible."""
         return self._map.markers(overlay, progress=progress)
 
     def to_svg(self, path=None, **options):
-        """The picture as SVG.
+        """Returns the picture as SVG, or writes it to a file.
 
         Parameters
         ----------
         path : path, optional
             The file to write.
-        colors : colour, or a list of one for each polygon
+        colors : a colour, or a list with a colour for each polygon
             Names, ``#rrggbb``, or three numbers from 0 to 1.
         outlines, edges : (width, colour), optional
-            Lines along the edges of each polygon, painted with it; and along visible edges and crossings, painted last.
+            `outlines` are lines along the edges of each polygon, painted with the polygon. `edges` are lines along
+            visible edges and crossings, painted last.
         lines : Overlay, optional
-            Its lines are painted last, with the width and the colour `line`.
+            The overlay's lines are painted last, with the width and the colour `line`.
         background : colour, optional
 
         Returns
@@ -387,7 +400,7 @@ class Visibility:
         return self._write("svg", path, **options)
 
     def to_pdf(self, path=None, **options):
-        """Return the picture as PDF, in bytes; the options are those of `to_svg`."""
+        """Returns the picture as PDF in bytes, or writes it to a file. For the options see `to_svg`."""
         return self._write("pdf", path, **options)
 
     def _write(

@@ -1,4 +1,4 @@
-"""matplotlib's own tests of 3D axes, with and without exact ones: ``python -m binspace.compare --matplotlib-tests FOLDER``."""
+"""Runs matplotlib's own tests of 3D axes, also with exact axes: ``python -m binspace.compare --matplotlib-tests FOLDER``."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 SEAMS = "no seams between faces"
-ROUNDING = "places are rounded otherwise: some pixels differ by at most 5 of 255"
+ROUNDING = "positions are rounded differently: some pixels differ by at most 5 of 255"
 ORDER = "mplot3d's order is wrong, or ignores z-orders"
 BENT = "faces of 20 corners that are not flat are divided into triangles"
 SLIVERS = "areas thinner than a pixel, without antialiasing"
 SNAPPED = "matplotlib moves the path of a collection with one path to whole pixels"
-CURVE = "a curve itself is projected, not its control points"
+CURVE = "matplotlib projects the control points of a curve instead of the curve"
 SIMPLIFIED = "matplotlib simplifies long lines, by up to a ninth of a pixel"
-NAME = "the test wants the name of the class"
+NAME = "the test compares the name of the class"
 
 # Why the pictures of matplotlib 3.11 differ.
 REASONS = {
@@ -62,7 +62,7 @@ REASONS = {
     "TestVoxels::test_xyz": SEAMS,
 }
 
-# How the message of a failure begins that has a reason: a picture differs, or the name of the class.
+# The beginnings of the messages of known failures: a picture differs, or the name of the class.
 PICTURE = "matplotlib.testing.exceptions.ImageComparisonFailure: images not close"
 NAMED = 'assert "<ExactAxes3D'
 
@@ -76,7 +76,7 @@ sys.exit(pytest.main(sys.argv[1:]))
 
 
 def results(folder, axes):
-    """The failures of all tests, by name: empty for those that pass."""
+    """Returns the failures of each test, by name. The list of a test that passes is empty."""
     report = os.path.join(folder, axes + ".xml")
     arguments = [axes, "-q", "-p", "no:cacheprovider", f"--junitxml={report}", "tests"]
     subprocess.run([sys.executable, "-c", RUN, *arguments], cwd=folder, stdout=subprocess.DEVNULL, check=False)
@@ -93,17 +93,18 @@ def results(folder, axes):
 
 
 def reason(name, failures):
-    """Why a test fails, if that is known. Other failures of a listed test, such as exceptions, are unknown."""
+    """Returns the reason why a test fails, or None if it is unknown. Exceptions of a listed test, and other failures
+    without a known beginning, are unknown."""
     why = REASONS.get(name)
     begin = NAMED if why == NAME else PICTURE
     return why if all(failure.startswith(begin) for failure in failures) else None
 
 
 def main(tests):
-    """Prints the tests that fail with exact axes only. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
+    """Prints the tests that fail only with exact axes. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
     sources, which has the expected pictures."""
     with tempfile.TemporaryDirectory() as folder:
-        # Outside of the sources, which are not built.
+        # Copied out of the source tree, because the sources in it are not built.
         shutil.copytree(tests, os.path.join(folder, "tests"))
         before, ours = (results(folder, axes) for axes in ("mplot3d", "exact"))
     if not ours or all(before.values()):

@@ -1,4 +1,4 @@
-"""Times of pictures by matplotlib's 3D axes and by exact ones: ``python -m binspace.compare --speed``."""
+"""Times pictures of matplotlib's 3D axes and of exact axes: ``python -m binspace.compare --speed``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PROJECTIONS = "3d", "exact3d"
 
 
 def surfaces(axes, n, **options):
-    """A wavy surface of n by n quads, and another one through it."""
+    """Draws a wavy surface of n by n quads, and a plane that crosses it."""
     x, y = np.meshgrid(np.linspace(-2, 2, n + 1), np.linspace(-2, 2, n + 1))
     axes.plot_surface(x, y, np.sin(2 * x) * np.cos(2 * y), **options)
     axes.plot_surface(x, y, 0.4 * x, **options)
@@ -56,7 +56,7 @@ class Timed:
         self._time("first PNG", lambda: new.savefig(io.BytesIO(), format="png"))
         self._time("PNG", lambda: self.figure.savefig(io.BytesIO(), format="png"))
         self._time("SVG", lambda: self.figure.savefig(io.BytesIO(), format="svg"))
-        # As while a mouse button turns the axes.
+        # A pressed mouse button turns the axes.
         self.axes.view_init(30, self.axes.azim + 1)
         self.axes.button_pressed = 1
         self._time("turn", self.figure.canvas.draw)
@@ -64,7 +64,7 @@ class Timed:
 
 
 def main(rounds):
-    """Prints a table. Both kinds of axes take turns, and the least of their times count."""
+    """Prints a table. The two kinds of axes draw in turn, and the shortest time of each is reported."""
     cores, threads = os.cpu_count(), os.environ.get("RAYON_NUM_THREADS")
     print(f"matplotlib {matplotlib.__version__}, Python {platform.python_version()}, {platform.machine()}, "
           f"{threads or cores} threads, the least of {rounds} times of all threads together, "

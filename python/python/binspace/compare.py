@@ -1,11 +1,11 @@
 """Judges pictures of matplotlib's 3D axes and of exact ones, pixel by pixel.
 
 ``python -m binspace.compare`` draws each scene on both without antialiasing, and prints how many pixels are wrong. Each
-polygon has its own colour, so a pixel says which one is painted last. The judge is a depth buffer in float64 of the same
-view. It shares no arithmetic with the library. Pixels are doubtful, and not judged, next to an edge that is not hidden,
-and where two depths are almost the same.
+polygon has its own colour, so the colour of a pixel tells which polygon was painted last. The judge is a depth buffer of
+the same view in float64. It shares no arithmetic with the library. Pixels next to a visible edge, and pixels where two
+depths are almost equal, are doubtful and not judged.
 
-Lines, markers and texts are judged at points along them: each has to be visible, or not.
+Lines, markers and texts are judged at points along them. The depth buffer decides which of these points must be visible.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ import binspace.mpl  # noqa: F401 - registers the projection
 from . import _matplotlib_tests, _speed
 from ._scenes import SCENES
 
-# Depths that differ by less than this share of the scene's are the same.
+# Depths that differ by less than this share of the scene's depth count as equal.
 _CLOSE = 1e-6
 
 
 class View:
-    """Where points of the scene appear, and how far they are."""
+    """Computes where points of the scene appear, and their depths."""
 
     def __init__(self, axes):
         self.axes = axes
@@ -38,7 +38,7 @@ class View:
         self.is_parallel = np.allclose(self.matrix[3, :3], 0, atol=1e-12)
 
     def scaled(self, points):
-        """Axes with scales have them in 3D from matplotlib 3.11 on."""
+        """Applies the scales of the axes, such as logarithms. matplotlib has scales in 3D from 3.11 on."""
         from mpl_toolkits.mplot3d import proj3d
 
         points = np.array(points, float)
@@ -48,8 +48,8 @@ class View:
         return points
 
     def __call__(self, points):
-        """Pixels, from the top left corner; and a depth that is linear in the picture over each plane: the depth of a
-        parallel view, and -1 / depth of a perspective one."""
+        """Returns positions in pixels from the top left corner, and depths that are linear in the picture over each plane:
+        z of a parallel view, and -1 / w of a perspective view."""
         points = self.scaled(points)
         homogeneous = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ self.matrix.T
         w = homogeneous[..., 3]
@@ -59,14 +59,14 @@ class View:
 
 
 class Faces:
-    """The polygons of a scene: each has an identity and its outlines, lists of points."""
+    """The polygons of a scene. Each has a list of outlines, which are lists of points, and a colour."""
 
     def __init__(self):
         self.outlines, self.colors = [], []
 
 
 def _faces_of(artist):
-    """The outlines of the polygons of an artist."""
+    """Returns the outlines of each polygon of an artist."""
     if isinstance(artist, art3d.Poly3DCollection):
         if hasattr(artist, "_faces"):
             valid = ~np.broadcast_to(artist._invalid_vertices, artist._faces.shape[:2])
@@ -81,10 +81,10 @@ def _faces_of(artist):
 
 
 def _flattened(points, codes):
-    """The outlines of a path in a plane across an axis, curves as many short lines."""
+    """Returns the outlines of a path in a plane perpendicular to an axis. Curves become many short lines."""
     axis = int(np.argmin(np.ptp(points, axis=0)))
     others = [i for i in range(3) if i != axis]
-    # The lines are as long as suits pixels.
+    # `Path` divides curves by a length in pixels: enlarged paths get short lines.
     enlarged = 1e5 / np.ptp(points[:, others])
     polygons = Path(points[:, others] * enlarged, codes).to_polygons(closed_only=False)
     outlines = []
@@ -96,7 +96,7 @@ def _flattened(points, codes):
 
 
 def _recolored(axes, keeps_colors):
-    """Gives each polygon, line, marker and text its own colour; lists the polygons, and the other artists as probes."""
+    """Gives each polygon, line, marker and text its own colour. Returns the polygons, and the other artists as probes."""
     faces, probes = Faces(), []
     count = 0
 
@@ -104,7 +104,7 @@ def _recolored(axes, keeps_colors):
         nonlocal count
         numbers = np.arange(count + 1, count + 1 + number)
         count += number
-        # Far apart, so that no two are mixed up: a permutation of all colours.
+        # A permutation of all colours, in which consecutive numbers have very different colours.
         codes = numbers * 7919 % (1 << 24)
         return np.stack([codes >> 16, codes >> 8 & 255, codes & 255], -1) / 255
 
@@ -151,7 +151,7 @@ def _recolored(axes, keeps_colors):
 
 
 class Depths:
-    """For each pixel, the polygons that may be the nearest."""
+    """For each pixel, the polygons that may be nearest, with bounds of their depths."""
 
     def __init__(self, view, faces):
         shape = view.height, view.width
@@ -182,7 +182,7 @@ class Depths:
             return
         x, y = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
         if len(outlines) == 1 and len(every) in (3, 4):
-            # A quad may be bent: as two triangles by either diagonal.
+            # A quad may be bent. Then it may be divided into two triangles by either diagonal.
             ways = [[(0, 1, 2)]] if len(every) == 3 else [[(0, 1, 2), (0, 2, 3)], [(0, 1, 3), (1, 2, 3)]]
             found = []
             for way in ways:
@@ -198,7 +198,7 @@ class Depths:
             centres = np.column_stack([x.ravel(), y.ravel()])
             inside = np.zeros(x.size, bool)
             for place in places:
-                # A hole is inside of two outlines.
+                # A point in a hole is inside two outlines.
                 inside ^= Path(np.append(place, place[:1], 0)).contains_points(centres)
             inside = inside.reshape(x.shape)
             found = [np.where(inside, plane[0] * x + plane[1] * y + plane[2], np.inf)]
@@ -218,7 +218,7 @@ class Depths:
         self.layers.append((pixels, nearest[rows, columns], furthest[rows, columns], np.full(len(rows), number)))
 
     def _mark_edges(self):
-        """The least depth of edges next to each pixel."""
+        """Computes for each pixel the least depth of the edges next to it."""
         a, b, d, e = (np.concatenate(part) for part in zip(*self.edges))
         counts = np.minimum(np.ceil(np.hypot(*(b - a).T) * 2).astype(int) + 1, 20_000)
         owner = np.repeat(np.arange(len(a)), counts)
@@ -232,14 +232,14 @@ class Depths:
                 np.minimum.at(self.edge, (y[inside], x[inside]), depth[inside])
 
     def certain(self):
-        """The pixels whose nearest polygon is certain."""
+        """Returns the mask of pixels whose nearest polygon is certain."""
         other = np.where(self.low_number == self.number, self.low[1], self.low[0])
-        # Polygons cross where two are at one depth, or where the nearest is another one pixel further.
+        # Next to a crossing, another polygon may be as near: the pixels around it are uncertain too.
         is_apart = _spread(other > self.best + self.margin, 1, np.minimum)
         return is_apart & (self.edge > self.best + self.margin) & _is_alike(self.number)
 
     def blended(self, background):
-        """The colours of all layers, one over another, and a mask of the pixels where they are certain."""
+        """Blends the colours of all layers. Also returns the mask of pixels where the result is certain."""
         shape = self.best.shape
         pixels, near, far, number = (np.concatenate(part) for part in zip(*self.layers))
         order = np.lexsort([-near, pixels])
@@ -274,12 +274,13 @@ def _triangle(corners, depths, x, y):
 
 
 def _is_alike(numbers):
-    """Whether all pixels around one have the same number: two pixels far, as Agg fills each that an area touches."""
+    """Returns for each pixel whether all pixels around it have the same number. The distance is two pixels, because Agg
+    fills each pixel that an area touches."""
     return _spread(numbers, 2, np.minimum) == _spread(numbers, 2, np.maximum)
 
 
 def _spread(image, radius, combine):
-    """The least or the largest of the pixels around each."""
+    """Combines each pixel with the pixels around it: `combine` is the minimum or the maximum."""
     for axis in (0, 1):
         result = image.copy()
         for shift in range(1, radius + 1):
@@ -293,12 +294,12 @@ def _spread(image, radius, combine):
 
 
 def _samples(view, lines):
-    """Points along lines, about two pixels apart, with their depths."""
+    """Returns points along lines, about two pixels apart, and their depths."""
     places, depths = [np.empty((0, 2))], [np.empty(0)]
     for line in lines:
         at, depth = view(line)
         for a, b, d, e in zip(at[:-1], at[1:], depth[:-1], depth[1:]):
-            # Not at the ends, where caps and joins are.
+            # Caps and joins are at the ends.
             count = max(int(np.hypot(*(b - a)) / 2), 1)
             t = (np.arange(count) + 0.5) / count
             places.append(a + t[:, None] * (b - a))
@@ -307,7 +308,7 @@ def _samples(view, lines):
 
 
 class Result:
-    """How many pixels were judged, how many of them are wrong, and how many are doubtful; the same of probes."""
+    """The numbers of wrong, judged and doubtful pixels, and the same numbers of probes."""
 
     def __init__(self, wrong, judged, doubtful, wrong_probes, probes, doubtful_probes):
         self.wrong, self.judged, self.doubtful = wrong, judged, doubtful
@@ -320,7 +321,7 @@ class Result:
 
 
 def drawn(scene, projection, dpi):
-    """A figure with a scene."""
+    """Draws a scene in a new figure. Returns its canvas and axes."""
     figure = Figure(figsize=(4, 4), dpi=dpi)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1), projection=projection)
@@ -335,11 +336,11 @@ def judged(scene, projection="exact3d", dpi=300, keep=None):
     Parameters
     ----------
     scene : callable
-        Draws on axes.
+        A function that draws on axes.
     projection : str
     dpi : int
     keep : dict, optional
-        Gets the picture and where it is wrong.
+        Receives the picture, the depths, and the masks of wrong and of certain pixels.
     """
     canvas, axes = drawn(scene, projection, dpi)
     canvas.draw()
@@ -352,8 +353,9 @@ def judged(scene, projection="exact3d", dpi=300, keep=None):
     depths = Depths(view, faces)
     if is_translucent:
         expected, certain = depths.blended([255, 255, 255])
-        # Without antialiasing, Agg fills each pixel that an area touches: both sides of a cut. With it, both cover a part, and
-        # together by up to a sixteenth less. Nothing that is painted in a wrong order differs by so little here.
+        # Without antialiasing, Agg fills each pixel that an area touches, so both sides of a cut fill a pixel. With
+        # antialiasing, each side covers a part of the pixel, and both together cover up to a sixteenth too little. A wrong
+        # order changes pixels by more.
         is_wrong = np.abs(expected - image).max(-1) > 16
     else:
         certain = depths.certain() | np.isinf(np.minimum(depths.low[0], depths.edge))
@@ -372,7 +374,8 @@ def judged(scene, projection="exact3d", dpi=300, keep=None):
 
 
 def _judge_probes(view, depths, probes, image, dpi, keep):
-    """Where lines, markers and texts may be painted; and how many of their points are wrong, judged and doubtful."""
+    """Returns the mask of pixels that lines, markers and texts may cover, and the numbers of their wrong, judged and
+    doubtful points."""
     shape = image.shape[:2]
     covers, found = [], []
     for color, lines, points, radius in probes:
@@ -410,7 +413,7 @@ def _judge_probes(view, depths, probes, image, dpi, keep):
 
 
 def write_picture(file, scenes):
-    """Writes scenes side by side: in the first row by mplot3d, in the second by exact axes."""
+    """Writes a picture of scenes side by side. The first row is drawn by mplot3d, the second by exact axes."""
     figure = Figure(figsize=(3 * len(scenes), 6), dpi=72)
     FigureCanvasAgg(figure)
     for row, (projection, title) in enumerate((("3d", "matplotlib"), ("exact3d", "with binspace"))):
@@ -425,15 +428,15 @@ def write_picture(file, scenes):
 
 
 def main():
-    """Prints the table."""
+    """Runs the command."""
     parser = argparse.ArgumentParser(prog="python -m binspace.compare", description=__doc__)
     parser.add_argument("--dpi", type=int, default=300)
     parser.add_argument("--picture", metavar="FILE", help="write the scenes as both draw them, and judge nothing")
     parser.add_argument("scenes", nargs="*", help="names of scenes; by default all")
     parser.add_argument("--speed", action="store_true", help="time pictures, and judge nothing")
-    parser.add_argument("--rounds", type=int, default=7, help="how often each picture is timed (default: 7)")
+    parser.add_argument("--rounds", type=int, default=7, help="number of times that each picture is timed (default: 7)")
     parser.add_argument("--matplotlib-tests", metavar="FOLDER",
-                        help="run matplotlib's tests in the folder lib/mpl_toolkits/mplot3d/tests of its sources on both")
+                        help="run matplotlib's tests on both; FOLDER is lib/mpl_toolkits/mplot3d/tests of its sources")
     options = parser.parse_args()
     if options.matplotlib_tests:
         return _matplotlib_tests.main(options.matplotlib_tests)

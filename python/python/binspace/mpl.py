@@ -9,7 +9,7 @@ Importing this module registers the projection ``"exact3d"``:
 `exact` makes existing axes exact, and `install` makes ``"3d"`` itself exact.
 
 Polygons are cut where they cross, and lines where they pass through polygons. Polygons of one plane, and lines and points
-on it, are painted in the order of their z-orders, and otherwise in the order in which they were added.
+on this plane, are painted by `zorder`. If their `zorder` is equal, they are painted in the order in which they were added.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ import binspace
 __all__ = ["ExactAxes3D", "exact", "install", "uninstall"]
 
 _IDENTITY = mtransforms.IdentityTransform()
-# Corners behind the eye, or nearer to its plane than this share of the furthest, are cut off. Too small: corners
-# that lie far outside of the picture overflow. Too large: parts near the eye are missing.
+# Polygons are clipped at this distance from the eye's plane, as a share of the distance of the furthest corner. Too small:
+# corners far outside the picture overflow. Too large: parts near the eye are missing.
 _NEAR = 1e-6
-# Bezier curves become as many lines.
+# The number of lines that replace a Bézier curve.
 _CURVE = 16
-# Pictures of pixels, and of vectors, with more fragments are painted by the order of the tree. Too small: seams at cuts, and
-# large files. Too large: pictures that take a second, or many.
+# Limits of fragments, for raster pictures and for vector pictures. Pictures with more fragments are painted in the order of
+# the tree. Too small: seams at cuts, and large files. Too large: pictures that take one or many seconds.
 _MOST_PIXELS = 10_000
 _MOST_VECTORS = 200_000
-# As many pairs of a corner and an edge are compared at once. Too small: slow. Too large: much memory.
+# The number of pairs of a corner and an edge that are compared at once. Too small: slow. Too large: much memory.
 _MOST_PAIRS = 1_000_000
-# Ends of lines in a picture are one point if they are no further apart, in pixels.
+# Ends of lines in a picture count as one point up to this distance, in pixels.
 _JOINED = 1e-5
 
 
@@ -54,7 +54,7 @@ _JOINED = 1e-5
 
 
 def _placed(axes, artist, points):
-    """Points in scaled data coordinates; NaN where they are invalid or clipped."""
+    """Returns points in scaled data coordinates. Invalid and clipped points become NaN."""
     mask = np.ma.getmaskarray(points).any(-1) if isinstance(points, np.ma.MaskedArray) else False
     points = np.array(np.ma.getdata(points), float)
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
@@ -73,8 +73,9 @@ def _placed(axes, artist, points):
 
 
 class _Polygons:
-    """Polygons of an artist: corners one after the other, the number of each polygon's corners, the row of the artist's
-    colours that it has, and whether the edge from each corner is one of the artist's."""
+    """Polygons of an artist. `points` has the corners of all polygons, and `lengths` the number of corners of each polygon.
+    `rows` has the row of each polygon in the artist's colours. `own` has for each corner whether the edge from there is an
+    edge of the artist."""
 
     def __init__(self, points, lengths, rows, own):
         self.points, self.lengths, self.rows, self.own = points, lengths, rows, own
@@ -85,7 +86,7 @@ def _flat_polygons(points, lengths):
 
 
 def _joined_polygons(polygons):
-    """Polygons of (points, row, own)."""
+    """Makes polygons of a list of (points, row, own)."""
     if not polygons:
         return _Polygons(np.empty((0, 3)), np.empty(0, int), np.empty(0, int), np.empty(0, bool))
     points, rows, own = zip(*polygons)
@@ -94,7 +95,7 @@ def _joined_polygons(polygons):
 
 
 def _rings(points, codes):
-    """The closed outlines of a path, curves as lines; and its lines that are not closed."""
+    """Returns the closed outlines of a path, and its lines that are not closed. Curves become lines."""
     if codes is None:
         return [points] if len(points) > 1 else [], []
     rings, lines, ring = [], [], []
@@ -119,7 +120,7 @@ def _rings(points, codes):
             control = np.concatenate([ring[-1:], points[i : i + count]])
             t = np.linspace(0, 1, _CURVE + 1)[1:, None]
             while len(control) > 1:
-                # De Casteljau's algorithm, all parameters at once.
+                # De Casteljau's algorithm for all parameters at once.
                 control = [(1 - t) * a + t * b for a, b in zip(control[:-1], control[1:])]
             ring.extend(control[0])
             i += count - 1
@@ -131,8 +132,8 @@ def _rings(points, codes):
 
 
 def _nested(rings):
-    """The pairs of rings of a plane, by number, of which the first corner of one is inside the other, by the number of
-    crossings to the right: arrays of the inner and of the outer rings."""
+    """Returns the pairs of rings in a plane where the first corner of one ring is inside the other ring: the numbers of the
+    inner rings and of the outer rings. A corner is inside if a ray to the right crosses the ring an odd number of times."""
     lengths = np.array([len(ring) for ring in rings])
     starts = np.cumsum(lengths) - lengths
     a = np.concatenate(rings)
@@ -140,7 +141,7 @@ def _nested(rings):
     following[starts + lengths - 1] = starts
     b, ring = a[following], np.repeat(np.arange(len(rings)), lengths)
     least = np.minimum.reduceat(a[:, 0], starts)
-    # The corners in the order of their y: an edge is beside those of a range.
+    # Sorted by y, the first corners beside an edge form a range.
     sorting = np.argsort(a[starts, 1])
     x, y = a[starts[sorting]].T
     low, high = (np.searchsorted(y, ends) for ends in (np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])))
@@ -161,7 +162,7 @@ def _nested(rings):
 
 
 def _without_holes(rings):
-    """Rings in one plane as polygons, each hole joined to its outline by a bridge, and whether edges are the rings' own.
+    """Makes polygons of rings in one plane. A bridge joins each hole to its outline. Also returns which edges belong to rings.
 
     Bridges go from the rightmost corner of a hole to a corner that it sees (D. Eberly, "Triangulation by ear clipping",
     2002). Areas inside an odd number of rings are filled.
@@ -197,7 +198,7 @@ def _without_holes(rings):
             start = int(np.argmax(of_hole[:, 0]))
             at = _seen_corner(plane, of_hole[start])
             turned = np.roll(np.arange(len(hole)), -start)
-            # To the corner, over the bridge, around the hole, and back.
+            # The outline up to the corner, the bridge, the hole, the bridge back, and the rest of the outline.
             order = np.concatenate([turned, turned[:1]])
             ring = np.concatenate([ring[: at + 1], hole[order], ring[at:]])
             plane = np.concatenate([plane[: at + 1], of_hole[order], plane[at:]])
@@ -214,7 +215,7 @@ def _area(ring):
 
 
 def _seen_corner(ring, point):
-    """A corner of a counter-clockwise ring that a point inside sees."""
+    """Returns a corner of a counter-clockwise ring that is visible from a point inside the ring."""
     y = ring[:, 1]
     numbers = np.flatnonzero((y <= point[1]) & (np.append(y[1:], y[:1]) > point[1]))
     if not len(numbers):
@@ -226,13 +227,13 @@ def _seen_corner(ring, point):
     side = numbers[nearest]
     ends = [side, (side + 1) % len(ring)]
     corner = max(ends, key=lambda i: ring[i, 0])
-    # Corners in the triangle of the point, the place that it sees, and the corner may be before the corner.
+    # Other corners in the triangle of the point, the place to its right, and the corner may hide the corner.
     place = np.array([right[nearest], point[1]])
     triangle = np.array([point, place, ring[corner]])
     if _area(triangle) < 0:
         triangle = triangle[::-1]
     edges = triangle[[1, 2, 0]] - triangle
-    # All corners on the line are inside of a triangle without area: its bounds leave out those beside it.
+    # If the triangle has no area, all corners on its line count as inside. Its bounds exclude corners beyond it.
     low, high = triangle.min(0), triangle.max(0)
     x, y = ring.T
     candidates = np.flatnonzero((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1]))
@@ -246,12 +247,12 @@ def _seen_corner(ring, point):
     return int(corner)
 
 
-# The paths of artists that are filled, by number: points, codes, and the polygons without holes.
+# The filled paths of each artist, by number: points, codes, and polygons without holes.
 _areas_of = weakref.WeakKeyDictionary()
 
 
 class _Source:
-    """An artist with what it consists of, in scaled data coordinates, and how it is painted."""
+    """An artist: its polygons, lines and points in scaled data coordinates, and its style."""
 
     def __init__(self, artist):
         self.artist = artist
@@ -261,7 +262,7 @@ class _Source:
         self.point_rows = np.empty(0, int)
         self.face = self.edge = np.empty((0, 4))
         self.widths, self.dashes, self.smooth = [0.0], [(0, None)], [True]
-        # Of filled contours, one for each level.
+        # Filled contours have a hatch for each level.
         self.hatches = list(getattr(artist, "hatches", None) or [artist.get_hatch() if hasattr(artist, "get_hatch") else None])
 
     def set_style(self, face, edge):
@@ -287,7 +288,7 @@ class _Source:
         return (self.edge[rows % len(self.edge), 3] > 0) & (self.widths[rows % len(self.widths)] > 0)
 
     def set_areas(self, polygons):
-        """Polygons that are filled; of others, only lines along their edges."""
+        """Sets the filled polygons. Other polygons become lines along their edges."""
         filled = self.is_filled(polygons.rows)
         if filled.all():
             self.polygons = polygons
@@ -305,7 +306,7 @@ class _Source:
         )
 
     def set_paths(self, axes, paths):
-        """Paths of (points, codes) with this artist's colours."""
+        """Sets polygons and lines from paths of (points, codes)."""
         areas = []
         before = _areas_of.get(self.artist, {})
         kept = _areas_of[self.artist] = {}
@@ -331,7 +332,7 @@ class _Source:
 
 
 def _own_lines(own):
-    """The corners, by number, of the lines along those edges of an outline that are its own."""
+    """Returns the lines along those edges of an outline that are its own, as numbers of corners."""
     count = len(own)
     if own.all():
         return [np.append(np.arange(count), 0)]
@@ -383,7 +384,7 @@ def _of_polygons(axes, artist):
 
 
 def _of_paths(axes, artist):
-    """Contours: `Collection3D` in matplotlib 3.8 and later."""
+    """Reads contours: `Collection3D` in matplotlib 3.8 and later."""
     source = _Source(artist)
     artist.update_scalarmappable()
     source.set_style(artist.get_facecolor(), artist.get_edgecolor())
@@ -437,7 +438,7 @@ def _of_line(axes, artist):
 
 
 def _marked(axes, artist, points):
-    """The vertices of a line that have markers."""
+    """Returns the numbers of a line's vertices that have markers."""
     every = artist.get_markevery()
     numbers = np.arange(len(points))
     if every is None:
@@ -447,7 +448,7 @@ def _marked(axes, artist, points):
     if isinstance(every, tuple) and all(isinstance(number, (int, np.integer)) for number in every):
         return numbers[every[0] :: every[1]]
     if isinstance(every, (float, tuple)):
-        # At distances in the picture.
+        # `every` is a distance in the picture.
         places = _projected(axes.M, points)
         chosen = mlines._mark_every_path(every, Path(places), axes.transData, axes).vertices
         return np.array([np.flatnonzero((places == place).all(1))[0] for place in chosen], int)
@@ -488,8 +489,8 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The paths, or the colours, of a collection in the plane of the picture, projected when someone reads them: picking
-    does, painting does not. Collections that are removed from the axes are projected too."""
+    """The paths, or the colours, of a collection in the plane of the picture. They are projected when they are first read:
+    picking reads them, painting does not. Collections that were removed from the axes are projected too."""
 
     def __init__(self, artist, name):
         self._artist, self._axes, self._name = artist, artist.axes, name
@@ -518,7 +519,7 @@ class _Late(Sequence):
 
 
 def _may_be_late(artist):
-    """Whether the projection of an artist is that of mplot3d, and can wait."""
+    """Returns whether an artist is projected by mplot3d's own method, so that the projection can wait."""
     if "do_3d_projection" in vars(artist):
         return False
     project = getattr(type(artist), "do_3d_projection", None)
@@ -537,9 +538,9 @@ def _project_late(artist):
 
 
 def _projected(matrix, points):
-    """x and y of points in the plane of the projection."""
+    """Returns x and y of points in the plane of the projection."""
     result = np.empty((*points.shape[:-1], 2))
-    # Column by column: products of such long matrices are slower.
+    # One column at a time, which is faster than a matrix product.
     depth = _times(matrix[3], points)
     with np.errstate(all="ignore"):
         for axis in range(2):
@@ -548,7 +549,7 @@ def _projected(matrix, points):
 
 
 def _times(row, points):
-    """The products of points with a row of a matrix."""
+    """Returns the products of points with a row of a matrix."""
     result = points[..., 0] * row[0]
     for axis in (1, 2):
         result += points[..., axis] * row[axis]
@@ -557,14 +558,14 @@ def _times(row, points):
 
 
 def _to_pixels(matrix, to_display):
-    """The matrix that projects points to display coordinates."""
+    """Returns the matrix that projects points to display coordinates."""
     result = matrix.copy()
     result[:2] = to_display[[0, 1], [0, 1], None] * matrix[:2] + to_display[:2, 2:] * matrix[3]
     return result
 
 
 def _viewpoint(matrix):
-    """The eye, or the direction of a parallel projection, of a matrix: where x, y and w are 0."""
+    """Returns the eye of a matrix, or its direction if the projection is parallel. There x, y and w are 0."""
     rows = matrix[[0, 1, 3]]
     rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
     null = np.linalg.svd(rows)[2][3]
@@ -576,7 +577,7 @@ def _viewpoint(matrix):
 
 
 def _camera(matrix, to_display, size):
-    """The camera of a picture of a size, and whether x is mirrored."""
+    """Returns the camera of a picture, and whether x is mirrored."""
     clip = _to_pixels(matrix, to_display)
     clip[:2] = 2 / np.array(size)[:, None] * clip[:2] - matrix[3]
     # Inverted axes mirror a picture.
@@ -594,12 +595,12 @@ def _camera(matrix, to_display, size):
 
 
 class _Built:
-    """A tree of polygons, with lines and points; kept while these are the same."""
+    """A tree of polygons, with an overlay of lines and points. It is reused while these are unchanged."""
 
     def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
         everything = np.concatenate([points, lines, markers])
-        # Coordinates of the tree are from -1 to 1: axes may have very different scales. NaN are left out.
+        # The tree has coordinates from -1 to 1, because axes may have very different scales. NaN are ignored.
         low, high = (
             np.nan_to_num([ends.reduce(everything[:, axis], initial=np.nan) for axis in range(3)])
             for ends in (np.fmin, np.fmax)
@@ -607,7 +608,7 @@ class _Built:
         self.middle, self.scale = low + (high - low) / 2, np.where(high > low, (high - low) / 2, 1.0)
         points, lines, markers = ((part - self.middle) / self.scale for part in (points, lines, markers))
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
-        # A little larger, as quotients are rounded.
+        # A little larger, because quotients are rounded.
         bounds = [np.full(3, -1.001), np.full(3, 1.001)]
         self.tree = binspace.Tree((points, offsets), opacity=opacity, bounds=bounds, progress=progress)
         line_offsets = np.concatenate([[0], np.cumsum(line_lengths)]).astype(np.int64)
@@ -626,12 +627,12 @@ class _Built:
         self.counts = np.bincount(self.polygon, minlength=len(lengths))
         self.paths, self.corners, self.places = _views(offsets)
         self.is_own = _are_all(own, offsets[:-1], lengths)
-        # Fragments of polygons with several, and the normals that say which of their sides a view shows.
+        # The fragments of polygons that have several fragments, and the planes that tell which side a view shows.
         self.several = np.flatnonzero(self.counts[self.polygon] > 1)
         self.planes = _planes(self.points, self.starts, self.ends, self.several)
 
     def matrix(self, matrix):
-        """A matrix for points in the coordinates of the tree."""
+        """Converts a matrix of data coordinates to a matrix of the tree's coordinates."""
         placed = np.diag([*self.scale, 1.0])
         placed[:3, 3] = self.middle
         return matrix @ placed
@@ -641,7 +642,7 @@ class _Built:
 
 
 def _are_equal(some, others):
-    """Whether arrays, or None, are equal one by one."""
+    """Returns whether each array (or None) equals its counterpart."""
     return all(
         a is b or (a is not None and b is not None and np.shape(a) == np.shape(b) and np.array_equal(a, b, equal_nan=True))
         for a, b in zip(some, others)
@@ -649,17 +650,17 @@ def _are_equal(some, others):
 
 
 def _are_all(values, starts, lengths):
-    """Whether all of as many values from each start are true."""
+    """Returns for each range, given by its start and length, whether all its values are true."""
     wrong = np.append(0, np.cumsum(~values))
     return wrong[starts] == wrong[starts + lengths]
 
 
 def _planes(points, starts, ends, numbers):
-    """The planes of the outlines with these numbers: normals, and their products with a corner of each."""
+    """Returns the planes of the outlines with these numbers: normals, and the product of each with a corner."""
     starts, lengths = starts[numbers], (ends - starts)[numbers]
     corners, owner = _ranges(starts, lengths)
     last = np.cumsum(lengths) - 1
-    # One coordinate after the other: products of the steps from the first corner need less memory so.
+    # One coordinate after the other, to save memory. Steps lead from the first corner to each corner.
     steps = [points[corners, axis] - points[starts, axis][owner] for axis in range(3)]
     following = [np.roll(step, -1) for step in steps]
     for step in following:
@@ -674,14 +675,14 @@ def _planes(points, starts, ends, numbers):
 
 
 def _ranges(starts, lengths):
-    """The numbers from each start on, as many as each length, and for each number whose it is."""
+    """Concatenates ranges of numbers, given their starts and lengths. Also returns the index of each number's range."""
     owner = np.repeat(np.arange(len(starts)), lengths)
     before = np.cumsum(lengths) - lengths
     return np.arange(len(owner)) + (starts - before)[owner], owner
 
 
 def _closed(offsets):
-    """Closed outlines: the corners of each, by number, the first once more at the end; codes; and where each begins."""
+    """Closes outlines. Returns the numbers of their corners, the first repeated at the end; codes; and where each begins."""
     count = len(offsets) - 1
     closed = offsets + np.arange(count + 1)
     corners = np.arange(closed[-1]) - np.repeat(np.arange(count), np.diff(closed))
@@ -693,7 +694,7 @@ def _closed(offsets):
 
 
 class _Outline(Path):
-    """A path whose attributes are read without calls: renderers read those of each path of a collection."""
+    """A path with plain attributes instead of properties, because renderers read them for each path of a collection."""
 
     __slots__ = ("vertices", "codes")
     should_simplify = _should_simplify = False
@@ -706,11 +707,12 @@ class _Outline(Path):
 
 
 def _views(offsets):
-    """Closed paths of outlines, the corners of all, by number, and their places: the paths are views of these."""
+    """Returns closed paths of outlines, the numbers of all their corners, and the array of their positions. The paths are
+    views of this array."""
     lengths = np.diff(offsets)
     places = np.zeros((offsets[-1] + len(lengths), 2))
     corners, paths, start = [np.empty(0, int)], np.empty(len(lengths), object), 0
-    # Outlines of one length are the rows of a matrix: this is faster than to cut one after the other.
+    # Outlines of one length are rows of a matrix, which is faster than slicing one by one.
     for length in np.unique(lengths):
         chosen = np.flatnonzero(lengths == length)
         around = np.append(np.arange(length), 0 if length else [])
@@ -730,10 +732,11 @@ def _paths(places, codes, offsets):
 
 
 def _stroked(starts, lengths, own):
-    """Lines along those edges of outlines that are their own: corners, by number; codes; and where each outline's begin."""
+    """Returns lines along those edges of outlines that are their own: numbers of corners, codes, and where the lines of each
+    outline begin."""
     corners, owner = _ranges(starts, lengths)
     first = np.cumsum(lengths) - lengths
-    # Each begins after an edge that is not its own.
+    # Each line begins after an edge that is not its outline's own.
     at = np.arange(len(corners)) - first[owner]
     turn = np.full(len(starts), len(corners))
     np.minimum.at(turn, owner, np.where(own[corners], len(corners), at + 1))
@@ -751,19 +754,19 @@ def _stroked(starts, lengths, own):
 
 
 class _Shown:
-    """The items of a picture in the order to paint them: kinds 0, 1 and 2 are areas, parts of lines and points, each with
-    its number in the lists below. Places are in display coordinates."""
+    """The items of a picture in the order to paint them. Kind 0 is an area, kind 1 a part of a line, and kind 2 a point.
+    Each item has its number in the lists below. Positions are in display coordinates."""
 
     def __init__(self, kinds, numbers):
         self.kinds, self.numbers = kinds, numbers
         self.polygon = self.line = self.segment = self.marker = np.empty(0, int)
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
-        # Paths of areas, and whether all of their sides are edges of their polygons.
+        # The path of each area, and whether all its sides are edges of its polygon.
         self.fills, self.is_whole = np.empty(0, object), np.empty(0, bool)
 
     def sort_markers(self, depths):
-        """Sorts markers that follow one another by depth: those that are in one plane with the eye overlap as well."""
+        """Sorts consecutive markers by depth, because markers in one plane with the eye can overlap too."""
         is_marker = self.kinds == 2
         run = np.cumsum(np.append(True, ~(is_marker[1:] & is_marker[:-1]))[: len(is_marker)])
         depth = np.zeros(len(run))
@@ -772,18 +775,18 @@ class _Shown:
         self.kinds, self.numbers = self.kinds[order], self.numbers[order]
 
     def strokes(self, numbers):
-        """The paths of those sides of areas that are edges of their polygons."""
+        """Returns paths along those sides of areas that are edges of their polygons."""
         raise NotImplementedError
 
 
 def _runs(built, order, view, may_join):
-    """Where the fragments of each polygon begin that follow one another in an order, if the polygon may be joined. Each of
-    the others, and each part of a line and each point, begins a run."""
+    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon that may be joined form a
+    run. Each other fragment, part of a line, and point is a run by itself."""
     *normals, shift = built.planes
     eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
     is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
     fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
-    # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
+    # If a polygon is not flat and shows both sides, its outline may overlap itself.
     may_join = may_join & ((fronts == 0) | (fronts == built.counts))
     polygon = np.append(built.polygon, np.full(len(built.pieces.number), -1))[order]
     joined = np.append(may_join, False)[polygon]
@@ -792,8 +795,8 @@ def _runs(built, order, view, may_join):
 
 
 class _Ordered(_Shown):
-    """The fragments of a tree in its own order: fast, for any view. Fragments of one polygon that follow one another are
-    one area, and those of a whole polygon are its own outline."""
+    """The fragments of a tree in the order of the tree: fast, for any view. Consecutive fragments of a polygon form one
+    area. If an area is a whole polygon, its path is the polygon's outline."""
 
     def __init__(self, built, matrix, to_display):
         view = _viewpoint(matrix)
@@ -842,7 +845,7 @@ class _Ordered(_Shown):
             self.kinds, self.numbers = self.kinds[keep], self.numbers[keep]
 
     def _parts(self, areas):
-        """The paths of areas that are parts of polygons."""
+        """Returns the paths of areas that are parts of polygons."""
         built = self.built
         numbers, owner = _ranges(self.first_of_area[areas], self.length_of_area[areas])
         fragments = self.order[numbers]
@@ -854,7 +857,7 @@ class _Ordered(_Shown):
         return _paths(places, codes, closed[ends])
 
     def _before_eye(self, fragment, matrix):
-        """The path of the part of a fragment that is before the eye, and of its strokes."""
+        """Returns the path of the part of a fragment in front of the eye, and the path of its strokes."""
         part = slice(self.built.starts[fragment], self.built.ends[fragment])
         points, own = self.built.points[part], self.built.own[part]
         return _before_eye(points, own, points @ matrix[3, :3] + matrix[3, 3], self.least, self.place)
@@ -870,7 +873,7 @@ class _Ordered(_Shown):
 
 
 def _before_eye(points, own, depth, near, place):
-    """The path of the part of an outline that is before the eye, and of its strokes."""
+    """Returns the path of the part of an outline in front of the eye, and the path of its strokes."""
     corners, edges = [], []
     for i in range(len(points)):
         j = (i + 1) % len(points)
@@ -890,7 +893,7 @@ def _before_eye(points, own, depth, near, place):
 
 
 class _Drawn(_Shown):
-    """A drawing of one view, with one path for each polygon where an order allows it."""
+    """A drawing of one view. Each polygon is one path if a painting order exists."""
 
     def __init__(self, built, matrix, to_display, size, is_opaque, traps, are_texts):
         camera, is_mirrored = _camera(matrix, to_display, size)
@@ -938,7 +941,7 @@ class _Drawn(_Shown):
 
     def _leave_out_hidden(self, seen, overlay, place, are_texts):
         """Leaves out hidden polygons and hidden parts of lines, which would show through seams of the polygons in front.
-        Also leaves out markers whose middle is hidden: they would cover polygons in front that are beside the middle."""
+        Also leaves out markers whose middle is hidden, because they would cover polygons in front, beside the middle."""
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
@@ -951,7 +954,7 @@ class _Drawn(_Shown):
         keep[is_area] = is_visible[self.polygon[self.numbers[is_area]]]
         keep[is_marker] = is_shown[self.marker[self.numbers[is_marker]]]
         self.kinds, self.numbers, is_line = self.kinds[keep], self.numbers[keep], is_line[keep]
-        # Each part of a line with each visible part of its segment.
+        # Intersects each part of a line with each visible part of its segment.
         runs = seen.lines(overlay)
         most = 1 + max(runs.segment.max(initial=0), self.segment.max(initial=0))
         keys = runs.line.astype(np.int64) * most + runs.segment
@@ -982,7 +985,7 @@ class _Drawn(_Shown):
 
 
 class _Looks:
-    """How polygons are painted: a row for each."""
+    """The styles of polygons: a row for each."""
 
     def __init__(self, parts):
         def rows(values):
@@ -1003,7 +1006,7 @@ class _Looks:
 
 
 class _LineLooks:
-    """How lines are painted: a row for each."""
+    """The styles of lines: a row for each."""
 
     def __init__(self, sources, owners, rows):
         sources = [sources[owner] for owner in owners.tolist()]
@@ -1014,7 +1017,7 @@ class _LineLooks:
         self.dashes = [s.dashes[row % len(s.dashes)] for s, row in looks]
         self.is_solid = np.array([pattern is None for _, pattern in self.dashes], bool)
         self.has_one_color = np.array([len(s.edge) == 1 for s in sources], bool)
-        # Ends that reach no further than the line.
+        # Butt ends do not extend beyond the line.
         is_butt = np.array([_cap_and_join(s.artist)[0] in (None, "butt") for s in sources], bool)
         self.is_extended = self.is_solid & is_butt & (self.edge[:, 3] >= 1)
 
@@ -1048,7 +1051,7 @@ class _Composite(martist.Artist):
         self.line_looks = _LineLooks(sources, self.line_owner, self.line_row)
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
-        # Areas with a hatch alone are painted too.
+        # Areas that have only a hatch are painted too.
         opacity = None if is_opaque else np.clip(alpha, 0.01, 1)
         given = (
             points,
@@ -1074,7 +1077,7 @@ class _Composite(martist.Artist):
             try:
                 shown = _Drawn(built, built.matrix(matrix), to_display, size, is_opaque, traps, are_texts)
             except ValueError:
-                # The view is too narrow or too skewed for a drawing. An order has no such limits.
+                # The view is too narrow or too skewed for a drawing. Orders have no such limits.
                 pass
         if shown is None:
             shown = _Ordered(built, built.matrix(matrix), to_display)
@@ -1095,10 +1098,10 @@ class _Composite(martist.Artist):
             owners[chosen] = owner[given[numbers[chosen]]]
         groups = {}
         group = np.array([groups.setdefault(_group(source.artist), len(groups)) for source in sources] + [0])
-        # Areas and lines of one group are painted at once; others by artist.
+        # Areas and lines of one group are painted at once, and other items by artist.
         has_gaps = np.array([_has_gaps(source.artist) for source in sources] + [False])
         alone = (kinds == 2) | has_gaps[owners]
-        # Areas without strokes have no ends and corners of lines: they take part in any group that is painted.
+        # Areas without strokes have no caps and joins, so they may be painted in any style.
         styles = {}
         style = np.array([styles.setdefault(_style(source.artist), len(styles)) for source in sources] + [0])[owners]
         is_plain = kinds == 0
@@ -1135,11 +1138,11 @@ class _Composite(martist.Artist):
                 source.artist.draw(renderer)
 
     def _paths(self, template, shown, kinds, numbers, owners, place):
-        """A collection of areas and lines."""
+        """Makes a collection of areas and lines."""
         is_area = kinds == 0
         batches = [self._areas(shown, numbers[is_area], np.flatnonzero(is_area))]
         if not is_area.all():
-            # Parts of lines that no area is between.
+            # Consecutive parts of lines of one artist form a run.
             run = np.cumsum(np.append(True, is_area[1:] | is_area[:-1] | (owners[1:] != owners[:-1])))
             batches.append(self._lines(shown, numbers[~is_area], np.flatnonzero(~is_area), run[~is_area], place))
         position, paths, face, edge, widths, smooth, dashes = (list(part) for part in zip(*batches))
@@ -1158,7 +1161,7 @@ class _Composite(martist.Artist):
         batch.set_edgecolor(edge if widths.any() else "none")
         batch._linewidths, batch._antialiaseds = widths, smooth
         batch._linestyles = dashes if is_dashed else [(0, None)]
-        # With one, matplotlib paints a single path as a marker: at whole pixels, and always antialiased.
+        # With one URL, matplotlib paints a single path as a marker: at whole pixels, and always antialiased.
         batch._urls = [None, None]
         cap, join = _cap_and_join(template)
         if cap:
@@ -1168,13 +1171,13 @@ class _Composite(martist.Artist):
         return batch
 
     def _areas(self, shown, areas, position):
-        """Areas: their positions in the order, paths, colours of faces and edges, widths, antialiasing, and dashes."""
+        """Returns areas: their positions in the order, paths, colours of faces and edges, widths, antialiasing, and dashes."""
         look, polygon = self.looks, shown.polygon[areas]
         is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
         fills = shown.fills[areas]
         face, edge, widths = look.face[polygon], look.edge[polygon], look.widths[polygon]
         if is_apart.any():
-            # A fill without a stroke, and then the stroke without a fill.
+            # First a fill without a stroke, then the stroke without a fill.
             edge[is_apart], widths[is_apart] = 0, 0
             second = np.flatnonzero(is_apart)
             strokes = shown.strokes(areas[second])
@@ -1187,7 +1190,7 @@ class _Composite(martist.Artist):
         return position, fills, face, edge, widths, look.smooth[polygon], dashes
 
     def _lines(self, shown, numbers, position, run, place):
-        """Lines, as `_areas`."""
+        """Returns lines, in the form of `_areas`."""
         look = self.line_looks
         first, line, segment, corners, offsets = _chains(shown, numbers, run, look.has_one_color)
         self._overlap(line, corners, offsets, place)
@@ -1203,7 +1206,7 @@ class _Composite(martist.Artist):
         return position[first], paths, face, look.edge[line], look.widths[line], look.smooth[line], dashes
 
     def _dash(self, line, segment, start, dash, place):
-        """The pattern of dashes at a part of a line, as if the line were drawn at once."""
+        """Returns the dashes of a part of a line, with the offset that they have if the whole line is drawn at once."""
         offset, pattern = dash
         if pattern is None:
             return dash
@@ -1213,8 +1216,8 @@ class _Composite(martist.Artist):
         return offset + length * 72 / self.axes.figure.dpi, pattern
 
     def _overlap(self, line, corners, offsets, place):
-        """Extends the ends of parts of lines by half their width into the parts before and after them, so that there is no
-        notch between them. Where one shines through the other, they may only touch."""
+        """Extends the ends of parts of lines by half the line's width into the parts before and after, so that no notch
+        remains between two parts. Parts of translucent lines are not extended, because the overlap would be visible."""
         reach = 0.5 * self.line_looks.widths[line] * self.axes.figure.dpi / 72
         for end, inner, own in ((offsets[:-1], offsets[:-1] + 1, 0), (offsets[1:] - 1, offsets[1:] - 2, -1)):
             step = corners[end] - corners[inner]
@@ -1238,10 +1241,10 @@ class _Composite(martist.Artist):
 
 
 def _chains(shown, numbers, run, may_sort):
-    """Parts of lines of one run that follow one another, joined: for each, the number of a part in it, its line, the
-    segment that it begins in; the corners of all, and where each begins."""
+    """Joins consecutive parts of lines of one run to chains. Returns for each chain the number of its first part, its line,
+    and the segment where it begins. Also returns the corners of all chains, and where each chain begins."""
     line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
-    # How far each part is along its segment: parts of one segment have one direction.
+    # The position of each part along its segment. All parts of a segment have the same direction.
     step = ends[:, 1] - ends[:, 0]
     along = (ends[:, 0] * step).sum(-1) / np.maximum(np.hypot(*step.T), 1e-300)
     is_sorted = may_sort[line]
@@ -1251,7 +1254,7 @@ def _chains(shown, numbers, run, may_sort):
     follows &= (segment[1:] - segment[:-1] <= 1) & (segment[1:] >= segment[:-1])
     follows &= np.abs(ends[1:, 0] - ends[:-1, 1]).max(1, initial=0) <= _JOINED
     begins = np.append(True, ~follows)[: len(line)]
-    # The first corner of each part that begins a chain, and the second of all.
+    # The second corner of each part, and the first corner of each part that begins a chain.
     corners = ends[np.stack([begins, np.ones(len(begins), bool)], -1)]
     first = np.flatnonzero(begins)
     offsets = np.append(first, len(line)) + np.arange(len(first) + 1)
@@ -1259,7 +1262,7 @@ def _chains(shown, numbers, run, may_sort):
 
 
 def _group(artist):
-    """The key of artists that are painted together."""
+    """Returns a key that is equal for artists that may be painted together."""
     clip, box = artist.get_clip_path(), artist.get_clip_box()
     key = (artist.get_clip_on(), box and tuple(box.bounds), artist.get_sketch_params(), artist.get_snap(),
            artist.get_url(), artist.get_gid(), bool(artist.get_path_effects()) and id(artist))
@@ -1270,12 +1273,12 @@ def _group(artist):
 
 
 def _style(artist):
-    """The key of artists whose lines are painted together."""
+    """Returns a key that is equal for artists whose lines may be painted together."""
     return _cap_and_join(artist) if isinstance(artist, (mcoll.Collection, mpatches.Patch, mlines.Line2D)) else ()
 
 
 def _cap_and_join(artist):
-    """The styles of the ends and the corners of an artist's lines."""
+    """Returns the cap style and the join style of an artist's lines."""
     if not isinstance(artist, mlines.Line2D):
         return artist.get_capstyle(), artist.get_joinstyle()
     if artist.is_dashed():
@@ -1284,7 +1287,7 @@ def _cap_and_join(artist):
 
 
 def _has_gaps(artist):
-    """Whether the gaps of a dashed line have a colour."""
+    """Returns whether an artist is a dashed line whose gaps have a colour."""
     return isinstance(artist, mlines.Line2D) and artist.is_dashed() and artist.get_gapcolor() is not None
 
 
@@ -1310,7 +1313,7 @@ def _paint_scatter(renderer, artist, rows, at):
     count = len(artist._offsets3d[0])
 
     def unsorted(colors):
-        """Colours in the order of the points, not in that of their depths."""
+        """Returns colours in the order of the points. mplot3d has sorted them by depth."""
         if len(colors) != count or count < 2:
             return colors
         result = np.empty_like(colors)
@@ -1321,7 +1324,7 @@ def _paint_scatter(renderer, artist, rows, at):
         if len(values) < 2:
             return values
         chosen = [values[row % len(values)] for row in rows]
-        # Agg rounds the places of markers where all are alike, and so only where all of the artist's are.
+        # Agg rounds the positions of markers if they are all alike. A second row prevents this for markers that differ.
         return chosen * 2 if len(chosen) == 1 else chosen
 
     face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
@@ -1341,7 +1344,7 @@ def _paint_scatter(renderer, artist, rows, at):
 
 
 def _is_quick(axes, built, renderer):
-    """Whether the order of the tree will do: while the view is turned, and where a drawing would take long."""
+    """Returns whether the order of the tree is used: while the view is turned, or if a drawing would take long."""
     most = _MOST_PIXELS if hasattr(renderer, "buffer_rgba") else _MOST_VECTORS
     return axes.button_pressed is not None or len(built.polygon) > most
 
@@ -1350,14 +1353,15 @@ def _is_quick(axes, built, renderer):
 
 
 class _Exact:
-    """The differences of exact axes from those of mplot3d."""
+    """The differences between exact axes and mplot3d's axes."""
 
     _exact_composite = None
-    # A function that is called with the finished and the total work while a tree is built; an exception in it cancels.
+    # A function that is called with the finished and the total work while a tree is built. An exception in it cancels the
+    # drawing.
     exact_progress = None
 
     def __getstate__(self):
-        # A tree is built again from what is drawn.
+        # The next drawing builds the tree again.
         left_out = "_exact_built", "exact_progress"
         return {name: value for name, value in super().__getstate__().items() if name not in left_out}
 
@@ -1369,7 +1373,7 @@ class _Exact:
         return [child for child in children if id(child) not in taken] + [self._exact_composite]
 
     def draw(self, renderer):
-        """Draws the axes; what they hold in one exact order, if `computed_zorder` is true."""
+        """Draws the axes. If `computed_zorder` is true, their contents are painted in one exact order."""
         if not self.get_visible() or not self.computed_zorder:
             return super().draw(renderer)
         taken = [
@@ -1379,7 +1383,7 @@ class _Exact:
         taken.sort(key=lambda artist: artist.zorder)
         self._exact_composite = _Composite(self, taken)
         late = []
-        # mplot3d asks all for a depth, and compares it with that of others.
+        # mplot3d computes a depth of each artist to compare it with the depths of other artists.
         others = [child for child in self._children if isinstance(child, (mcoll.Collection, mpatches.Patch))]
         if all(_kind(child) for child in others if child.get_visible()):
             late = [artist for artist in taken if _may_be_late(artist)]
@@ -1398,7 +1402,7 @@ class _Exact:
 
 
 class ExactAxes3D(_Exact, Axes3D):
-    """Axes as `mpl_toolkits.mplot3d.axes3d.Axes3D`, painted in exact order: projection ``"exact3d"``.
+    """`mpl_toolkits.mplot3d.axes3d.Axes3D` with contents painted in exact order: projection ``"exact3d"``.
 
     Set the attribute `exact_progress` to a function that is called with the finished and the total work while a tree of many
     polygons is built. An exception in it, or Ctrl-C, cancels the drawing.
@@ -1408,7 +1412,7 @@ class ExactAxes3D(_Exact, Axes3D):
 
 
 mprojections.register_projection(ExactAxes3D)
-# matplotlib treats axes of this name otherwise, such as their ticks.
+# matplotlib treats axes with the name "3d" differently, for instance their ticks.
 ExactAxes3D.name = Axes3D.name
 
 
@@ -1433,12 +1437,12 @@ def exact(axes):
 
 @functools.cache
 def _exact_class(own):
-    """The exact axes of a class of axes."""
+    """Returns the class of exact axes for a class of axes."""
     if own is Axes3D:
         return ExactAxes3D
 
     def reduce(self, protocol):
-        # Pickles name the given class: this one has no name in a module.
+        # Pickles name the given class, because no module contains the new class.
         make, arguments, *state = super(exact_class, self).__reduce_ex__(protocol)
         return _unpickled, (own, make, arguments[1:]), *state
 
@@ -1456,5 +1460,5 @@ def install():
 
 
 def uninstall():
-    """Makes the projection ``"3d"`` that of mplot3d again."""
+    """Makes the projection ``"3d"`` mplot3d's own again."""
     mprojections.register_projection(Axes3D)
