@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::{fmt, io};
 
-/// The reason why a build, read, write or other call failed: its [kind](Self::kind), and the polygon that
-/// caused it, if any. The message says what to do.
+/// The reason why a build, read, write or other call failed: the [kind](Self::kind) of the error, and the
+/// polygon that caused the error, if any. The message says what to do.
 #[derive(Clone, PartialEq)]
 pub struct Error {
     kind: Kind,
-    /// The cause and its number.
+    /// The input that caused the error: its kind and its index.
     blamed: Option<(Shape, usize)>,
 }
 
@@ -42,7 +42,7 @@ impl Error {
         Kind::Cancelled.error()
     }
 
-    /// The same error, with a shape of another kind as the cause.
+    /// Replaces the kind of the input that caused the error.
     pub(crate) fn of(mut self, shape: Shape) -> Self {
         self.blamed = self.blamed.map(|(_, number)| (shape, number));
         self
@@ -144,9 +144,9 @@ pub enum ErrorKind {
     OverBudget,
     /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
-    /// Allocations of other lists, such as the lists of drawings, overlays and boxes, are not checked: if
-    /// memory runs out, the program aborts, like other Rust programs. A system that overcommits memory may
-    /// end the program earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments))
+    /// Allocations of other lists, such as the lists of drawings, overlays and boxes, are not checked: if one
+    /// of these fails, the program aborts, like other Rust programs. A system that overcommits memory may end
+    /// the program earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments))
     /// limit the memory of a build.
     OutOfMemory,
     /// The caller's callback cancelled the call, as in
@@ -154,7 +154,7 @@ pub enum ErrorKind {
     Cancelled,
     /// An overlay or a mesh was made for another tree.
     OtherTree,
-    /// Two things do not combine, such as a drawing and the tree of one cell.
+    /// Two features do not work together, such as a drawing and the tree of one cell.
     Unsupported,
     /// A file is damaged, truncated, or not of the expected format.
     InvalidFile,
@@ -178,12 +178,13 @@ impl std::error::Error for Error {
     }
 }
 
-/// The reason why a file could not be read. The polygon that caused the error is a face of the file.
+/// The reason why a file could not be read. If the error has a polygon's number, it is the number of a face
+/// of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FileFault {
-    /// Empty if the caller knows the name.
+    /// The name of the file; empty if the caller knows it.
     pub(crate) name: String,
-    /// Counted from 1.
+    /// The line of the file, counted from 1.
     pub(crate) line: Option<usize>,
     pub(crate) problem: Problem,
 }
@@ -242,24 +243,24 @@ pub(crate) enum Kind {
     NonFinite,
     Corners(usize),
     OffGrid,
-    /// A polygon where only lines and points can be.
+    /// A polygon of an overlay, where only lines and points can be drawn.
     InOverlay,
     Opacity(f64),
     Opacities {
         given: usize,
         expected: usize,
     },
-    /// Of a camera, or of a text to parse.
+    /// An invalid argument, such as a camera or a text to parse.
     Argument(String),
     File(FileFault),
     Layer,
     // Limits that the input or its tree exceeds.
     Polygons(usize),
-    /// All polygons together.
+    /// Too many corners of all polygons together. The number is the limit.
     CornersInAll(usize),
-    /// Of a mesh, or of arrays.
+    /// Too many indices of a mesh or of arrays.
     Indices,
-    /// By the budget for fragments, before the build.
+    /// More polygons than the budget for fragments, found before the build.
     PolygonsOfBudget(usize),
     Fragments(usize),
     Depth(usize),

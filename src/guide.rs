@@ -3,8 +3,8 @@
 //!
 //! This module has no code. Its pages are the files in `docs/guide/`.
 
-/// The targets of links between pages in rustdoc; in the files, the links lead to files. (The first
-/// definition of a link wins.)
+/// The targets of links between pages in rustdoc. The Markdown files define the same links again, as links to
+/// files. (The first definition of a link counts.)
 macro_rules! links {
     () => {
         "[building]: crate::guide::building

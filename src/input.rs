@@ -8,8 +8,8 @@ pub const MAX_CORNERS: usize = 1 << 22;
 
 /// A point of an input polygon.
 pub trait Point: Copy {
-    /// The relative precision of a coordinate: the distance from 1 to the next possible number.
-    /// `f32::EPSILON` for coordinates that are, or once were, `f32`.
+    /// The relative precision of a coordinate: the distance from 1 to the next larger number of its type. Use
+    /// `f32::EPSILON` for `f64` coordinates that were converted from `f32`.
     const PRECISION: f64;
 
     /// Returns the point in `f64`.
@@ -52,7 +52,7 @@ impl_point! {
 /// struct Quad<'a>(&'a Mesh, usize);
 ///
 /// impl Polygon for Quad<'_> {
-///     // The type of the points decides the default tolerance, here that of `f32`.
+///     // The type of the points decides the default tolerance: here the default for `f32`.
 ///     type Point = [f32; 3];
 ///
 ///     fn corners(&self) -> impl Iterator<Item = [f32; 3]> {
@@ -70,8 +70,8 @@ pub trait Polygon {
     /// A corner.
     type Point: Point;
 
-    /// Returns the corners, in order around the polygon. More than 2²² corners (4 194 304) are an error, also
-    /// from an endless iterator.
+    /// Returns the corners, in order around the polygon. More than 2²² (4 194 304) corners are an error, so
+    /// an endless iterator is an error too.
     fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
     /// Returns the largest distance of a corner from its intended plane. The default tolerance depends on it,
@@ -90,8 +90,9 @@ pub trait Polygon {
     }
 }
 
-/// The distance that a computed point may be off its plane, in steps of the largest coordinate. Too small:
-/// cards that a matrix put into one plane cut each other. Too large: thin layers are merged.
+/// The largest distance of a computed point from its intended plane, in steps of the polygon's largest
+/// coordinate. Too small: cards that a matrix put into one plane cut each other. Too large: thin layers are
+/// merged.
 pub(crate) const STEPS: f64 = 4.0;
 
 impl<P: Point> Polygon for [P] {

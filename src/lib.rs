@@ -11,12 +11,12 @@
 //! | draw translucent triangles on a GPU | [`BspTree::welded_mesh`], [`mesh::Triangles::write_back_to_front`] | `gpu_transparency` |
 //! | leave out fragments that are out of view or turned away | [`Order::culled`], [`Culling`], [`Frustum`] | `level` |
 //! | skip subtrees of your choice, such as hidden rooms | [`Order::walk`], [`Part`], [`Flow`]; `occlusion::CoverageMask` | `level` |
-//! | order, hit or draw doors, characters, lines and labels together with a static tree | [`overlay::Overlay`] | `level`, `plot` |
+//! | order, draw or hit moving polygons, lines and labels together with a static tree | [`overlay::Overlay`] | `level`, `plot` |
 //! | build a tree every frame | [`FrameBuilder`] | |
 //! | compose rectangles with matrices, as CSS 3D does | `layers::Layers` | `css_layers`, `smooth_layers` |
 //! | draw a vector picture: SVG, hidden lines, plots | `BspTree::visibility` | `hidden_lines`, `plot` |
-//! | find the hits of a ray, or whether one point sees another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
-//! | tell inside from outside of closed bodies | [`BspTree::winding_number`] | |
+//! | find the hits of a ray, or whether one point is visible from another | [`BspTree::hits`], [`BspTree::is_occluded`], [`Ray`], [`Hit`] | `level` |
+//! | find out whether a point is inside a closed body | [`BspTree::winding_number`] | |
 //! | find the fragments in a box, or the leaf of a point | [`BspTree::fragments_in`], [`BspTree::locate`], [`Location`] | |
 //! | interpolate colours and texture coordinates over cuts | [`Fragment::weights`] | `attributes` |
 //! | copy all fragments to another language, a file or a device | [`BspTree::arrays`], [`BspTree::arrays_f32`] | |
@@ -26,14 +26,14 @@
 //! | check a picture against a depth buffer | `verify::verify` | |
 //!
 //! Input and options: [`Polygon`], [`Point`], [`BuildOptions`], [`Heuristic`], [`Tolerance`], [`Progress`],
-//! [`Viewpoint`]. A tree's parts and figures: [`Node`], [`Child`], [`Facing`], [`Grid`], [`Preparation`],
-//! [`Stats`]. The cause of a failure, and its polygon: [`Error`], [`ErrorKind`].
+//! [`Viewpoint`]. Parts and statistics of a tree: [`Node`], [`Child`], [`Facing`], [`Grid`], [`Preparation`],
+//! [`Stats`]. The cause of a failure, and the polygon that caused it: [`Error`], [`ErrorKind`].
 //!
 //! # What works together
 //!
-//! | | orders, culled too | rays, regions | meshes, arrays | drawings | files |
+//! | | orders, also culled | rays, regions | meshes, arrays | drawings | files |
 //! |---|---|---|---|---|---|
-//! | a tree, also the tree of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
+//! | a tree, also of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
 //! | the tree of a cell of a [`partition`] | yes | yes, but winding numbers are an error | yes | an error | yes |
 //! | polygons of an [`overlay`] | yes | rays: yes; regions: ignored | meshes: yes, a separate mesh; arrays: no | an error | no |
 //! | lines and points of an overlay | yes | ignored | no | yes | no |
@@ -44,7 +44,7 @@
 //! - A polygon's corners are counter-clockwise seen from its **front**; the front of a plane is the side that
 //!   its normal points to.
 //! - Order: *back to front* is the painting order, furthest first.
-//! - Pixels: x to the right, y down, rows from the top; a pixel is judged at its centre.
+//! - Pixels: x to the right, y down, rows from the top; a pixel is sampled at its centre.
 //!
 //! # Features
 //!
@@ -111,7 +111,7 @@ pub use query::{Hit, Location};
 pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Ordered, Part, Stats};
 pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
-/// The input and output of your own heuristic: [`BuildOptions::with_chooser`].
+/// Types of the input and output of a custom heuristic: [`BuildOptions::with_chooser`].
 pub mod choose {
     pub use crate::build::{PieceSet, SplitPlane};
     pub use crate::exact::Side;

@@ -1,5 +1,5 @@
-//! Lists as long as the input or the tree, with little spare capacity, whose growth returns an error if
-//! memory runs out; and tables that are emptied quickly.
+//! Grows long lists with little spare capacity, and returns an error if memory runs out. Empties hash tables
+//! quickly.
 
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<(), Error> {
     Ok(())
 }
 
-/// The length of a list, as the place of the next item.
+/// Converts the length of a list to the place of its next item.
 ///
 /// # Errors
 ///
@@ -38,7 +38,7 @@ pub(crate) fn place(len: usize) -> Result<u32, Error> {
     u32::try_from(len).map_err(|_| Error::out_of_memory())
 }
 
-/// A list of all items.
+/// Collects all items into a list.
 ///
 /// # Errors
 ///
@@ -51,13 +51,13 @@ pub(crate) fn collect<T>(items: impl ExactSizeIterator<Item = T>) -> Result<Vec<
 }
 
 /// A table with more capacity than this for each of its entries is freed rather than emptied. Too small:
-/// sets of similar sizes allocate repeatedly. Too large: more time for empty capacity.
+/// sets of similar sizes allocate repeatedly. Too large: emptying takes time for unused capacity.
 const ROOM: usize = 8;
 /// A table with no more capacity than this is kept.
 const SMALL: usize = 64;
 
-/// Empties a table in time proportional to its entries. (`HashMap::clear` takes time for the table's whole
-/// capacity, which the largest set of entries leaves behind for every set after it.)
+/// Empties a table in time proportional to its entries. (`HashMap::clear` takes time proportional to the
+/// table's capacity. After one large set of entries, `clear` would be slow for every later set.)
 pub(crate) fn empty<K, V>(table: &mut HashMap<K, V>) {
     if table.capacity() > SMALL.max(ROOM * table.len()) {
         *table = HashMap::new();
@@ -77,7 +77,7 @@ mod tests {
     use super::{HashMap, ROOM, SMALL, empty, reserve};
 
     #[test]
-    fn memory_that_is_not_there_is_an_error() {
+    fn lack_of_memory_is_an_error() {
         let mut list = vec![0u64; 3];
         for more in [usize::MAX, usize::MAX / 8, 1 << 58] {
             assert!(

@@ -8,11 +8,12 @@ use crate::paint::Pieces;
 use crate::raster::{Rays, Window, for_each_run};
 use crate::tree::{BspTree, Fragment};
 
-/// The pixels covered so far on a front-to-back walk: occlusion culling.
+/// The pixels covered so far on a front-to-back walk, for occlusion culling.
 ///
-/// Cover the mask with each visited fragment, and skip the subtrees that it hides: these own no pixel of the
-/// picture that the rays define. The test is exact, except that it uses the box of a subtree, so a subtree
-/// may be visited although all its fragments are hidden.
+/// Call [`cover`](Self::cover) with each visited fragment, and skip each subtree whose box the mask
+/// [`hides`](Self::hides): no fragment of that subtree is visible in a pixel of the picture. The test is
+/// conservative: it never hides a visible fragment, but a subtree may be visited although all its fragments
+/// are hidden.
 ///
 /// The mask may be coarser than the picture. Then its cells are several pixels wide and high, and only a
 /// fragment that covers all pixels of a cell covers the cell. A coarse mask is smaller and faster, and hides
@@ -55,7 +56,7 @@ pub struct CoverageMask<'t> {
     bits: Vec<u64>,
     /// The number of uncovered cells in each row.
     open: Vec<u32>,
-    /// The rows that have an open cell.
+    /// The number of rows that have an uncovered cell.
     open_rows: usize,
     /// Working space: for each cell of a row, the number of pixel rows in which it is covered so far.
     rows_covered: Vec<u32>,
@@ -65,8 +66,8 @@ pub struct CoverageMask<'t> {
 const WORD: u32 = u64::BITS;
 
 impl<'t> CoverageMask<'t> {
-    /// Creates an empty mask for the picture of some rays through a tree's faces, with cells `cell` pixels
-    /// wide and high; 0 counts as 1.
+    /// Creates an empty mask for a tree and the picture that `rays` define. Its cells are `cell` pixels wide
+    /// and high; 0 counts as 1.
     ///
     /// # Panics
     ///
@@ -89,11 +90,11 @@ impl<'t> CoverageMask<'t> {
         }
     }
 
-    /// Returns whether nothing in a box owns a pixel: every pixel that the box may cover is covered, or the
-    /// box is outside the picture.
+    /// Returns whether a box is hidden: whether every pixel that it may cover is already covered, or the box
+    /// is outside the picture.
     ///
-    /// It tests the rows of cells that the box may cover, up to the first open cell: a word of up to 64 cells
-    /// at a time, and nothing in a full row.
+    /// Tests the cells that the box may cover, row by row and 64 cells at a time, up to the first uncovered
+    /// cell. Takes no time for a row that is covered completely.
     pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
         let lattice = self.tree.faces().lattice();
         let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
@@ -109,12 +110,11 @@ impl<'t> CoverageMask<'t> {
         rows.all(|row| self.open[row as usize] == 0 || !self.has_open(row, &columns))
     }
 
-    /// Covers the pixels of a fragment, and returns whether it owns a pixel: whether it covers a pixel of a
+    /// Covers the pixels of a fragment. Returns whether the fragment is visible: whether it has a pixel in a
     /// cell that was not covered before.
     ///
-    /// It takes the time to find the fragment's pixels, O(edges) per row of pixels, plus the time for all
-    /// cells in its rows, over the mask's whole width, covered or not. If you have a box, call
-    /// [`hides`](Self::hides) first.
+    /// Takes O(edges) time for each row of pixels that the fragment reaches, plus O(mask's width in cells)
+    /// time for each row of cells. If the fragment's box is known, call [`hides`](Self::hides) first.
     ///
     /// # Panics
     ///
@@ -145,7 +145,7 @@ impl<'t> CoverageMask<'t> {
         self.open_rows == 0
     }
 
-    /// Covers the cells of a row that the runs cover in all its rows of pixels.
+    /// Covers each cell of a row whose pixels are all in the runs.
     fn close(&mut self, row: u32, runs: &[(u32, Range<u32>)]) {
         let [width, height] = self.rays.size();
         let height = (height - row * self.cell).min(self.cell);
@@ -168,7 +168,7 @@ impl<'t> CoverageMask<'t> {
         self.rows_covered.fill(0);
     }
 
-    /// Whether some of a row's cells are open.
+    /// Whether a row has an uncovered cell in these columns.
     fn has_open(&self, row: u32, columns: &Range<u32>) -> bool {
         let words = &self.bits[row as usize * self.words..][..self.words];
         let (first, last) = (columns.start / WORD, columns.end.saturating_sub(1) / WORD);

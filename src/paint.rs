@@ -19,8 +19,8 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints the fragments of a list, such as a culled order, the first at the bottom. Numbers that name no
-/// fragment are skipped.
+/// Paints the fragments of a list, such as a culled order, each over the fragments before it. Numbers that
+/// name no fragment are skipped.
 ///
 /// # Panics
 ///
@@ -73,9 +73,10 @@ pub fn paint_tree_in_colour(
     pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
 }
 
-/// Calls `paint` with each pixel that each fragment covers, back to front: the pixel's number, row by row
-/// from the top left, and the colour and the opacity there. With [`blend`] this makes the picture of
-/// [`paint_tree_in_colour`], from one tree or from several cells one after the other.
+/// Calls `paint` for each pixel of each fragment, back to front. The arguments are the pixel's number,
+/// counted row by row from the top left, and the colour and opacity of the fragment there. If `paint` calls
+/// [`blend`], the result is the picture of [`paint_tree_in_colour`]. To paint a partition, call this function
+/// for each cell, back to front.
 ///
 /// # Panics
 ///

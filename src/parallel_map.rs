@@ -5,8 +5,8 @@
 ///
 /// # Errors
 ///
-/// The error of the first failing item in the list, whichever item fails first in time. After a failure,
-/// later items are not started.
+/// The error of the first item in the list that fails, even if a later item fails earlier in time. After a
+/// failure, later items are not started.
 pub(crate) fn map<T: Send, U: Send, E: Send>(
     items: Vec<T>,
     function: impl Fn(T) -> Result<U, E> + Sync,
@@ -17,8 +17,8 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
         use rayon::prelude::*;
         use std::sync::atomic::{AtomicUsize, Ordering};
 
-        // All items before this item are completed, whatever their results, so the first error is among the
-        // results.
+        // The smallest number of an item that has failed. Items with smaller numbers are never skipped, so
+        // the first error is among the results.
         let failed = AtomicUsize::new(usize::MAX);
         let result = |(number, item)| {
             if failed.load(Ordering::Relaxed) < number {
@@ -36,8 +36,8 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
     items.into_iter().map(function).collect()
 }
 
-/// Calls a function on this thread and another function on a second thread, if waking a thread is worth it;
-/// otherwise the other function is called first.
+/// Calls `here` on this thread and `other` on a second thread at the same time, if waking a thread is worth
+/// it. If not, calls `other` and then `here`.
 #[cfg(feature = "save")]
 #[cfg_attr(not(feature = "parallel"), expect(unused_variables, reason = "there is one thread"))]
 pub(crate) fn beside<T>(
@@ -58,8 +58,8 @@ pub(crate) fn beside<T>(
 
 /// Whether rayon's threads run; if not, the calling thread does all work.
 ///
-/// The first use starts them: if that fails, because memory for their stacks is lacking or threads are
-/// limited, rayon itself would panic.
+/// The first call starts them. If they cannot be started, for lack of memory or because of a limit on
+/// threads, the result is false; without this test, rayon would panic.
 #[cfg(feature = "parallel")]
 pub(crate) fn are_running() -> bool {
     static ARE_RUNNING: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_behind_an_error_is_begun() {
+    fn no_item_after_an_error_is_started() {
         let calls = AtomicUsize::new(0);
         let function = |item: u32| {
             calls.fetch_add(1, Ordering::Relaxed);
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_is_that_of_the_first_item_that_has_one() {
+    fn the_error_of_the_first_failing_item_is_returned() {
         for first in [0, 1, 17, 500, 998, 999] {
             // Later items fail sooner.
             let function = |item: u32| {

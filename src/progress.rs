@@ -23,13 +23,14 @@ const FACE: u64 = 1 << 32;
 
 /// The progress of a build.
 ///
-/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far. From
-/// then on `total` is the number of faces and does not change, and `done` never decreases. At the end `done`
+/// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far. After
+/// that, `total` is the number of faces and does not change, and `done` never decreases. At the end `done`
 /// equals `total`. (Queries of a `VisibilityMap` count parts of their work instead.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The number of faces in the tree; a part of a face counts as a fraction.
+    /// The number of faces stored in the tree so far, rounded down. A piece of a face counts as a fraction of
+    /// a face.
     pub done: usize,
     /// The number of faces, or of polygons while they are read; 0 in the first call.
     pub total: usize,
@@ -38,7 +39,8 @@ pub struct Progress {
 /// Serialises calls to the callback, so that the progress it sees never decreases.
 ///
 /// A thread that finds the callback busy continues without calling it. Waiting could last forever: the
-/// callback may run further down this thread's own stack and wait for the thread pool.
+/// callback may be running in an outer call on this thread's own stack, and may itself wait for the thread
+/// pool.
 pub(crate) fn one_at_a_time(
     progress: impl FnMut(Progress) -> ControlFlow<()> + Send,
 ) -> impl Fn(&Watch<'_>) -> ControlFlow<()> + Sync {
@@ -115,7 +117,7 @@ impl<'a> Watch<'a> {
 
     /// Reports the end of the build.
     pub(crate) fn end(&self) -> Result<(), Error> {
-        // Shares of pieces cut more than 32 times were rounded to nothing, so the sum may fall short.
+        // Shares of pieces cut more than 32 times were rounded to 0, so the sum may be too small.
         let total = self.total.load(Ordering::Relaxed) as u64;
         self.done.store(total * FACE, Ordering::Relaxed);
         self.call()
@@ -163,7 +165,7 @@ mod tests {
     use crate::{BuildOptions, Heuristic};
 
     #[test]
-    fn who_has_cancelled_is_not_asked_again() {
+    fn the_callback_is_not_called_again_after_it_cancelled() {
         let calls = Mutex::new(0);
         let callback = one_at_a_time(|_| {
             *calls.lock().unwrap() += 1;
@@ -188,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_too_small_to_count_are_done_in_the_end() {
+    fn pieces_whose_share_is_rounded_to_0_are_done_at_the_end() {
         let heard = Mutex::new(vec![]);
         let callback = one_at_a_time(|progress| {
             heard.lock().unwrap().push(progress);
@@ -205,7 +207,7 @@ mod tests {
 
     /// With `Heuristic::First`, layers become a list of nodes, and each node examines all remaining layers.
     #[test]
-    fn a_pass_over_a_set_is_work_though_it_cuts_nothing() {
+    fn a_pass_over_a_set_counts_as_work_even_if_it_cuts_nothing() {
         let layers = (0..2000)
             .map(|z| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, f64::from(z)]));
         let mut calls = 0;
@@ -219,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn in_the_end_a_polygon_counts_as_the_faces_that_it_became() {
+    fn at_the_end_a_triangulated_polygon_counts_as_several_faces() {
         let corner = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
         let polygon = corner.map(|[x, y]| [x, y, 0.0]);
         let mut last = None;

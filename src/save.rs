@@ -1,9 +1,6 @@
-//! Files: writes and reads numbers and lists of any content.
+//! Reads and writes the parts that all kinds of files share: the head, numbers, lists and the checksum.
 //!
-//! A file is little-endian. It begins with the eight bytes `binspace`, four bytes for its kind, such as
-//! `tree`, and the version as `u32`. Then it contains numbers, and lists: their length as `u64`, then the
-//! items. It ends with a `u32`, the CRC-32 (as of gzip and PNG) of all bytes before. Another file may follow
-//! directly.
+//! [`BspTree::write`](crate::BspTree::write) documents them in a table. Another file may follow directly.
 
 use std::io::{self, Read, Write};
 
@@ -35,7 +32,7 @@ pub(crate) struct Reader<R> {
 }
 
 impl<R: Read> Reader<R> {
-    /// Begins a file, which must be of this kind and version.
+    /// Reads the head of a file, which must be of this kind and version.
     pub(crate) fn new(input: R, kind: Kind) -> Result<Self, Error> {
         let mut reader = Self { input, sum: Hasher::new(), chunk: vec![0; CHUNK] };
         if reader.bytes::<8>("first bytes")? != MAGIC {
@@ -58,7 +55,7 @@ impl<R: Read> Reader<R> {
         Ok(reader)
     }
 
-    /// Reads bytes; errors call them `what`.
+    /// Reads bytes. Errors refer to them as `what`.
     pub(crate) fn bytes<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], Error> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes).map_err(|error| failed(error, what))?;
@@ -111,7 +108,8 @@ impl<R: Read> Reader<R> {
         let most = (CHUNK / N).max(1);
         while items.len() < len {
             let some = most.min(len - items.len());
-            // At most twice the items read so far, so that a false length cannot reserve much.
+            // Reserves room for about twice the items read so far, so that a false length cannot reserve much
+            // memory.
             if items.capacity() - items.len() < some {
                 let room = len.min(2 * items.len() + most) - items.len();
                 items.try_reserve_exact(room).map_err(|_| Error::out_of_memory())?;
@@ -119,14 +117,14 @@ impl<R: Read> Reader<R> {
             let bytes = &mut self.chunk[..some * N];
             self.input.read_exact(bytes).map_err(|error| failed(error, what))?;
             self.sum.update(bytes);
-            // The compiler inlines a closure here; it called `&mut item` for each item.
+            // The compiler inlines this closure. Without it, the compiler made a call for each item.
             #[expect(clippy::redundant_closure, reason = "see above")]
             items.extend(bytes.as_chunks::<N>().0.iter().map(|bytes| item(bytes)));
         }
         Ok(items)
     }
 
-    /// Compares the checksum. Until then, everything read may be false.
+    /// Compares the checksum. Before this call, all data read may be damaged.
     pub(crate) fn finish(mut self) -> Result<(), Error> {
         let found = self.sum.clone().finalize();
         let expected = self.u32("checksum")?;
@@ -139,13 +137,13 @@ impl<R: Read> Reader<R> {
     }
 }
 
-/// The `u32` at a place in some bytes.
+/// The `u32` that begins at byte `at`.
 #[inline]
 pub(crate) fn u32_at<const N: usize>(bytes: &[u8; N], at: usize) -> u32 {
     u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
 }
 
-/// The `u64` at a place in some bytes.
+/// The `u64` that begins at byte `at`.
 #[inline]
 pub(crate) fn u64_at<const N: usize>(bytes: &[u8; N], at: usize) -> u64 {
     u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]))
@@ -161,7 +159,7 @@ pub(crate) struct Writer<W> {
 }
 
 impl<W: Write> Writer<W> {
-    /// Begins a file.
+    /// Writes the head of a file.
     pub(crate) fn new(output: W, kind: Kind) -> io::Result<Self> {
         let mut writer = Self { output, sum: Hasher::new(), waiting: Vec::new() };
         writer.put(MAGIC)?;
@@ -232,7 +230,7 @@ pub(crate) fn invalid(what: &'static str, number: usize, fault: &'static str) ->
     refused(format!("it was not written by binspace: {what} {number} {fault}"))
 }
 
-/// The error of a single invalid part.
+/// The error of an invalid part that is not an item of a list.
 pub(crate) fn damaged(what: &'static str, fault: &'static str) -> Error {
     refused(format!("it was not written by binspace: its {what} {fault}"))
 }
@@ -246,7 +244,7 @@ fn refused(problem: impl Into<Problem>) -> Error {
     error::Kind::File(FileFault { name: String::new(), line: None, problem }).error()
 }
 
-/// Distinguishes ends of data and lack of memory from other failures to read.
+/// Converts an error of the reader. Truncated data and lack of memory have separate errors.
 fn failed(error: io::Error, what: &'static str) -> Error {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => {

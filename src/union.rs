@@ -1,4 +1,4 @@
-//! Union-find: disjoint sets of numbers that are united.
+//! Union-find: disjoint sets of numbers.
 
 use std::cell::Cell;
 
@@ -26,8 +26,8 @@ impl Union {
 
     /// The least number of a number's set.
     ///
-    /// Path halving: every number on the path is linked to the next number but one, so a long chain is walked
-    /// once and not by every number. O(log n) on average (Tarjan and van Leeuwen 1984).
+    /// Path halving links every number on the path to the next number but one, so only the first call walks
+    /// all of a long chain. O(log n) on average (Tarjan and van Leeuwen 1984).
     pub(crate) fn root(&self, mut node: u32) -> u32 {
         loop {
             let up = self.up[node as usize].get();

@@ -17,9 +17,10 @@ use smallvec::SmallVec;
 /// | ±∞ in a direction | only the infinite coordinates matter, all equally |
 /// | a direction of zeros | (0, 0, −1), a view from the side of positive z |
 ///
-/// Eyes are rounded to the scene's grid, and beyond 500 extents to one part in 2⁶¹ of their distance.
-/// Directions are rounded to one part in 2⁵². For eyes beyond about 2³⁷⁰ extents only the direction counts,
-/// and a coordinate beyond about 2⁹⁷⁰ extents counts as infinite.
+/// Eyes are rounded to the scene's grid. An eye more than 500 extents away (longest sides of the scene's
+/// bounding box) is rounded to one part in 2⁶¹ of its distance, and a direction to one part in 2⁵². For eyes
+/// beyond about 2³⁷⁰ extents only the direction counts, and a coordinate beyond about 2⁹⁷⁰ extents counts as
+/// infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
     /// The point where the eye is.
@@ -79,10 +80,10 @@ impl From<Facing> for Ordering {
 /// difference of its ends, so its parameters are 0 to 1, both included.
 ///
 /// Coordinates are in the polygons' unit. Decisions about a ray are exact for the given coordinates, except
-/// for their smallest digits. The ignored digits of a point are below 2⁻¹²⁰ of the scene's extent, or of the
-/// distance of the scene or of a point from the origin if that is larger. The ignored digits of a direction
-/// are below 2⁻¹²⁰ of its largest coordinate. Near the origin, no `f64` of more than 2⁻⁶⁸ of the extent has
-/// such digits.
+/// for their smallest digits. The ignored digits of a point are below 2⁻¹²⁰ of the largest of these lengths:
+/// the scene's extent, and the distances of the scene and of the given points from the origin. The ignored
+/// digits of a direction are below 2⁻¹²⁰ of its largest coordinate. Near the origin, an `f64` larger than
+/// 2⁻⁶⁸ of the extent has no such digits.
 ///
 /// | coordinates | the ray |
 /// |---|---|
@@ -122,9 +123,9 @@ impl Ray {
 
 /// A convex region: the points in front of several planes, such as the four sides of a camera's view.
 ///
-/// A plane is a normal, of any length, and an offset. As for a [`Node`](crate::Node), its front contains the
-/// points p with `normal.dot(p) >= offset`; the other points are not in the region. Without planes, the
-/// region is the whole space. A plane with an infinite or NaN number excludes no point.
+/// A plane is given by a normal, of any length, and an offset. The points p with `normal.dot(p) >= offset`
+/// are in front of the plane; all other points are outside the region. Without planes, the region is the
+/// whole space. A plane with an infinite or NaN number excludes no point.
 ///
 /// ```
 /// use binspace::Frustum;
@@ -141,7 +142,7 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// No planes: the whole space.
+    /// The region without planes: the whole space.
     pub const EVERYWHERE: Self = Self { planes: SmallVec::new_const() };
 
     /// Creates the region of the points in front of all these planes.
@@ -153,8 +154,9 @@ impl Frustum {
     }
 
     /// Creates the region of a box, given by its least and largest coordinates. With a
-    /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet it;
-    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds the fragments that meet it exactly.
+    /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet the region.
+    /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds exactly the fragments that meet the
+    /// region.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -181,10 +183,11 @@ impl Frustum {
     /// matrix of OpenGL, Vulkan, Direct3D or WebGPU, this is the view through the picture's four sides. Depth
     /// is ignored, so there is no near and no far plane.
     ///
-    /// Rounding of the matrix may leave out points exactly on the sides: widen it a little.
+    /// Rounding of the matrix may exclude points exactly on the sides. To include them, use a slightly wider
+    /// projection.
     pub fn from_matrix(matrix: DMat4) -> Self {
         let [x, y, w] = [matrix.row(0), matrix.row(1), matrix.row(3)];
-        // Both sides together imply w ≥ 0; as a separate plane this rejects more boxes.
+        // Two opposite sides together imply w ≥ 0, but a separate plane for w ≥ 0 rejects more boxes.
         Self::new([w + x, w - x, w + y, w - y, w].map(|row: DVec4| (row.truncate(), -row.w)))
     }
 
@@ -196,8 +199,9 @@ impl Frustum {
     /// Returns whether a box, given by its least and largest coordinates, may have points in the region:
     /// whether no plane has the whole box behind it.
     ///
-    /// The result is never wrongly false: the box counts as larger by about 10⁻¹⁵ of its distance from the
-    /// origin. It is also true for a box that lies outside the region, but behind no single plane.
+    /// Rounding never makes the result false: the test enlarges the box by about 10⁻¹⁵ of its distance from
+    /// the origin. The result is also true for a box that lies outside the region, but behind no single
+    /// plane.
     pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
         let reach = low.abs().max(high.abs());
         !self.planes.iter().any(|&(normal, offset)| {
@@ -208,7 +212,8 @@ impl Frustum {
     }
 }
 
-/// Roundings in a scalar product of three terms, its comparison, and the bound itself.
+/// A bound on the roundings of a scalar product of three terms, of its comparison, and of the bound itself,
+/// as a share of the sum of the terms' magnitudes.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 #[cfg(test)]
@@ -216,7 +221,7 @@ mod frustum_tests {
     use super::*;
 
     #[test]
-    fn a_matrix_keeps_what_it_maps_into_the_picture() {
+    fn a_matrix_keeps_the_points_that_it_maps_into_the_picture() {
         let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
         // A perspective of 1.5 radians, whose width is 1.5 times its height, with w = −z.
         let mut perspective = DMat4::from_scale(DVec3::new(1.0 / 1.5, 1.0, -1.0) / 0.75_f64.tan());
@@ -230,7 +235,7 @@ mod frustum_tests {
     }
 
     #[test]
-    fn numbers_that_are_none_keep_everything() {
+    fn planes_with_nan_or_infinite_numbers_reject_no_box() {
         let boxes = [[DVec3::ZERO; 2], [DVec3::MIN, DVec3::MAX], [DVec3::splat(1e300); 2]];
         let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
         for bounds in boxes {

@@ -1,4 +1,5 @@
 //! Writes and reads lattices and faces, and checks them after reading.
+//! [`BspTree::write`](crate::BspTree::write) documents the layout.
 
 use std::io::{self, Read, Write};
 use std::ops::Range;
@@ -15,14 +16,13 @@ use crate::save::{Reader, Writer, damaged, invalid, too_many, u32_at, u64_at};
 const EXPONENTS: std::ops::RangeInclusive<i32> = -1000..=1150;
 
 impl Lattice {
-    /// Writes the exponent of the steps in a unit of length as `u32` in two's complement, and the origin and
-    /// the far coordinates as three `f64` each.
+    /// Writes the part *grid* of a file.
     pub(crate) fn write(&self, file: &mut Writer<impl Write>) -> io::Result<()> {
         file.u32(self.exponent() as u32)?;
         file.items(self.origin.into_iter().chain(self.far), |file, number| file.f64(number))
     }
 
-    /// Reads a lattice, which must be checked.
+    /// Reads a lattice, which must be [checked](Self::check) after the file's checksum.
     pub(crate) fn read(file: &mut Reader<impl Read>) -> Result<Self, Error> {
         let exponent = file.u32("grid")? as i32;
         // Clamped, so that the step is a finite number. `check` rejects exponents outside the range.
@@ -75,8 +75,8 @@ impl Faces {
         })
     }
 
-    /// Reads faces, which must be [checked](Self::check) after the file's checksum. The corners of all faces
-    /// follow the corners of their cell, `of_cell` in number.
+    /// Reads faces, which must be [checked](Self::check) after the file's checksum. `of_cell` is the number
+    /// of the cell's corners, which precede the corners of all faces.
     pub(crate) fn read(file: &mut Reader<impl Read>, of_cell: u32) -> Result<Self, Error> {
         let point = |bytes: &[u8], at: usize| {
             let bytes: &[u8; 24] = bytes[at..].first_chunk().unwrap_or(&[0; 24]);
@@ -86,7 +86,7 @@ impl Faces {
         let tolerance = file.f64("tolerance")?;
         let mut corners = u64::from(of_cell);
         let faces = file.list("faces", MAX_NAMES, |bytes: &[u8; 12]| {
-            // Saturated rather than wrong: too many corners are rejected below.
+            // An overflow is limited to the largest number: too many corners are rejected below.
             let start = u32::try_from(corners).unwrap_or(u32::MAX);
             corners += u64::from(u32_at(bytes, 4));
             Face { start, polygon: u32_at(bytes, 0), frame: Frame(u32_at(bytes, 8)) }

@@ -69,9 +69,9 @@ fn planes(samples: &mut [[f64; 3]], room: CellBox, cells: usize) -> Vec<SplitPla
     planes
 }
 
-/// The plane that divides a box into two parts, for `count` cells in total. It contains a sample, because
-/// that often is a corner, and planes through corners cut fewer polygons. It is independent of the order of
-/// the samples.
+/// The plane that divides a box into two parts, for `count` cells in total. The plane contains a sample:
+/// samples often are corners, and planes through corners cut fewer polygons. The plane does not depend on the
+/// order of the samples.
 fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitPlane {
     let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for sample in &*samples {

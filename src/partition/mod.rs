@@ -26,7 +26,7 @@ use crate::viewpoint::Viewpoint;
 /// use binspace::{BuildOptions, Viewpoint, scene};
 ///
 /// let (scene, options) = (scene::terrain(2000, 1), BuildOptions::DEFAULT);
-/// // All processes must agree on these: the extent, and some of the corners.
+/// // All processes must use the same extent and the same samples of corners.
 /// let mut extent = Extent::default();
 /// scene.polygons().for_each(|polygon| extent.include(&polygon));
 /// let samples = scene.polygons().map(|polygon| polygon.points()[0]);
@@ -57,9 +57,10 @@ use crate::viewpoint::Viewpoint;
 ///
 /// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of a
 /// plane have bit for bit the same vertices on it. Two faces on one side that share an edge also have the
-/// same vertices on the plane, if both are cut and the tolerance moved no corner of either. (As in one tree,
-/// further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a plane between two
-/// cells, or within the tolerance of it, belong to the cell on the side of larger coordinates.
+/// same vertices on the plane, if both faces are cut and the tolerance moved no corner of either face. (As in
+/// one tree, further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a plane
+/// between two cells, or within the tolerance of that plane, belong to the cell on the side of larger
+/// coordinates.
 ///
 /// All cells have the same grid and tolerance, so they prepare a polygon in the same way: a polygon that is
 /// triangulated or flattened in one cell is triangulated or flattened in all cells.
@@ -76,13 +77,13 @@ use crate::viewpoint::Viewpoint;
 /// # Trees of cells
 ///
 /// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// It cannot be used where whole polygons are needed: for a `drawing`, which returns an error, for the depth
-/// buffer of `raster`, and so for `verify`. Its [`dropped`](crate::BspTree::dropped) polygons include
-/// polygons outside the cell. The other counts of its [preparation](crate::BspTree::preparation) include all
-/// polygons passed to it; [`preparation`](Self::preparation) counts for all cells.
-/// [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
-/// [`Overlay`](crate::overlay::Overlay) on it is not cut to the cell: its polygons are in each cell to whose
-/// overlay you add them.
+/// It cannot be used where whole polygons are needed. A `drawing` of it is an error. The depth buffer of
+/// `raster`, and so `verify`, cannot be used either. Its [`dropped`](crate::BspTree::dropped) polygons
+/// include polygons outside the cell. The other counts of its [preparation](crate::BspTree::preparation)
+/// include all polygons passed to it; [`preparation`](Self::preparation) counts each polygon once for all
+/// cells. [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
+/// [`Overlay`](crate::overlay::Overlay) of such a tree does not cut polygons to the cell. A polygon that you
+/// add to the overlays of several cells is in each of them.
 ///
 /// With the feature `save`, `Partition::write` and `Partition::read` store a partition, for instance to
 /// send it to other machines.
@@ -133,7 +134,8 @@ impl Partition {
         self.lattice.length_to_world(self.tolerance)
     }
 
-    /// Returns the lower and the upper corner of a cell, rounded outwards; infinite on sides without a plane.
+    /// Returns the lower and the upper corner of a cell, in the polygons' unit and rounded outwards. The
+    /// coordinate of a side without a plane is infinite.
     ///
     /// # Panics
     ///
@@ -207,9 +209,9 @@ impl Partition {
     /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach its cell.
     ///
     /// The test is conservative: a cell is listed if its box meets both the polygon's box, widened by the
-    /// tolerance, and the layer along its plane. So a few cells are listed that contain no part of the
-    /// polygon, which does no harm. A polygon with a corner that is NaN or beyond the partition's grid is
-    /// listed for all cells, and building them returns an error.
+    /// tolerance, and a thin layer around the polygon. So a few listed cells may contain no part of the
+    /// polygon, which does no harm. A polygon with a corner that is NaN or beyond the partition's grid
+    /// reaches all cells, and building any of them returns an error.
     ///
     /// O(corners + cells reached · log cells).
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
@@ -259,7 +261,7 @@ impl Partition {
     }
 }
 
-/// The bounding box of a scene and its precision: the data that all builders of its cells must agree on.
+/// The bounding box of a scene and its precision: the data that must be the same for all builders of cells.
 ///
 /// Each builder may compute the extent of its own polygons; [`merge`](Self::merge) combines the results, in
 /// any order.
@@ -317,17 +319,18 @@ impl Extent {
     }
 }
 
-/// The distance that a polygon may reach beyond its corners, in tolerances and in steps of the lattice.
+/// The distance by which a polygon may reach beyond its corners, in tolerances and in steps of the lattice.
 /// Moving a corner onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one
 /// tolerance: together 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells
 /// receive polygons that do not reach them.
 const MARGIN: [f64; 2] = [3.0, 2.0];
 /// A bound on the rounding error of a corner's distance from a plane, as a share of the lengths in its
-/// computation. Any normal is used as given. With u = 2⁻⁵³: arms of corners are exact, so a scalar product
-/// with an arm is off by 3u, for the product and the sums. An end of a box is off by u, its difference from a
-/// corner by u, its middle and its half by u more, and their products by 3u each. Together with the sums and
-/// differences in `meets`, and the slack itself, the error is less than 20u. Too small: cells miss polygons.
-/// Too large: cells receive polygons that do not reach them.
+/// computation. The rounding of the normal itself does not matter, because the layer is right for any normal.
+/// Let u = 2⁻⁵³: arms of corners are exact, so a scalar product with an arm is off by 3u, for the product and
+/// the sums. An end of a box is off by u, its difference from a corner by u, its middle and its half by u
+/// more, and their products by 3u each. Together with the sums and differences in `meets`, and the slack
+/// itself, the error is less than 20u. Too small: cells miss polygons. Too large: cells receive polygons that
+/// do not reach them.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.
@@ -335,14 +338,14 @@ struct Layer {
     /// The origin of distances.
     from: DVec3,
     normal: DVec3,
-    /// The scalar products of the normal with all points, the margin included.
+    /// The range of scalar products of the normal with all points, widened by the margin.
     least: f64,
     most: f64,
 }
 
 impl Layer {
-    /// The layer perpendicular to Newell's normal, which makes the layer of a planar polygon thin. Any normal
-    /// would be right.
+    /// The layer perpendicular to Newell's normal. A layer perpendicular to any direction would be right, but
+    /// with this normal the layer of a planar polygon is thin.
     fn new(corners: &[[f64; 3]], margin: f64) -> Self {
         let from = DVec3::from(corners[0]);
         // Differences of lattice coordinates are exact.

@@ -10,7 +10,8 @@ use crate::exact::{LATTICE_LIMIT, Lattice};
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at, u64_at};
 
 const KIND: Kind = Kind { name: *b"part", version: 1 };
-/// The largest number of planes: far more cells than anyone builds trees for.
+/// The largest number of planes. Too small: real partitions are rejected. Too large: a forged file may take
+/// much memory.
 const MOST: usize = 1 << 28;
 
 impl Partition {
@@ -18,14 +19,19 @@ impl Partition {
     ///
     /// # Layout
     ///
-    /// Version 1. All numbers are little-endian.
+    /// Version 1. Numbers and lists are as in the file of a [tree](crate::BspTree::write).
     ///
-    /// | part | content |
-    /// |---|---|
-    /// | head | the bytes `binspacepart`, the version as `u32` |
-    /// | grid, tolerance | as in the file of a [tree](crate::BspTree::write) |
-    /// | planes | their number as `u64`, one less than the number of cells; then each plane, depth first, the planes behind it before the planes in front: the axis as `u32`, and the coordinate on the grid as `i64`. Of n cells, n / 2, rounded down, are behind |
-    /// | end | the CRC-32 of all bytes before, `u32` |
+    /// | part | type | content |
+    /// |---|---|---|
+    /// | kind | 12 bytes | `binspacepart` |
+    /// | version | `u32` | 1 |
+    /// | grid, tolerance | | as in the file of a tree |
+    /// | planes | list of `u32` and `i64` | the axis (0, 1, 2 for x, y, z) and the coordinate on the grid |
+    /// | checksum | | as in the file of a tree |
+    ///
+    /// There is one plane less than there are cells. Planes are listed depth first, and the planes behind a
+    /// plane precede the planes in front of it. Of n cells that a plane divides, n / 2 (rounded down) are
+    /// behind it.
     ///
     /// # Errors
     ///

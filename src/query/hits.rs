@@ -97,7 +97,7 @@ impl<'t> Targets<'t> {
 pub(crate) struct Hits<'t> {
     targets: Targets<'t>,
     ray: Ray,
-    /// `None` if the ray meets nothing.
+    /// The search along the ray; `None` if the ray certainly meets nothing.
     search: Option<Search<'t>>,
 }
 
@@ -128,9 +128,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether an interval is a new hit, and does not continue the last hit of its polygon. At one point, the
-    /// intervals of a polygon follow each other. So the polygon's last hit is the last hit of all, unless it
-    /// extends along the ray.
+    /// Whether an interval is a new hit, and does not continue the last hit of its polygon. The intervals of
+    /// a polygon at one point follow each other directly. So a hit that is a point need be stored only while
+    /// it is the last hit of all. Hits that extend along the ray are stored for each polygon.
     fn is_new(&mut self, faces: &Faces, interval: &Interval) -> bool {
         let Self { query, last, ends, .. } = self;
         let (polygon, Interval { enter, leave, .. }) = (faces.polygon(interval.face), interval);
@@ -182,9 +182,9 @@ impl BspTree {
     /// let nearest = tree.hits(down).next().expect("a hit");
     /// assert_eq!((nearest.polygon(), nearest.parameter()), (1, 7.0));
     /// assert_eq!(nearest.point().to_array(), [0.5, 0.5, 2.0]);
-    /// // It is hit from its front.
+    /// // The ray hits its front.
     /// assert!(nearest.facing() == Facing::Front);
-    /// // All of them, and the hits of a segment.
+    /// // All hits of the ray, and the hits of a segment.
     /// assert!(tree.hits(down).map(|hit| hit.polygon()).eq([1, 2, 0]));
     /// let segment = Ray::between([0.5, 0.5, 1.0], [0.5, 0.5, 0.5]);
     /// assert!(tree.hits(segment).map(|hit| hit.polygon()).eq([2]));
@@ -196,21 +196,21 @@ impl BspTree {
     /// Polygons are as the tree stores them: their corners are rounded to its grid, and moved onto the
     /// polygon's plane if they were off it by less than the tolerance. A polygon includes its edges and
     /// corners, a segment both ends, and a ray its start. The intersection of a ray and a polygon consists of
-    /// points and segments, and each of these is one hit, at its nearest point:
+    /// points and segments. Each point is one hit, and each segment is one hit at its nearest point:
     ///
     /// - a ray through an edge that several polygons share, or through a corner, hits each of these polygons
-    ///   once, however the tree has cut it;
-    /// - a ray in the plane of a polygon hits it where it enters the polygon, or at the ray's start if that
-    ///   is inside. The hit then [faces](Hit::facing) neither side. There is no second hit where the ray
-    ///   leaves the polygon or passes from one of its fragments to another;
+    ///   once, however the tree has cut them;
+    /// - a ray in the plane of a polygon hits the polygon where it enters the polygon, or at its start if the
+    ///   start is inside the polygon. The hit then [faces](Hit::facing) neither side. There is no second hit
+    ///   where the ray leaves the polygon or passes from one of its fragments to another;
     /// - only a polygon that is not convex, or not planar, can be hit more than once.
     ///
     /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
     /// exact. So hits do not depend on how a tree was built.
     ///
     /// The iterator searches only as far along the ray as the next hit requires. It allocates nothing unless
-    /// dozens of parts of the tree or more than eight fragments are pending at once, or polygons lie in the
-    /// plane of the ray.
+    /// dozens of parts of the tree or more than eight fragments are pending at once, or the ray lies in the
+    /// plane of a polygon.
     ///
     /// Time is proportional to the number of boxes that the ray crosses until you stop reading. The first
     /// call computes the boxes, in O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one
@@ -232,7 +232,7 @@ pub struct Hit<'t> {
 
 impl<'t> Hit<'t> {
     /// Returns the fragment that is hit, for instance for its [normal](Fragment::normal). If several
-    /// fragments of the polygon meet at the point, the result is one of these.
+    /// fragments of the polygon meet at the point, the result is one of these fragments.
     #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment
@@ -283,9 +283,9 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the exact definition of the hit's point: three points of the tree's [grid](BspTree::grid). The
-    /// ray meets the plane through these points at the hit. Mostly this is the fragment's plane; for a ray in
-    /// the fragment's plane it is a plane through an edge. `None` if the point is an end of the ray inside
-    /// the polygon: the start if [`parameter`](Self::parameter) is 0.
+    /// ray meets the plane through these points at the hit. Usually this is the fragment's plane. For a ray
+    /// in the fragment's plane, it is a plane through an edge. `None` if the point is an end of the ray
+    /// inside the polygon: the start if [`parameter`](Self::parameter) is 0.
     ///
     /// For the ray as given (see [`Ray`]), the exact parameter is the fraction n·(p − from) / n·direction,
     /// where n is the vector product of q − p and r − p.
@@ -322,8 +322,8 @@ impl std::fmt::Debug for Hit<'_> {
 /// A binary heap in which each interval precedes its two children. (The heap of the standard library cannot
 /// pass the ray to comparisons.)
 ///
-/// Pushing takes a few comparisons if the interval follows most others, as at one point, where faces are
-/// found in input order. Popping takes one or two comparisons per level.
+/// Pushing takes a few comparisons if the interval follows most others. That is common: at one point, faces
+/// are found in input order. Popping takes one or two comparisons per level.
 #[derive(Clone, Debug, Default)]
 struct HitQueue {
     heap: SmallVec<[Interval; 8]>,
@@ -377,9 +377,9 @@ impl HitQueue {
 }
 
 impl BspTree {
-    /// Returns whether a polygon blocks the line of sight between two points: whether it contains a point of
-    /// the segment other than its two ends. For an endless ray: whether a polygon contains a point of the ray
-    /// other than its start.
+    /// Returns whether a polygon blocks the line of sight between two points: whether the polygon contains a
+    /// point of the segment other than the segment's two ends. For an endless ray: whether a polygon contains
+    /// a point of the ray other than the ray's start.
     ///
     /// ```
     /// use binspace::{BspTree, Ray};
@@ -390,14 +390,14 @@ impl BspTree {
     /// let eye = [1.0, -2.0, 1.5];
     /// assert!(tree.is_occluded(Ray::between(eye, [1.0, 2.0, 1.5])));
     /// assert!(!tree.is_occluded(Ray::between(eye, [9.0, 2.0, 1.5])));
-    /// // What is on the wall is seen.
+    /// // A point on the wall is visible.
     /// assert!(!tree.is_occluded(Ray::between(eye, [1.0, 0.0, 1.5])));
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// A computed point, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is rounded. So it
-    /// may lie behind its own surface, which then occludes it. To test whether such a point is visible, end
-    /// the segment before the surface:
+    /// A computed point, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is rounded. So the
+    /// point may lie behind its own surface, and the surface then occludes the point. To test whether such a
+    /// point is visible, end the segment before the surface:
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -414,9 +414,10 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// A polygon also blocks the segment if it only touches it with an edge or a corner, or contains a part
-    /// of it in its plane, such as a floor seen edge-on. The test is exact. If an eye should see along a
-    /// floor, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
+    /// A polygon also blocks the segment if only an edge or a corner of the polygon touches the segment. The
+    /// same is true if a part of the segment lies in the polygon, such as a floor seen edge-on. The test is
+    /// exact. If an eye should see along a floor, look for [`hits`](Self::hits) whose
+    /// [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
     ///
     /// The search stops at the first polygon that it finds, which need not be the nearest. Its time is
     /// proportional to the number of boxes that the segment crosses before that polygon. The first call

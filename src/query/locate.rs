@@ -12,7 +12,7 @@ use crate::viewpoint::Ray;
 
 /// The place of a point in a tree: [`BspTree::locate`].
 ///
-/// Two locations are equal if they are in the same leaf and on the same planes.
+/// Two locations are equal if they have the same leaf and the same planes.
 #[derive(Clone, Debug)]
 pub struct Location<'t> {
     tree: &'t BspTree,
@@ -34,7 +34,7 @@ impl<'t> Location<'t> {
         self.is_in_front
     }
 
-    /// Returns the number of the leaf's fragment; an empty range for a leaf without a fragment.
+    /// Returns the number of the leaf's fragment as a range, or an empty range if the leaf has no fragment.
     pub fn fragments(&self) -> Range<u32> {
         self.fragments.clone()
     }

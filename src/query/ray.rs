@@ -1,5 +1,5 @@
-//! A ray, prepared to be compared with a tree, and its intersection with a fragment: by floats if these are
-//! certain, otherwise by integers.
+//! A ray, prepared to be compared with a tree, and its intersection with a fragment. Floats compute the
+//! intersection if they are certain, otherwise integers do.
 
 use std::cmp::Ordering;
 
@@ -10,7 +10,7 @@ use crate::tree::Fragment;
 use crate::tree::fragment::{along, plane_points};
 use crate::viewpoint::Ray;
 
-/// A ray in lattice units: in integers, and rounded.
+/// A ray in lattice units: exact in integers, and rounded to floats.
 #[derive(Clone, Debug)]
 pub(super) struct RayQuery {
     pub(super) exact: ExactRay,
@@ -20,11 +20,11 @@ pub(super) struct RayQuery {
     pub(super) direction: [f64; 3],
     /// More than any coordinate of the difference between the origin and a corner.
     pub(super) reach: f64,
-    /// The largest magnitude in the direction.
+    /// The largest magnitude of a coordinate of the direction.
     pub(super) speed: f64,
     pub(super) is_endless: bool,
     /// Whether each coordinate of the direction differs from its integer form by at most 1.001 roundings.
-    /// Coordinates of the origin always do.
+    /// For the origin this is always true.
     pub(super) is_precise: bool,
 }
 
@@ -84,7 +84,7 @@ impl RayQuery {
     }
 }
 
-/// A plane along a ray: `start` + t · `slope`.
+/// The value of a plane's equation along a ray, rounded: `start` + t · `slope`.
 struct RoundedAtRay {
     start: f64,
     slope: f64,
@@ -92,18 +92,19 @@ struct RoundedAtRay {
     size: f64,
 }
 
-/// Error bounds of a plane at a ray. Let u = 2⁻⁵³, π the sum of [`RoundedAtRay::size`], M the query's reach
-/// and d its speed. Differences of corners are exact, so a component of the normal is off by 2uπᵢ. The origin
-/// minus a corner is off by 2uM, and the direction by ud. With three products and two sums, the start is off
-/// by 7uπM and the slope by 6uπd; less for planes along an axis. [`RayQuery::is_precise`] adds a thousandth
-/// of that. Too small: wrong signs pass. Too large: more signs are computed in integers.
+/// Error bounds of the start and the slope in [`RoundedAtRay`]. Let u = 2⁻⁵³, π the sum of
+/// [`RoundedAtRay::size`], M the query's reach and d its speed. Differences of corners are exact, so a
+/// component of the normal is off by 2uπᵢ. The origin minus a corner is off by 2uM, and the direction by ud.
+/// With three products and two sums, the start is off by 7uπM and the slope by 6uπd; less for planes along an
+/// axis. [`RayQuery::is_precise`] adds a thousandth of that. Too small: wrong signs pass. Too large: more
+/// signs are computed in integers.
 const START_ERROR: f64 = 3.6 * f64::EPSILON;
 const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
 
-/// Error bound of a bounding plane at the point where the ray meets the face: start · slope of the face's
-/// plane − slope · start of the face's plane, as a multiple of the two sizes, M and d. By the bounds above,
-/// each product is off by (7 + 6) u for its factors and 1u for its rounding. The difference adds 2u: 30u in
-/// total.
+/// Error bound of a bounding plane's value at the point where the ray meets the face: start · slope of the
+/// face's plane − slope · start of the face's plane, as a multiple of the two sizes, M and d. By the bounds
+/// above, each product is off by (7 + 6) u for its factors and 1u for its rounding. The difference adds 2u:
+/// 30u in total.
 const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
 impl RoundedAtRay {
@@ -131,8 +132,8 @@ impl RoundedAtRay {
         }
     }
 
-    /// The plane through an edge of a face and along an axis, in front on the right of the edge, seen
-    /// against the axis.
+    /// The plane through an edge of a face and parallel to an axis. Seen against the axis, its front is on
+    /// the right of the edge.
     #[inline]
     fn edge(query: &RayQuery, corners: &[[f64; 3]], line: EdgeLine, axis: usize) -> Self {
         let k = line.as_edge().unwrap_or(0) as usize;
@@ -186,8 +187,8 @@ impl Spot {
     }
 }
 
-/// The plane through an edge of a face and along the axis in which the face is least steep, and the face's
-/// side of this plane.
+/// The plane through an edge of a face and parallel to the axis in which the face is least steep, and the
+/// face's side of this plane.
 pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     let own = faces.plane(PlaneId::face(face));
     let axis = dominant_axis(faces, face);
@@ -202,7 +203,8 @@ fn dominant_axis(faces: &Faces, face: u32) -> usize {
     faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
-/// The distance of a spot along a ray: an interval of parameters, and exactly, by the definition of the spot.
+/// The distance of a spot along a ray. It is defined exactly by the spot, and lies in an interval of rounded
+/// parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     pub(super) spot: Spot,
@@ -258,13 +260,14 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// `None` if the ray and the fragment do not meet.
+    /// Intersects a ray and a fragment. `None` if the ray and the fragment do not meet.
     pub(super) fn new(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let guess = Self::guess(query, fragment, faces);
         guess.unwrap_or_else(|| Self::exact(&query.exact, fragment, faces))
     }
 
-    /// By floats, inside the fragment and strictly between the ends of the ray. `None` if floats cannot
+    /// Computes the intersection by floats. They can decide that there is no intersection, or that it is a
+    /// point strictly inside the fragment and strictly between the ends of the ray. `None` if floats cannot
     /// decide.
     fn guess(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Option<Self>> {
         if !query.is_precise {
@@ -321,8 +324,8 @@ impl Interval {
         Some(Some(Self { fragment, face, enter: depth, leave: depth, facing }))
     }
 
-    /// By integers: intersects the ray with the plane of the face, and then clips it by each bounding plane
-    /// (Cyrus and Beck 1978).
+    /// Computes the intersection by integers: intersects the ray with the plane of the face, and then clips
+    /// it by each bounding plane (Cyrus and Beck 1978).
     fn exact(ray: &ExactRay, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let face = fragment.face();
         let own = ray.at(&faces.plane(PlaneId::face(face)));
@@ -362,7 +365,7 @@ impl Interval {
         Some(Self { fragment, face, enter, leave, facing: own.slope().reverse() })
     }
 
-    /// Whether the interval contains a point that is no end of the ray.
+    /// Whether the interval contains a point that is not an end of the ray.
     pub(super) fn has_inner_point(&self, query: &RayQuery, faces: &Faces) -> bool {
         let Self { enter, leave, .. } = self;
         let is_before_end = query.is_endless || enter.compare(&Depth::END, query, faces).is_lt();
@@ -381,7 +384,7 @@ impl Interval {
     }
 }
 
-/// A bounding plane of a fragment: the spot where the ray meets it, the plane along the ray, and the
+/// A bounding plane of a fragment: the spot where the ray meets it, its equation along the ray, and the
 /// fragment's side of it.
 fn bound(ray: &ExactRay, line: EdgeLine, face: u32, faces: &Faces) -> (Spot, AtRay, Ordering) {
     match line.as_cut() {

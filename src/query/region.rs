@@ -21,7 +21,7 @@ struct FragmentsIn<'t> {
     bounds: &'t Bounds,
     sides: SmallVec<[RegionPlane; 6]>,
     rest: Range<u32>,
-    /// Fragments that are inside and precede all others.
+    /// Fragments that are inside the region and precede `rest`.
     inside: Range<u32>,
 }
 
@@ -136,7 +136,7 @@ impl BspTree {
     ///
     /// let slanted = |x: f64| [[x, 0.0, 0.0], [x + 8.0, 0.0, 8.0], [x, 1.0, 0.0]];
     /// let tree = BspTree::build([slanted(0.0), slanted(4.0)])?;
-    /// // It is in the bounding boxes of both, but only one of them goes through it.
+    /// // The region is in the bounding boxes of both triangles, but only one triangle meets it.
     /// let region = Frustum::from_box([DVec3::new(6.0, 0.0, 1.0), DVec3::new(7.0, 1.0, 2.5)]);
     /// let inside: Vec<u32> = tree.fragments_in(&region).collect();
     /// assert_eq!(inside.len(), 1);
@@ -144,9 +144,9 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// Fragments are as the tree stores them, as for [`BspTree::hits`]. The numbers of the planes are exact,
-    /// except for digits below 2⁻¹¹⁵ of the normal's largest coordinate, and digits of the offset below 2⁻¹¹⁵
-    /// of the scene's extent. All planes of the region are used, except planes with an infinite or NaN
+    /// Fragments are as the tree stores them, as for [`BspTree::hits`]. All digits of the planes' numbers
+    /// count, except digits of a normal below 2⁻¹¹⁵ of its largest coordinate, and digits of an offset below
+    /// 2⁻¹¹⁵ of the scene's extent. All planes of the region are used, except planes with an infinite or NaN
     /// number, which exclude nothing.
     ///
     /// Blocks of 16, 256, … fragments are included or excluded as a whole by their boxes. So the time is

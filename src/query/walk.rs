@@ -3,8 +3,8 @@
 //! A partition plane divides the ray: the ray can meet one side of the tree only before the plane, and the
 //! other side only behind it. But the tolerance lets fragments reach across the plane, and the planes that
 //! are read here are rounded to `f32`. So each side, and the fragments *on* the plane, are visited up to a
-//! small distance beyond the plane. Some parts are therefore visited without success, but no decision depends
-//! on it: `ray` decides which fragments are met, and in which order.
+//! small distance beyond the plane. So the walk also visits some parts that the ray does not meet. This
+//! changes no result: the module `ray` decides which fragments are met, and in which order.
 
 use std::ops::Range;
 
@@ -27,10 +27,12 @@ pub(super) struct Walk<'t> {
     /// The ray in units of 2⁵¹ lattice steps, like the tree's planes.
     origin: [f64; 3],
     direction: [f64; 3],
-    /// The largest distance beyond a plane of fragments that count as in front of it, behind it or on it.
+    /// The largest distance by which a fragment may reach across the plane whose side it is on, or off the
+    /// plane that it is on.
     slack: f64,
-    /// Fragments that the ray has reached and may meet between these parameters.
+    /// Fragments that the ray has reached.
     run: Range<u32>,
+    /// The parameters between which the ray may meet the fragments of `run`.
     span: [f64; 2],
 }
 
@@ -51,15 +53,15 @@ const LEAF: u32 = u32::MAX;
 
 /// Error bound of a plane that is rounded to `f32`, at points of the scene, in units of 2⁵¹ lattice steps:
 /// 2⁻²⁴ of the normal's coordinates, times the point's coordinates of at most 1.014, and 2⁻²⁴ of the offset.
-/// With a unit normal that is at most 2⁻²⁴ · 1.014 · (√3 + √3). Too small: fragments that are met are missed.
-/// Too large: more fragments are visited without success.
+/// The normal is a unit vector, so the error is at most 2⁻²⁴ · 1.014 · (√3 + √3). Too small: fragments that
+/// are met are missed. Too large: more fragments are visited without success.
 const PLANE_ERROR: f64 = 2.2e-7;
 
-/// Rounding of a plane's distance at a point of the ray, as a share of the query's reach.
+/// Error bound of a plane's distance from a point of the ray, as a share of the query's reach.
 const REACH_ERROR: f64 = 16.0 * f64::EPSILON;
 
 impl<'t> Walk<'t> {
-    /// The whole tree.
+    /// Begins a walk of the whole tree.
     pub(super) fn new(tree: &'t BspTree, query: &RayQuery) -> Self {
         let unit = 1.0 / LATTICE_LIMIT;
         let tolerance = tree.faces.tolerance() * unit * (1.0 + 1e-6);
@@ -146,8 +148,8 @@ impl<'t> Walk<'t> {
             }
             let (near, far, toward) =
                 if slope >= 0.0 { (back, front, -start) } else { (front, back, start) };
-            // The ray is within the slack of the plane between these parameters. Without a slope they are
-            // infinite, or NaN, for which every comparison is false.
+            // Between the parameters `enter` and `leave`, the ray is within the slack of the plane. If the
+            // slope is 0, the parameters are infinite or NaN; every comparison with NaN is false.
             let [enter, leave] =
                 [toward - self.slack, toward + self.slack].map(|d| d / slope.abs());
             let begin = if enter > from { enter } else { from };
@@ -176,14 +178,15 @@ impl<'t> Walk<'t> {
         }
     }
 
-    /// The parameters between which the ray is in the space of possible corners; `None` if it never is.
+    /// The parameters between which the ray is in the cube that contains all corners; `None` if the ray
+    /// misses the cube.
     fn within_reach(&self, query: &RayQuery) -> Option<[f64; 2]> {
         let reach = MAX_CORNER / LATTICE_LIMIT + self.slack;
         // An endless ray without a direction is also a point.
         let is_endless = query.is_endless && query.speed > 0.0;
         let (mut from, mut to) = (0.0_f64, if is_endless { f64::INFINITY } else { 1.0 });
         for (start, slope) in self.origin.into_iter().zip(self.direction) {
-            // Without a slope these are infinite, or NaN, which `min` and `max` ignore.
+            // If the slope is 0, both parameters are infinite or NaN; `min` and `max` ignore NaN.
             let [a, b] = [-reach, reach].map(|side| (side - start) / slope);
             (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
         }
@@ -200,12 +203,12 @@ pub(super) struct Boxes<'t> {
     inverses: [f64; 3],
 }
 
-/// Boxes count as larger by this share of the largest coordinate. The direction, its inverse, the distance to
-/// a side and their product lose a fourth of this. Too small: fragments that are met are missed. Too large:
-/// more fragments are visited without success.
+/// Boxes count as larger by this share of the largest coordinate. The roundings of the direction, its
+/// inverse, the distance to a side and their product are a fourth of this. Too small: fragments that are met
+/// are missed. Too large: more fragments are visited without success.
 const PARAMETER_ERROR: f64 = 8.0 * f64::EPSILON;
 
-/// 1 divided by the smallest coordinate of a direction that counts.
+/// The largest inverse of a direction's coordinate: larger and infinite inverses are replaced by this value.
 const STEEP: f64 = 1e250;
 
 /// The sizes of origins and directions, relative to the scene, for which boxes are used. Outside this range,
@@ -213,7 +216,7 @@ const STEEP: f64 = 1e250;
 const SIZES: Range<f64> = 1e-200..1e200;
 
 impl<'t> Boxes<'t> {
-    /// `None` if boxes cannot be trusted with a ray.
+    /// Prepares a ray for comparisons with boxes. `None` if floats would overflow or lose digits.
     pub(super) fn new(query: &RayQuery, bounds: &'t Bounds) -> Option<Self> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [reach, speed] = [query.reach * unit, query.speed * unit];
@@ -231,8 +234,8 @@ impl<'t> Boxes<'t> {
         })
     }
 
-    /// The parameters between which the line of the ray may be in a box; it is outside if the first is
-    /// larger.
+    /// The parameters between which the line of the ray may be in a box. If the first is larger, the line
+    /// does not meet the box.
     #[inline]
     fn within(&self, bounds: &Flat) -> [f64; 2] {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -260,9 +263,9 @@ impl<'t> Boxes<'t> {
     }
 }
 
-/// Removes blocks from the start of a run of fragments, up to the first block that may be inside a region.
-/// Returns that block, and whether it is certainly inside; otherwise it is one fragment. `is_inside` decides
-/// this for a box, if it can.
+/// Removes blocks from the start of a run of fragments, including the first block that may be inside a
+/// region. Returns that block, and whether it is certainly inside. If it is not, the block is a single
+/// fragment. `is_inside` returns whether a box is inside, or `None` if it cannot decide.
 #[inline]
 pub(super) fn next_block(
     bounds: &Bounds,

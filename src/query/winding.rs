@@ -42,9 +42,9 @@ impl BspTree {
     /// The first call sorts all edges, to check that the bodies are closed: O(n log n). Each call takes time
     /// proportional to the number of boxes above the point.
     ///
-    /// The winding number is the signed number of faces that a ray crosses, by a point-in-polygon test in the
-    /// projection along the ray. Where the ray meets an edge, it is moved by an infinitesimal step (H.
-    /// Edelsbrunner and E. Mücke, "Simulation of simplicity", 1990).
+    /// The winding number is the signed number of faces that a ray from the point crosses. A point-in-polygon
+    /// test in the projection along the ray finds these faces. Where the ray meets an edge, the ray is moved
+    /// by an infinitesimal step (H. Edelsbrunner and E. Mücke, "Simulation of simplicity", 1990).
     ///
     /// # Errors
     ///
@@ -82,8 +82,8 @@ impl BspTree {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
 
-    /// The faces whose boxes reach above a point, each once: at least those that a ray from there along z
-    /// crosses.
+    /// The faces whose boxes reach above a point, each once. They include all faces that a ray from the point
+    /// along z crosses.
     fn faces_above(&self, point: DVec3) -> Vec<u32> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [x, y, z] = self.faces.lattice().to_lattice(point).map(|c| c * unit);
@@ -125,7 +125,7 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
             continue;
         }
         let side = point.at(&Plane::upright(a, b, 2)).start();
-        // In front of an edge that rises is the side of larger x.
+        // The front of a rising edge's plane is the side of larger x.
         let is_right = if side.is_eq() || rises { side.is_ge() } else { side.is_lt() };
         if !is_right {
             winding += if rises { 1 } else { -1 };
@@ -151,7 +151,7 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
 /// An edge between lattice points: its start and end, and its face and number.
 type Edge = ([i64; 3], [i64; 3], [u32; 2]);
 
-/// The edges of faces, by face and number, that other edges do not run back along.
+/// The open edges of faces, by face and number: no other edges run back along them.
 fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
     let mut edges: Vec<Edge> = Vec::with_capacity(faces.corner_count());
     for face in 0..faces.len() as u32 {
@@ -194,7 +194,8 @@ fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     (way, cross([0.0; 3], a.map(|c| c as f64), way.map(|c| c as f64)))
 }
 
-/// Of collinear edges, the edges with a stretch that more edges traverse in their direction than backwards.
+/// The open edges among collinear edges: an edge is open if more edges traverse some stretch of it in its
+/// direction than backwards.
 fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
     // Points of a line have the same order as their coordinates, compared one after the other.
     let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());

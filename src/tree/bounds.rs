@@ -16,25 +16,25 @@ use crate::viewpoint::{Facing, Viewpoint};
 /// 90 bytes per fragment.
 ///
 /// Boxes are stored in `f32`, relative to the scene's middle, and rounded outwards: each contains the exact
-/// vertices of its fragments, and those returned by [`Fragment::vertices`].
+/// vertices of its fragments, and the rounded vertices that [`Fragment::vertices`] returns.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     fragments: u32,
     /// The box of each node's subtree.
     pub(crate) nodes: Vec<Flat>,
     normals: Vec<Normals>,
-    /// The box of each fragment; then of each [`BLOCK`] fragments with consecutive numbers, of each
-    /// [`BLOCK`] of these, and so on, up to a single block.
+    /// Level 0 has the box of each fragment, in blocks of consecutive numbers. Each further level has a box
+    /// around each block of the level before. The last level has a single block.
     pub(crate) levels: Vec<Vec<Block>>,
     /// The plane of each fragment.
     pub(super) planes: Planes,
 }
 
-/// A cut vertex is within three roundings of its exact position, each at most this share of a
-/// coordinate, and `STEP` lattice units, which is more than `POSITION_OFF`.
+/// The error of a cut vertex's rounded position is at most `SHARE` of the coordinate plus `STEP` lattice
+/// units. `SHARE` is more than three roundings, and `STEP` is more than `POSITION_OFF`.
 const SHARE: f64 = 2.0 * f64::EPSILON;
 const STEP: f64 = 1.0 / 64.0;
-/// The stored position is the lattice point nearest to a moved corner.
+/// The largest distance of a moved corner from its stored position, which is the nearest lattice point.
 const MOVED: f64 = 0.5;
 
 impl BspTree {
@@ -44,8 +44,8 @@ impl BspTree {
     /// tree: about 90 bytes per fragment. The same applies to the first call of [`Node::bounds`],
     /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
     /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
-    /// [culled](crate::Order::culled) order, also of an overlay. To compute the boxes in advance, call this
-    /// after building. Other threads that need the boxes at that time wait.
+    /// [culled](crate::Order::culled) order of the tree or of an overlay. To compute the boxes in advance,
+    /// call this method after building. Other threads that need the boxes at that time wait.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -67,8 +67,9 @@ impl Node<'_> {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
-    /// Returns the side that all fragments of the subtree show to a viewpoint, if their normals and their box
-    /// decide it. It is the exact [`Fragment::facing`] of each fragment. O(1), but see [`BspTree::bounds`].
+    /// Returns the side that all fragments of the subtree show to a viewpoint: the exact [`Fragment::facing`]
+    /// of each fragment. `None` if the box and the normals of the fragments do not decide it. O(1), but see
+    /// [`BspTree::bounds`].
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));
@@ -106,9 +107,9 @@ impl Fragment<'_> {
     }
 }
 
-/// The largest distance of a vertex's rounded position from the exact one along each axis, in lattice
-/// units. It depends on whether a cut made the vertex, and on the axis along which its face's corners were
-/// moved, if any.
+/// The largest distance of a vertex's rounded position from its exact position along each axis, in lattice
+/// units. The distance depends on whether a cut made the vertex, and on the axis along which corners of the
+/// vertex's face were moved, if any.
 pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let rounded = if is_cut { vertex[axis].abs() * SHARE + STEP } else { 0.0 };
@@ -118,7 +119,8 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
 
 impl Bounds {
     fn new(tree: &BspTree) -> Self {
-        // On this thread alone: another thread may wait for the boxes, and rayon's would wait for one another.
+        // Uses this thread alone: other threads may be waiting for the boxes, and rayon's threads would then
+        // wait for one another.
         let blocks = blocks(tree.len(), |i| tree.fragment(i as u32).flat_bounds());
         let mut nodes = vec![NOTHING; tree.nodes.len()];
         let mut normals = vec![Normals::NONE; tree.nodes.len()];
@@ -126,7 +128,8 @@ impl Bounds {
             .map(|face| rounded(&tree.faces, PlaneId::face(face)))
             .collect();
         let planes = Planes::of(tree.records.iter().map(|record| faces[record.face as usize]));
-        // Children are stored after their parents, so they are summed up first in reverse order.
+        // Children are stored after their parents, so in reverse order they are complete before their
+        // parents.
         for node in tree.nodes().rev() {
             let index = node.index();
             let parts = [node.front(), Child::Leaf(node.on()), node.back()];
@@ -179,8 +182,8 @@ impl Bounds {
         (self.fragments as usize).div_ceil(BLOCK.pow(level as u32))
     }
 
-    /// The largest aligned block that begins with a run of fragments and is within it: its level, and its
-    /// number of fragments.
+    /// The largest aligned block that begins at the start of a run of fragments and lies within the run: its
+    /// level, and its number of fragments.
     pub(crate) fn block(&self, run: &Range<u32>) -> (usize, u32) {
         let (mut level, mut len) = (0, 1_u32);
         while level + 1 < self.levels.len()
@@ -206,7 +209,7 @@ fn blocks(len: usize, flat: impl Fn(usize) -> Flat) -> Vec<Block> {
     (0..len).step_by(BLOCK).map(|first| Block::new((first..len).map(&flat))).collect()
 }
 
-/// The blocks of `len` boxes, the blocks of the boxes around these, and so on.
+/// The given blocks, which contain `len` boxes; then blocks of the boxes around these blocks, and so on.
 fn levels(mut len: usize, blocks: Vec<Block>) -> Vec<Vec<Block>> {
     let mut levels = vec![blocks];
     while let Some(last) = levels.last().filter(|last| last.len() > 1) {
@@ -234,11 +237,11 @@ const NOTHING: Flat = [
     f32::NEG_INFINITY,
 ];
 
-/// The number of boxes summed up in one larger box. Too small: more memory. Too large: more boxes are tested
-/// where few are met.
+/// The number of boxes in one larger box. Too small: larger boxes take more memory. Too large: more boxes are
+/// tested where few are met.
 pub(crate) const BLOCK: usize = 16;
 
-/// Boxes that are compared with a plane at once.
+/// The number of boxes that are compared with a plane at once.
 const GROUP: usize = 4;
 
 /// [`BLOCK`] boxes in groups of four: the least x of four of them, their least y, and so on. The last block
@@ -269,7 +272,7 @@ impl Block {
     }
 }
 
-/// A box that contains a box in lattice units.
+/// A box given in lattice units, rounded outwards to `f32`.
 fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     std::array::from_fn(|i| {
         let exact = if i < 3 { low[i] } else { high[i - 3] } / LATTICE_LIMIT;
@@ -282,7 +285,7 @@ fn outwards(low: [f64; 3], high: [f64; 3]) -> Flat {
     })
 }
 
-/// Its least and its largest coordinates in lattice units.
+/// The least and the largest coordinates of a box, in lattice units.
 fn in_lattice(bounds: &Flat) -> [[f64; 3]; 2] {
     let [a, b, c, d, e, f] = bounds.map(|side| f64::from(side) * LATTICE_LIMIT);
     [[a, b, c], [d, e, f]]
@@ -305,11 +308,11 @@ pub(crate) struct HalfSpace {
 
 /// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's magnitudes.
 /// Coordinates are at most 1.014, and the normal, products and sums are rounded, by 4 · 1.014 · 2⁻²⁴ in
-/// total. The difference is more than a step of the scene's grid, by which the eye may be off. Too small:
-/// boxes that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
+/// total. The rest of the bound is more than a step of the scene's grid, by which the eye may be off. Too
+/// small: boxes that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
 const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
-/// Roundings of the plane's position, in `f64`.
+/// Error bound of the plane's position in `f64`, as a share of the sum of its terms' magnitudes.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
@@ -317,9 +320,9 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 const OUTSIDE: f64 = 4.0;
 
 impl HalfSpace {
-    /// A plane with an infinite or NaN number has all boxes in front.
+    /// Prepares a plane. If a number of the plane is infinite or NaN, all boxes are in front.
     pub(crate) fn new((normal, offset): (DVec3, f64), lattice: &Lattice) -> Self {
-        // By a power of two first, which is exact, so that no digit is lost if numbers are subnormal.
+        // Scales by a power of two first, which is exact, so that subnormal numbers lose no digits.
         let largest = normal.abs().max_element();
         let up = if largest > 0.0 { -exponent_of(largest) } else { 0 };
         let normal = DVec3::from_array(normal.to_array().map(|c| scaled(c, up)));
@@ -334,8 +337,8 @@ impl HalfSpace {
         let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
         let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
         let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
-        // The same margin for all boxes: so if a box is behind a plane, no box inside it is in front of that
-        // plane.
+        // The margin is the same for all boxes. So if a box is behind a plane, no box inside it counts as in
+        // front of that plane.
         let offset = if least.is_nan() { f32::NEG_INFINITY } else { (least as f32).next_down() };
         let normal = if least.is_nan() { [0.0; 3] } else { normal.as_vec3().to_array() };
         let sides = |is_far| [0, 1, 2].map(|i| if (normal[i] > 0.0) == is_far { i + 3 } else { i });
@@ -392,7 +395,7 @@ const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 impl Normals {
     const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// The bounds of one unit normal, given rounded.
+    /// The bounds of one unit normal, which is given rounded to `f32`.
     fn of(normal: Vec3) -> Self {
         let normal = normal.to_array();
         Self { low: normal.map(|c| c - NORMAL_ERROR), high: normal.map(|c| c + NORMAL_ERROR) }
@@ -411,8 +414,8 @@ impl Normals {
     /// The side that all polygons with such normals and with vertices in a box show to an eye; `None` if the
     /// normals and the box do not decide it.
     ///
-    /// A polygon's plane is at n·(e − p) from the eye e, with n its normal and p any point of it. The
-    /// bounds of n and p bound each product, and so the sum.
+    /// The distance of the eye e from a polygon's plane is n·(e − p), where n is the plane's normal and p is
+    /// any point of the plane. The bounds of n and p bound each product, and so the sum.
     fn facing(&self, arms: &Arms, bounds: &Flat) -> Option<Ordering> {
         let [least, most] = arms.to(bounds);
         let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
@@ -459,9 +462,9 @@ impl Arms {
         let bound = |corner: [f64; 3], sign: f64| {
             std::array::from_fn(|axis| {
                 let (eye, corner) = (self.eye[axis], self.w * corner[axis]);
-                // The eye and the difference are rounded, by ε / 2 of the eye, and of the eye and the
-                // corner; the sum below is rounded by as much again. (A direction and corners of boxes are
-                // exact.)
+                // The eye is rounded by ε / 2 of its coordinate, and the difference by ε / 2 of the eye and
+                // the corner. The sum below is rounded by as much again. (A direction and corners of boxes
+                // are exact.)
                 let rounded = 2.0 * f64::EPSILON * (eye.abs() + corner.abs() + 1.0);
                 eye - corner + sign * rounded
             })

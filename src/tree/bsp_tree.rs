@@ -49,10 +49,10 @@ use crate::faces::Preparation;
 ///
 /// # Order
 ///
-/// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. Back
-/// to front, coplanar polygons follow each other in input order, seen from either side, so the later of two
-/// decals is painted over the earlier. A third polygon that lies almost in their plane can cause an
-/// [exception](#exactness). An eye on a plane may count as on either side of it.
+/// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. In
+/// back-to-front order, coplanar polygons follow each other in input order, from whichever side they are
+/// seen. So the later of two decals is painted over the earlier. A third polygon that lies almost in their
+/// plane can cause an [exception](#exactness). An eye on a plane may count as on either side of it.
 /// [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or a zero direction.
 ///
 /// | order of n fragments | time | memory |
@@ -92,8 +92,8 @@ use crate::faces::Preparation;
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// The indices of an earlier frame are still right if [`same_order`](Self::same_order) is true of the old and
-/// the new eye: then no partition plane lies between them.
+/// The indices of an earlier frame are still right if [`same_order`](Self::same_order) returns true for the
+/// old and the new eye: then no partition plane lies between the two eyes.
 ///
 /// If most polygons are opaque, draw the opaque polygons first, in any order, with a depth buffer. Then draw
 /// the translucent polygons back to front, with the depth test on and depth writes off.
@@ -104,10 +104,10 @@ use crate::faces::Preparation;
 /// # Culling
 ///
 /// A [culled](crate::Order::culled) order leaves out fragments that are outside a camera's
-/// [`Frustum`](crate::Frustum) or seen from the wrong side. Its time is proportional to the remaining
-/// fragments. A [walk](crate::Order::walk) skips the subtrees that you choose, for instance by their
-/// [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for occlusion. The
-/// first use of boxes computes the boxes of the whole tree, once.
+/// [`Frustum`](crate::Frustum) or seen from the wrong side. It takes time proportional to the number of
+/// remaining fragments. A [walk](crate::Order::walk) skips the subtrees that you choose, for instance by
+/// their [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for occlusion.
+/// The first call that needs boxes computes them for the whole tree.
 ///
 /// # Rays, lines of sight and points
 ///
@@ -116,7 +116,7 @@ use crate::faces::Preparation;
 /// [`winding_number`](Self::winding_number) returns whether a point is inside a closed body, and
 /// [`locate`](Self::locate) returns the leaf of a point. [`fragments_in`](Self::fragments_in) finds the
 /// fragments in a box or in front of planes. All these queries decide exactly for the given numbers: a ray
-/// through an edge or a corner never slips between two polygons that share it (unless one was
+/// through an edge or a corner never slips between two polygons that share it (unless one of the two was
 /// [flattened](crate::Preparation::flattened)).
 ///
 /// ```
@@ -164,8 +164,9 @@ use crate::faces::Preparation;
 ///
 /// The order is right up to the coplanar tolerance τ, a length
 /// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). The parts of polygons that reach across a
-/// partition plane by less than τ may be painted in either order. This is visible along lines of sight that
-/// stay within τ of such a plane from one polygon to the other, or from the eye to the nearer polygon:
+/// partition plane by less than τ may be painted in either order. The difference is visible along lines of
+/// sight that stay within τ of such a plane, from one polygon to the other or from the eye to the nearer
+/// polygon:
 ///
 /// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
 /// - polygons seen along a plane can be exchanged at any distance from each other;
@@ -177,44 +178,45 @@ use crate::faces::Preparation;
 ///
 /// # Which tolerance
 ///
-/// The [default](crate::Tolerance::Default) depends on the input, so you rarely need to change it:
+/// The [default](crate::Tolerance::Default) depends on the input, so you rarely need to change it. (A *step*
+/// of a coordinate is the distance to the next larger number of its type.)
 ///
 /// | input | default | when to change it |
 /// |---|---|---|
-/// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin, four steps of the largest coordinate | use 0 if layers, however thin, must never be exchanged |
+/// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin, four steps of the largest coordinate | use 0 if even very thin layers must never be exchanged |
 /// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | use 0 for coordinates that were not computed, such as integers |
-/// | an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, however far it lies from the origin | use a larger length if most quads are [`bent`](crate::Preparation::bent) by a coarse rounding |
+/// | an OBJ file | four units of the last decimal place that its coordinates use (trailing zeros do not count), at most 10⁻⁵ of the extent; the distance from the origin does not matter | use a larger length if coarse rounding has [`bent`](crate::Preparation::bent) most quads |
 /// | your own [`Polygon`](crate::Polygon) type | the default of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
-/// | thin layers in a scene of large extent | | use a length below half the distance of the layers |
+/// | thin layers in a scene of large extent | | use a length of less than half the distance between the layers |
 ///
 /// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by rounding
 /// are triangulated. Too large: layers that were meant to be apart are painted in input order.
 /// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more than
-/// the tolerance and polygons [`flattened`](crate::Preparation::flattened) by it. [`Stats`](crate::Stats)
-/// counts faces made [coplanar](crate::Stats::nearly_coplanar). Both types report the largest distance. The
-/// extent includes *all* corners, so a stray vertex far away makes a relative tolerance larger: remove the
-/// vertex, or set a length.
+/// the tolerance and polygons [`flattened`](crate::Preparation::flattened) within the tolerance.
+/// [`Stats`](crate::Stats) counts faces made [coplanar](crate::Stats::nearly_coplanar). Both types report the
+/// largest distance. The extent includes *all* corners, so a stray vertex far away makes a relative tolerance
+/// larger: remove the vertex, or set a length.
 ///
 /// # T-junctions
 ///
 /// A plane cuts only the polygons that span it. If the cut ends on an edge that a *neighbouring* polygon
 /// shares, the neighbour may not be cut, and then it has no vertex there. Two fragments of one polygon can
 /// differ in this way if only one is cut further. A rasteriser can miss pixels at such a T-junction, because
-/// the rounded vertex is not exactly on the neighbour's edge. If both sides have a vertex, its coordinates
-/// are bit for bit equal, unless the tolerance moved a corner of one side.
+/// the rounded vertex is not exactly on the neighbour's edge. If both polygons have the vertex, their
+/// coordinates for it are bit for bit equal, unless the tolerance moved a corner of one polygon.
 ///
-/// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: it inserts the vertex on the other
-/// side, so a closed body stays closed. Fragments themselves are never changed.
+/// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: it inserts the missing vertex into
+/// the neighbour, so a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///
-/// Time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8 µs per
-/// face with few cuts, and up to 12 µs with many cuts. Without cuts the worst case is n²: each plane
-/// separates only a few polygons from the others, as in nested shells or the sides of a cone. Polygons that
-/// all cross one another can have n³ / 6 fragments.
+/// The build time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8
+/// µs per face with few cuts, and up to 12 µs with many cuts. If nothing is cut, the worst case is O(n²):
+/// each plane separates only a few polygons from the others, as in nested shells or the sides of a cone. If n
+/// polygons all cross one another, there can be n³ / 6 fragments.
 ///
 /// Modelled scenes and scans have 1.0 to 2.3 fragments per face. Random triangles that cross each other have
-/// many more: about 12 each for 1000 triangles, and the ratio grows with n.
+/// many more fragments: about 12 per triangle for 1000 triangles, and the ratio grows with n.
 /// [`max_fragments`](crate::BuildOptions::max_fragments) sets a limit. The finished tree takes 100 to 160
 /// bytes per fragment ([`memory_usage`](Self::memory_usage)); the build takes up to 2.7 times as much memory.
 ///
@@ -243,7 +245,7 @@ pub struct BspTree {
     pub(crate) preparation: Preparation,
     pub(crate) nodes: Vec<NodeRecord>,
     pub(crate) planes: Planes,
-    /// `None` in a tree for one view.
+    /// `None` in a tree for one view, which is the tree of a [`FrameBuilder`](crate::FrameBuilder).
     pub(super) layout: Option<OrderLayout>,
     pub(crate) records: Vec<Record>,
     pub(super) vertices: Vec<StoredVertex>,
@@ -253,10 +255,10 @@ pub struct BspTree {
     pub(super) cuts: usize,
     /// Identifies the tree, so that overlays and meshes of other trees are rejected. Clones share it.
     pub(crate) generation: u64,
-    /// Computed by the first query that needs them.
+    /// The boxes; computed by the first query that needs them.
     pub(super) bounds: OnceLock<Bounds>,
-    /// Edges that keep bodies from being closed, by face and number. Computed by the first query that needs
-    /// them.
+    /// The open edges of bodies: for each, its face and its number in the face. Computed by the first query
+    /// that needs them.
     pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
@@ -380,8 +382,8 @@ impl BspTree {
         self.faces.duplicates()
     }
 
-    /// Returns the indices of the polygons that have no fragments: polygons without area, and in the tree of
-    /// a cell polygons outside the cell.
+    /// Returns the indices of the polygons that have no fragments: polygons without area, and, in the tree of
+    /// a cell, polygons outside the cell.
     pub fn dropped(&self) -> impl Iterator<Item = usize> + Clone {
         self.faces.dropped(self.preparation.polygons)
     }
@@ -420,10 +422,11 @@ pub struct Stats {
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Faces that lie on a partition plane only within the tolerance, not exactly. Faces on one plane are
-    /// painted in input order.
+    /// Faces that count as on a partition plane only because of the tolerance. Faces on one plane are painted
+    /// in input order.
     pub nearly_coplanar: usize,
-    /// The largest distance of these faces' corners from their partition plane, a length.
+    /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from its
+    /// partition plane, a length.
     pub nearly_coplanar_by: f64,
 }
 
@@ -468,7 +471,8 @@ impl BspTree {
         values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
-    /// Returns the size in bytes, heap included. It grows by the boxes when the first query computes them.
+    /// Returns the size of the tree in bytes, including the heap. The size includes the boxes as soon as a
+    /// query has computed them.
     pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
             + self.faces.memory_usage()

@@ -25,7 +25,7 @@ use crate::viewpoint::{Facing, Frustum, Viewpoint};
 /// let below_ten = Frustum::new([(DVec3::NEG_Z, -10.0)]);
 /// let culling = Culling::NONE.with_frustum(below_ten).with_facing(Facing::Front);
 /// let order = tree.order(Viewpoint::eye([0.5, 0.5, 5.5])).culled(&culling);
-/// // The eye sees the fronts of those below it.
+/// // The eye sees the fronts of the squares below it.
 /// assert!(order.into_iter().map(|fragment| fragment.polygon()).eq([0, 1, 2, 3, 4, 5]));
 /// # Ok::<(), binspace::Error>(())
 /// ```
@@ -41,8 +41,8 @@ impl Culling {
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
     /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
-    /// plane of a frustum. At most 32 planes are used. Testing only boxes is fast; [`BspTree::fragments_in`]
-    /// is exact.
+    /// plane of a frustum. Only the first 32 planes are used. Testing only boxes is fast;
+    /// [`BspTree::fragments_in`] is exact.
     ///
     /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
     /// than the rounding errors of the test and of an eye in the apex of the frustum.
@@ -59,9 +59,9 @@ impl Culling {
     }
 }
 
-/// Subtrees of at most this many fragments, at most a block, are ordered as a whole before fragments are left
-/// out. Too small: the walk visits more nodes, each with branches that no processor can predict. Too large:
-/// more fragments are ordered and then discarded.
+/// Subtrees of at most this many fragments are ordered as a whole before fragments are left out. The number
+/// must not be larger than a block. Too small: the walk visits more nodes, each with branches that no
+/// processor can predict. Too large: more fragments are ordered and then discarded.
 const FEW: usize = BLOCK;
 
 /// Fully marked subtrees of at most this many fragments are ordered at once. Too small: the walk visits
@@ -80,7 +80,7 @@ pub(crate) struct Subtree {
 #[derive(Clone, Debug)]
 pub(crate) struct Listed {
     subtree: Subtree,
-    /// Whether its fragments may show either side.
+    /// Whether the fragments of the subtree may show different sides.
     is_mixed: bool,
 }
 
@@ -253,7 +253,8 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// Keeps the bits of fragments that show the drawn side, of up to 16 fragments from a given number on.
+    /// Clears the bits of fragments that do not show the drawn side. Bit 0 stands for the first fragment of
+    /// `run`, which has at most 16.
     fn show_side(&self, run: Range<u32>, fragments: u32) -> u32 {
         let [fronts, backs] = self.view.sure_sides(&self.bounds.planes, run.clone());
         let Some(side) = self.side else { return fragments };
@@ -281,8 +282,8 @@ const LEVELS: usize = 8;
 /// The bits of a fully marked block.
 const ALL: u32 = (1 << BLOCK) - 1;
 
-/// A bit for each fragment whose box reaches into a region, for each block with a marked fragment, and for
-/// each block with a marked block, in the layout of [`Bounds`].
+/// A bit for each fragment and each block in [`Bounds`], in the same layout. A fragment or block is *marked*,
+/// its bit set, if its box reaches into a region.
 struct Marks {
     /// For each level, a word for each block, and one more word to read past the end.
     words: Vec<u16>,
@@ -358,8 +359,8 @@ impl Marks {
         }
     }
 
-    /// Whether some of these fragments are marked. For 256 fragments and more it tests blocks, so it may
-    /// return true although no fragment is marked.
+    /// Whether a fragment of a range may be marked. The result is exact for up to 16 fragments; for more,
+    /// whole blocks are tested.
     #[inline]
     fn any(&self, fragments: &Range<u32>) -> bool {
         if fragments.is_empty() {
@@ -373,7 +374,7 @@ impl Marks {
         self.window(level as usize, first) & ((1 << len) - 1) != 0
     }
 
-    /// Whether all these fragments are marked.
+    /// Whether all fragments of a range are marked.
     fn all(&self, fragments: &Range<u32>) -> bool {
         fragments.clone().step_by(BLOCK).all(|first| {
             let len = (fragments.end - first).min(BLOCK as u32);
@@ -382,13 +383,14 @@ impl Marks {
         })
     }
 
-    /// A bit for each marked fragment of at most 16.
+    /// A bit for each of at most 16 fragments, set if the fragment is marked.
     #[inline]
     fn of_few(&self, fragments: &Range<u32>) -> u32 {
         self.window(0, fragments.start) & ((1 << fragments.len()) - 1)
     }
 
-    /// The marked fragments by blocks: the number of the first fragment, and a bit for each.
+    /// The marked fragments, block by block: the number of the block's first fragment, and a bit for each
+    /// fragment.
     fn words(&self, fragments: &Range<u32>) -> impl Iterator<Item = (u32, u32)> + use<'_> {
         let Range { start, end } = *fragments;
         let step = BLOCK as u32;
@@ -401,7 +403,7 @@ impl Marks {
         })
     }
 
-    /// At least 17 bits of a level, from a given number on.
+    /// At least 17 bits of a level; the first is the bit of box `first`.
     #[inline]
     fn window(&self, level: usize, first: u32) -> u32 {
         let word = self.levels[level % LEVELS] + first as usize / BLOCK;

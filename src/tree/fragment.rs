@@ -37,7 +37,7 @@ impl BspTree {
 }
 
 impl<'t> Fragment<'t> {
-    /// The fragment of a record, given its number in orders.
+    /// The fragment stored at `record`; `index` is its number in orders.
     pub(crate) fn new(faces: &'t Faces, stored: Stored<'t>, record: usize, index: u32) -> Self {
         let Stored { records, vertices, positions } = stored;
         let next = records.get(record + 1);
@@ -142,9 +142,9 @@ impl<'t> Fragment<'t> {
     /// Returns, for each edge from a vertex to the next, the polygon's edge that it lies on; `None` if a cut
     /// or triangulation made it.
     ///
-    /// An edge of the polygon has the number of the corner at which it begins. If that corner is repeated, it
-    /// is the last of the equal corners. If triangulation joined collinear edges, it is the number of the
-    /// first edge.
+    /// An edge of the polygon has the number of the corner at which it begins. If the polygon repeats that
+    /// corner, the edge has the number of the last of the equal corners. If triangulation joined collinear
+    /// edges, the joined edge has the number of the first of them.
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
@@ -272,8 +272,8 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
 /// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This is exact,
-/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: there
-/// `base` cannot store all digits.
+/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: in such
+/// scenes, `base` cannot store all digits.
 ///
 /// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions. The
 /// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
@@ -354,7 +354,7 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 ///
 /// let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
 /// let upright = [[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 1.0]];
-/// let heat = [0.0, 1.0, 1.0, 0.0, /* of the second */ 5.0, 5.0, 9.0, 9.0];
+/// let heat = [0.0, 1.0, 1.0, 0.0, /* the second square */ 5.0, 5.0, 9.0, 9.0];
 /// let first = [0, 4]; // of the corners of each polygon, in `heat`
 /// let arrays = BspTree::build([flat, upright])?.arrays()?;
 ///
@@ -376,15 +376,15 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FragmentArrays<T> {
-    /// The vertices of all fragments, in the polygons' orientation, in their unit.
+    /// The vertices of all fragments, in the orientation and the unit of the polygons.
     pub vertices: Vec<[T; 3]>,
     /// For each fragment, the number of its first vertex; at the end, the number of all vertices. (n + 1
     /// numbers for n fragments.)
     pub offsets: Vec<u32>,
     /// For each fragment, the index of its polygon in input order.
     pub polygons: Vec<u32>,
-    /// For each vertex, the edge of the polygon that contains the edge from this vertex to the next, by the
-    /// number of the corner where it begins; −1 if a cut or triangulation made it.
+    /// For each vertex, the polygon's edge that contains the edge from this vertex to the next. The polygon's
+    /// edge has the number of the corner where it begins; −1 if a cut or triangulation made the edge.
     pub edges: Vec<i32>,
     /// For each vertex, the number of its first weight; at the end, the number of all weights.
     pub weight_offsets: Vec<u32>,

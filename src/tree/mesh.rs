@@ -52,13 +52,14 @@ pub use triangles::Triangles;
 ///
 /// # Points and vertices
 ///
-/// A *point* is a place where fragments meet. Two fragments share a point because its definition is the same,
-/// not because rounded coordinates are equal. The definition is a given corner, an edge and a plane that cuts
-/// it, or a polygon and planes that cut it. Whether several planes cut an edge in one point is decided
-/// exactly.
+/// A *point* is a place where fragments meet. Two fragments share a point if both define it in the same way,
+/// whatever the rounded coordinates are. The definition is one of these: a given corner; an edge and a plane
+/// that cuts it; a polygon and two planes that cut it. Whether several planes cut an edge in one point is
+/// decided exactly.
 ///
-/// A *vertex* is a point as a corner of one polygon's fragments. Its weights over the polygon's corners
-/// interpolate attributes. So polygons share points, and fragments of one polygon share vertices.
+/// A *vertex* is a point that is a corner of fragments of one polygon. The vertex has weights over the
+/// polygon's corners, which interpolate attributes. So polygons share points, and fragments of one polygon
+/// share vertices.
 ///
 /// # Welded
 ///
@@ -67,7 +68,7 @@ pub use triangles::Triangles;
 /// likewise between the fragments of one polygon. Then a closed body stays closed: if its polygons traverse
 /// every edge once in each direction, so do its triangles, from point to point.
 ///
-/// Edges that are collinear as given are welded, also where a corner of one edge is inside the other edge.
+/// Edges whose given corners are collinear are welded, even if a corner of one edge is inside the other edge.
 /// Two cases are not welded, because there is no common edge: a corner inside a polygon, and polygons that
 /// cross each other.
 #[derive(Clone, Debug)]
@@ -80,7 +81,7 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeshVertex<'m> {
-    /// The number of the vertex's point, which all polygons that meet there share.
+    /// The number of the vertex's point. All polygons that meet at the point share it.
     pub point: u32,
     /// The position of that point.
     pub position: DVec3,
@@ -197,7 +198,7 @@ impl Mesh {
             .of_fragments(|indices| indices.first().is_some_and(|&first| keep(polygon(first))))
     }
 
-    /// Returns the resident size in bytes.
+    /// Returns the size of the heap memory in bytes.
     pub fn memory_usage(&self) -> usize {
         size_of_val(&*self.parts.positions)
             + size_of_val(&*self.parts.vertices)
@@ -258,15 +259,15 @@ fn assemble(source: Source<'_>, weld: bool) -> Result<(Assembled, Triangles), Er
 /// Stands for no point and for no corner.
 const NONE: u32 = u32::MAX;
 
-/// Distinguishes two vertices of a polygon: the point, and the corners that have weights there. (A polygon
-/// that touches itself has several corners at one point.)
+/// Identifies a vertex of a polygon: the point, and the corners that have weights there. (A polygon that
+/// touches itself has several corners at one point.)
 type Key = (u32, [u32; 3]);
 
 struct Assembler<'s, 't> {
     survey: &'s Survey<'t>,
     points: &'s Points,
     made: Assembled,
-    /// The number of each node's point, if the node names the point and the point has a number.
+    /// For each node that represents a point ([`Points::root`]), the number of the point, or [`NONE`].
     numbers: Vec<u32>,
     /// The vertices of the current polygon.
     known: HashMap<Key, u32>,
@@ -285,7 +286,7 @@ impl<'s, 't> Assembler<'s, 't> {
         Ok(Self { survey, points, made, numbers, known, polygon, outline })
     }
 
-    /// Makes the outline of a fragment, given its place among the fragments face by face.
+    /// Makes the outline of a fragment, given its place in [`Survey::fragments`].
     fn outline(&mut self, at: usize, weld: bool) -> Result<(), Error> {
         let (survey, points) = (self.survey, self.points);
         let face = survey.source.stored.records[survey.fragments[at] as usize].face;
@@ -359,7 +360,7 @@ impl<'s, 't> Assembler<'s, 't> {
         })
     }
 
-    /// The number of a vertex, which is added if the polygon has no equal vertex.
+    /// The number of a vertex. Adds the vertex if the polygon has no equal vertex yet.
     fn vertex(
         &mut self,
         node: Node,
@@ -438,7 +439,7 @@ mod assemble_tests {
     use crate::{BuildOptions, Heuristic};
 
     #[test]
-    fn an_edge_without_length_is_not_the_one_before_the_first() {
+    fn an_edge_without_length_is_not_the_last_edge() {
         let edges = [7, 8, 9].map(|carrier| FragmentEdge { carrier, from: 0 });
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 3]]), Some(9));
         assert_eq!(last_carrier(&edges, &[[0, 1], [5, 4], [2, 2]]), Some(8));
@@ -447,7 +448,7 @@ mod assemble_tests {
 
     /// A square under walls whose planes cut it into strips.
     #[test]
-    fn a_polygon_cut_very_often_costs_the_polygons_after_it_nothing() {
+    fn a_polygon_with_many_cuts_does_not_slow_later_polygons() {
         const WALLS: u32 = 500;
         let (side, wide) = (f64::from(WALLS), [-0.5, 1.5]);
         let square = [(0, 0), (1, 0), (1, 1), (0, 1)];

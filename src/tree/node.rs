@@ -42,12 +42,13 @@ pub struct Node<'t> {
 pub enum Child<'t> {
     /// Another node.
     Node(Node<'t>),
-    /// The number of the leaf's fragment; an empty range for a leaf without a fragment.
+    /// A leaf: the number of its fragment as a range, or an empty range if the leaf has no fragment.
     Leaf(Range<u32>),
 }
 
 impl<'t> Node<'t> {
-    /// Returns the node's number, depth first: a node, its front subtree, its back subtree. The root is 0.
+    /// Returns the node's number. Nodes are numbered depth first, from the root, which is 0: a node, its
+    /// front subtree, its back subtree.
     pub fn index(&self) -> usize {
         self.index as usize
     }
@@ -77,8 +78,8 @@ impl<'t> Node<'t> {
     /// Returns the index, in input order, of the polygon whose plane this is. If that polygon was
     /// triangulated, this is the plane of one of its triangles.
     ///
-    /// `None` for a free plane, which is perpendicular to an axis. Its `normal` and `offset` are exact,
-    /// except that corners are rounded once to the grid.
+    /// `None` for a plane perpendicular to an axis. Then `normal` and `offset` are exact, except that corners
+    /// are rounded once to the grid.
     pub fn polygon(&self) -> Option<usize> {
         match self.plane().kind() {
             PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
@@ -86,14 +87,14 @@ impl<'t> Node<'t> {
         }
     }
 
-    /// Returns the plane's exact name, by a face or corner of [`BspTree::faces`].
+    /// Returns the exact plane, named by a face or a corner of [`BspTree::faces`].
     #[doc(hidden)]
     pub fn plane(&self) -> PlaneId {
         self.tree.nodes[self.index()].plane
     }
 
-    /// Returns the side of the plane that a viewpoint sees, exactly. Orders begin with the other side, or
-    /// with either side of a plane seen edge-on.
+    /// Returns the side of the plane that a viewpoint sees, exactly. Back-to-front orders begin with the
+    /// other side. If the plane is seen edge-on, they begin with either side.
     pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
         self.tree.faces.plane(self.plane()).facing(&eye).into()
@@ -119,13 +120,13 @@ impl<'t> Node<'t> {
         self.ranges().back
     }
 
-    /// Returns the front side.
+    /// Returns the front side: a node or a leaf.
     pub fn front(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.front_node(self.index()), self.in_front())
     }
 
-    /// Returns the back side.
+    /// Returns the back side: a node or a leaf.
     pub fn back(&self) -> Child<'t> {
         let record = &self.tree.nodes[self.index()];
         self.child(record.back_node(self.index()), self.behind())
@@ -301,7 +302,8 @@ impl NodeRecord {
     #[inline]
     pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
         let own = all.start..all.start + self.own();
-        // A leaf is numbered before a subtree, so only in this case the back is first.
+        // Leaves are numbered before subtrees. So the back precedes the front only if it is a leaf and the
+        // front is not.
         if self.front_nodes > 0 && !self.back_is_node() {
             let middle = all.end - self.front_len;
             return Ranges { front: middle..all.end, back: own.end..middle, own };
@@ -339,14 +341,14 @@ pub(crate) fn make_room(
     nodes.try_reserve_exact(raw).map_err(|_| Error::out_of_memory())
 }
 
-/// Computes the sizes of all subtrees, and replaces a list of nodes.
+/// Computes the sizes of all subtrees, and replaces the contents of `nodes` by the stored nodes.
 pub(crate) fn finish(
     raw: impl DoubleEndedIterator<Item = RawNode> + ExactSizeIterator,
     sizes: &mut Vec<Sizes>,
     nodes: &mut Vec<NodeRecord>,
 ) {
-    // Nodes are read from last to first, so children are read before their parents. Subtrees without a parent
-    // yet are on a stack, the front above the back.
+    // Nodes are read from last to first, so children are read before their parents. Subtrees whose parents
+    // have not been read yet are on a stack, front subtrees above back subtrees.
     sizes.clear();
     nodes.clear();
     nodes.reserve_exact(raw.len());
@@ -405,7 +407,7 @@ struct Subtree {
     depth: usize,
     /// The fragments of the whole subtree.
     fragments: Range<u32>,
-    /// Whether the nodes below are on the walk as separate subtrees.
+    /// Whether the subtrees below have their own entries in the walk, so that only the root is left here.
     is_root_alone: bool,
 }
 
@@ -426,7 +428,7 @@ impl Walk {
         Self { subtrees: if tree.nodes.is_empty() { [].into() } else { [all].into() } }
     }
 
-    /// The next node. `None` at the end, and where stored sizes contradict each other.
+    /// The next node. `None` at the end, or if stored sizes contradict each other.
     pub(super) fn next(&mut self, tree: &BspTree) -> Option<Visit> {
         let subtree = self.subtrees.pop_front()?;
         let visit = visit(tree, &subtree)?;
@@ -456,7 +458,7 @@ impl Walk {
     }
 }
 
-/// The root of a subtree; `None` if there is no such node, or it has more fragments than the
+/// The root of a subtree; `None` if there is no such node, or if the node has more fragments than the
 /// subtree.
 fn visit(tree: &BspTree, subtree: &Subtree) -> Option<Visit> {
     let &Subtree { node: index, depth, ref fragments, .. } = subtree;
@@ -469,7 +471,7 @@ fn visit(tree: &BspTree, subtree: &Subtree) -> Option<Visit> {
     Some(Visit { node: index, depth, own, front, back, in_front, behind })
 }
 
-/// The subtrees in front of a root and behind it, where they are not leaves.
+/// The subtrees in front of a root and behind it; `None` for a leaf.
 fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2] {
     let node = &tree.nodes[root.node];
     let child = |node, fragments: &Range<u32>| {
@@ -484,7 +486,7 @@ fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2
 
 impl BspTree {
     /// Returns the partition plane that separates two fragments, or that both fragments lie on. `None` if
-    /// both are in one leaf, also if they are the same fragment. O(depth).
+    /// both are in one leaf. That includes the case that both are the same fragment of a leaf. O(depth).
     ///
     /// # Panics
     ///
@@ -515,7 +517,7 @@ impl BspTree {
                 };
                 return Some((node.plane, [a, b].map(side)));
             };
-            // Without a node both are in one leaf.
+            // If the side is not a node, both fragments are in one leaf.
             (index, fragments) = (child?, side);
         }
     }
@@ -530,8 +532,9 @@ mod between_tests {
     /// For a pair of fragments: the plane between them, and the side of each.
     type Entry = Option<(PlaneId, [Ordering; 2])>;
 
-    /// The plane between any two fragments by the ranges of all nodes, in a table. A pair that is not on one
-    /// side of a plane is separated by this plane, and by no other.
+    /// A table of the planes between any two fragments, from the ranges of all nodes. A node's plane is
+    /// between two fragments of its subtree unless both lie on the same side of it. No pair of fragments has
+    /// two such planes.
     fn table(tree: &BspTree) -> Vec<Vec<Entry>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {
@@ -556,7 +559,7 @@ mod between_tests {
         table
     }
 
-    /// Random triangles, some on planes of others, some repeated.
+    /// Random triangles. Some lie in the plane of another triangle, and some are repeated.
     fn soup(seed: u64) -> Vec<[glam::DVec3; 3]> {
         let mut random = SplitMix64::new(seed);
         let mut triangles: Vec<[glam::DVec3; 3]> = Vec::new();
@@ -574,7 +577,7 @@ mod between_tests {
     }
 
     #[test]
-    fn the_plane_between_two_fragments_is_the_one_that_parts_them() {
+    fn the_plane_between_two_fragments_separates_them() {
         let (mut pairs, mut in_one_leaf, mut on_one_plane, mut most) = (0, 0, 0, 0);
         let mut check = |tree: &BspTree, case: &str| {
             let table = table(tree);

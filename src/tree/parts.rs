@@ -18,7 +18,7 @@ pub(crate) struct RawNode {
 /// One side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RawChild {
-    /// A leaf of this many fragments, stored directly after the node's own.
+    /// A leaf with this number of fragments. [`Parts`] states where they are stored.
     Leaf(u32),
     /// Another node.
     Node,
@@ -53,7 +53,7 @@ pub(crate) struct Parts {
     pub(crate) records: Vec<Record>,
     /// The vertices of all fragments that are not whole faces.
     pub(crate) vertices: Vec<StoredVertex>,
-    /// Their rounded positions, in lattice units; empty if not stored.
+    /// The rounded positions of `vertices`, in lattice units; empty if not stored.
     pub(crate) positions: Vec<[f64; 3]>,
     /// The number of times that a piece was cut in two.
     pub(crate) cuts: usize,

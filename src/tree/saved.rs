@@ -49,26 +49,49 @@ impl BspTree {
     ///
     /// # Layout
     ///
-    /// Version 3. All numbers are little-endian; a list is its length as `u64` and then its items.
+    /// Version 3. Numbers are little-endian. A *list* is its length as `u64`, and then its items. The parts
+    /// of the file, in their order:
     ///
-    /// | part | content |
-    /// |---|---|
-    /// | head | the bytes `binspacetree`, the version as `u32`, flags as `u32`, added up: 1 for a tree of a `FrameBuilder`, 2 for a tree of a cell |
-    /// | grid | the exponent e of 2 as `i32`, the origin o and the far coordinates f as three `f64` each: a point x is the grid's point (x − f) · 2ᵉ − o |
-    /// | tolerance | `f64`, in steps of the grid |
-    /// | faces | a list: polygon, number of corners, frame, as `u32`. The frame is the numbers of the second (bits 15 to 29) and third corner (0 to 14) of the triangle that spans the plane, and the axis along which corners were moved (30 and 31; 3 for none) |
-    /// | corners | for the tree of a cell, the lower and the upper corner of the cell; then the corners of all faces: three `i64` each. Sides of a cell that have no plane are at 2⁵¹ + 2⁴⁴, lower sides at −(2⁵¹ + 2⁴⁴) |
-    /// | numbered faces | a list: the faces, as `u32`, whose corners are not the first corners of their polygon |
-    /// | corner numbers | the corners of these faces: `u32` each, bit 31 set if the edge to the next corner is not an edge of the polygon |
-    /// | moved corners | a list: the corner as `u32`, and its given position, three `i64` |
-    /// | preparation | a list of the dropped polygons as `u32`; the numbers of triangulated, crossing, flattened and bent polygons as `u64`; the largest distances of flattened and bent polygons as `f64` |
-    /// | nodes | a list, depth first: the plane, and 16 · the number of fragments on it + 4 · the front + the back, where 0 is empty, 1 a fragment and 2 a node; `u32` each |
-    /// | fragments | a list: the face of each, as `u32` |
-    /// | end | the CRC-32 of all bytes before, as of gzip and PNG, `u32` |
+    /// | part | type | content |
+    /// |---|---|---|
+    /// | kind | 12 bytes | `binspacetree` |
+    /// | version | `u32` | 3 |
+    /// | flags | `u32` | the sum of 1 for a tree of a `FrameBuilder` and 2 for a tree of a cell |
+    /// | grid | `i32` | the exponent e |
+    /// | | 3 `f64` | the origin o |
+    /// | | 3 `f64` | the far coordinates f; a point x of the scene has the grid coordinates (x − f) · 2ᵉ − o |
+    /// | tolerance | `f64` | in steps of the grid |
+    /// | faces | list of 3 `u32` | the polygon, the number of corners, the *frame* |
+    /// | corners | 6 `i64` | only for the tree of a cell: the lower and the upper corner of the cell |
+    /// | | 3 `i64` each | the corners of all faces, face by face |
+    /// | numbered faces | list of `u32` | the faces with stored corner numbers; the corner numbers of all other faces are 0, 1, 2, … |
+    /// | corner numbers | `u32` each | for each corner of these faces: the *corner number* |
+    /// | moved corners | list of `u32` and 3 `i64` | a corner that was moved onto the plane of its face, and its given position |
+    /// | dropped polygons | list of `u32` | their indices |
+    /// | counts | 4 `u64` | the numbers of triangulated, crossing, flattened and bent polygons |
+    /// | distances | 2 `f64` | the largest distances of flattened and of bent polygons |
+    /// | nodes | list of 2 `u32` | the *plane* and the *sides*; depth first, the front before the back |
+    /// | fragments | list of `u32` | the face of each fragment |
+    /// | checksum | `u32` | the CRC-32 of all bytes before, as of gzip and PNG |
     ///
-    /// Bits 28 to 30 of a plane are 1 for the plane of a face, or 2, 3, 4 for a plane perpendicular to x, y,
-    /// z through a corner. The lower bits are the number of the face or corner. Vertices are not stored:
-    /// reading splits the faces by the planes again.
+    /// Four kinds of numbers are packed:
+    ///
+    /// | number | bits | content |
+    /// |---|---|---|
+    /// | frame | 0–14 | the third corner of the triangle that spans the plane; corner 0 is its first |
+    /// | | 15–29 | its second corner |
+    /// | | 30–31 | the axis along which corners were moved; 3 if none was moved |
+    /// | corner number | 0–30 | the number of the corner in its polygon |
+    /// | | 31 | 1 if the edge to the next corner is not an edge of the polygon |
+    /// | plane | 0–27 | the number of a face or corner |
+    /// | | 28–30 | 1 for the plane of the face; 2, 3, 4 for the plane through the corner perpendicular to x, y, z |
+    /// | sides | 0–1 | the back: 0 if it is empty, 1 for a fragment, 2 for a node |
+    /// | | 2–3 | the front, likewise |
+    /// | | 4–31 | the number of fragments on the plane |
+    ///
+    /// A corner's number counts the corners of the cell first, and then the corners of all faces. If a side
+    /// of a cell has no plane, its coordinate is −(2⁵¹ + 2⁴⁴) for a lower side and 2⁵¹ + 2⁴⁴ for an upper
+    /// side. Vertices are not stored: reading splits the faces by the planes again.
     ///
     /// # Errors
     ///
@@ -95,23 +118,23 @@ impl BspTree {
     ///
     /// Reading splits the faces by the stored planes again. That takes O(n · mean depth) time, like building,
     /// but no plane has to be chosen. So reading takes a quarter to a half of the build time. It takes nine
-    /// tenths if choosing takes no time and most faces are split, as with
+    /// tenths of the build time if choosing takes no time and most faces are split, as with
     /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` makes it no faster.
     ///
     /// # Untrusted files
     ///
-    /// The file may contain anything. If `read` returns a tree, it has convex, planar faces within the grid:
-    /// each fragment lies on its side of every plane above it, and the fragments of a face cover it once. No
-    /// method panics or takes more time or memory than documented. The file may choose the faces and the
-    /// planes, so a forged tree may be deep and its polygons may be in many pieces, but never in more pieces
-    /// than the file lists. Memory grows with the bytes read, so a false length cannot reserve more than a
-    /// small multiple of the file's size. Corner numbers ([`weights`](crate::Fragment::weights),
+    /// The file may contain anything. If `read` returns a tree, its faces are convex, planar and within the
+    /// grid. Each fragment lies on its side of every plane above it, and the fragments of each face cover the
+    /// face once. No method panics or takes more time or memory than documented. A forged file can choose the
+    /// faces and the planes. So its tree may be deep, and its polygons may be in many pieces, but never in
+    /// more pieces than the file lists. Memory grows with the bytes read, so a false length cannot reserve
+    /// more than a small multiple of the file's size. Corner numbers ([`weights`](crate::Fragment::weights),
     /// [`edges`](crate::Fragment::edges)) may be larger than the numbers of your polygons' corners.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read; if they are not a tree, have another version, are truncated or damaged, or
-    /// contain a tree that the library could not have built; or if memory runs out. The message says which.
+    /// If the data cannot be read; if they are not a tree, have another version, or are truncated or damaged;
+    /// if the library could not have built such a tree; or if memory runs out. The message says which.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
@@ -120,12 +143,12 @@ impl BspTree {
         let nodes = file.list("nodes", MOST_FRAGMENTS, pair)?;
         let listed = file.list("fragments", MOST_FRAGMENTS, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
         file.finish()?;
-        // The checksum has shown that nothing is damaged: the writer is to blame for later faults.
+        // The checksum is right, so a fault found below was made by the writer of the file.
         if flags > FOR_ONE_VIEW + OF_CELL {
             return Err(damaged("flags", "are unknown"));
         }
-        // Faces and nodes are independent. Of two faults, the same fault is reported on any number of
-        // threads.
+        // Faces and nodes are checked independently. If both are invalid, the error of the faces is returned,
+        // with any number of threads.
         let for_one_view = flags & FOR_ONE_VIEW > 0;
         let mut laid_out = Ok(Default::default());
         let lay_out = || {
@@ -179,8 +202,8 @@ const EMPTY: u32 = 0;
 const FRAGMENT: u32 = 1;
 const NODE: u32 = 2;
 
-/// The contents of a node's plane and sides, packed. (A plane has at most as many fragments as there are
-/// faces, fewer than 2²⁷.)
+/// The packed number *sides* of a node. (A plane has at most as many fragments as there are faces, fewer than
+/// 2²⁷.)
 fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
     let side = |is_node, leaf: &Range<u32>| match is_node {
         true => NODE,
@@ -191,7 +214,7 @@ fn shape(node: &NodeRecord, visit: &Visit) -> u32 {
     node.own() << 4 | front << 2 | side(node.back_is_node(), &visit.back)
 }
 
-/// A node from the bits of a file; a side of an unknown kind counts as empty.
+/// A node from its two numbers in a file. A side of an unknown kind counts as empty.
 fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
     let side = |bits| match bits {
         FRAGMENT => RawChild::Leaf(1),
@@ -202,8 +225,8 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
     RawNode { plane, own: shape >> 4, front: side(shape >> 2 & 3), back: side(shape & 3) }
 }
 
-/// Reads the nodes of a tree; an error unless they form one tree of `fragments` fragments, in which each
-/// plane separates something.
+/// Reads the nodes of a tree; an error unless they form one tree of `fragments` fragments, and each plane has
+/// fragments on it or on both of its sides.
 fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,
@@ -239,7 +262,8 @@ fn read_nodes(
     Ok(nodes)
 }
 
-/// Reads the report on the polygons, without their number, and the dropped polygons.
+/// Reads the counts of polygons and the list of dropped polygons. A file does not contain the number of all
+/// polygons.
 fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u32>), Error> {
     const WHAT: &str = "counts of polygons";
     let dropped = file.list("dropped polygons", MAX_NAMES, |bytes: &[u8; 4]| u32_at(bytes, 0))?;
@@ -253,7 +277,8 @@ fn read_preparation(file: &mut Reader<impl Read>) -> Result<(Preparation, Vec<u3
     Ok((found, dropped))
 }
 
-/// Counts the polygons: each has faces, or was dropped.
+/// Counts all polygons. Returns an error if a polygon neither has faces nor is listed as dropped, or if the
+/// counts are impossible.
 fn check_preparation(found: &mut Preparation, dropped: &[u32], faces: &Faces) -> Result<(), Error> {
     let mut dropped = dropped.iter().copied().peekable();
     let (mut polygons, mut face) = (0, 0);

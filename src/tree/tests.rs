@@ -6,7 +6,7 @@ use crate::exact::PlaneId;
 use crate::{Facing, Frustum, Viewpoint, scene};
 use glam::DVec3;
 
-/// Squares one behind the other, each plane with all others behind it.
+/// Squares one behind the other; each plane has all later squares behind it.
 fn list(count: u32) -> BspTree {
     let chain = BspTree::build(scene::chain(count).polygons()).unwrap();
     let node = |face| RawNode {

@@ -49,8 +49,8 @@ impl BspTree {
         self.check_layout()
     }
 
-    /// Returns the nodes in memory order; an error unless every node and every fragment is visited exactly
-    /// once and every node separates something.
+    /// Returns the nodes in memory order. Returns an error unless each node and each fragment is visited
+    /// exactly once, and each node separates fragments.
     ///
     /// The other checks rely on this: they use every number of a visit as an index.
     fn check_sizes(&self) -> Result<Vec<Visit>, String> {
@@ -80,7 +80,8 @@ impl BspTree {
     /// Checks the number of nodes of each subtree, from the last to the first. If all agree, the walk has
     /// visited the nodes in memory order.
     fn check_node_counts(&self, visits: &[Visit]) -> Result<(), String> {
-        // The subtrees whose parents have not been visited yet, the front's above the back's.
+        // A stack of the subtrees whose parents have not been visited yet, front subtrees above back
+        // subtrees.
         let mut sizes: Vec<u32> = Vec::new();
         for visit in visits.iter().rev() {
             let node = &self.nodes[visit.node];
@@ -168,7 +169,8 @@ impl BspTree {
             }
             in_front.push(&visit.in_front);
             let prepared = PreparedPlane::new(&self.faces, plane);
-            // Otherwise the classification below, which uses the builder's code, proves nothing.
+            // Without this check, the classification below would prove nothing, because it uses the builder's
+            // code.
             if !prepared.has_length_of(&self.faces) {
                 let what = "the tolerance at its plane has the wrong length";
                 return Err(fault(what.to_owned()));

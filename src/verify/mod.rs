@@ -1,5 +1,5 @@
-//! Compares a tree's picture with a depth buffer's picture, and the forms of an order with each other. This
-//! is the only module that uses both the tree and the judge.
+//! Compares a tree's picture with a depth buffer's picture, and the forms of an order with each other. No
+//! other module uses both the tree and its independent check.
 
 use crate::Error;
 
@@ -12,8 +12,8 @@ use crate::tree::{BspTree, Fragment};
 use crate::view::Camera;
 use crate::viewpoint::Viewpoint;
 
-/// The result of verifying a tree from one camera: the picture painted in its order, the true picture, and
-/// their differences.
+/// The result of verifying a tree from one camera: the picture painted in the tree's order, the true picture,
+/// and their differences.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
@@ -28,8 +28,8 @@ pub struct Verification {
     /// The differences between `truth` and the picture painted front to back, in which each fragment is
     /// painted only on empty pixels.
     pub front_to_back: Comparison,
-    /// The number of pixels in which a face that covers them, visible or hidden, is not painted exactly once.
-    /// Such faults would be visible in transparent faces.
+    /// The number of pixels in which at least one of the covering faces, visible or hidden, is not painted
+    /// exactly once. Such faults would be visible in transparent faces.
     pub miscounted: usize,
     /// An error if an order does not list every fragment once, or is not the same in all forms.
     pub orders: Result<(), String>,
@@ -49,9 +49,9 @@ impl Verification {
 ///
 /// The result [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
 /// as the tolerance allows count as contested. In such a pixel, one of the two fragments reaches across the
-/// tree's plane between them, and the ray meets both fragments within the tolerance of that plane, or meets
-/// the nearer fragment there and begins there. With a tolerance of 0 only ties are contested: fragments at
-/// exactly the same distance.
+/// tree's plane between them. The ray meets the nearer fragment within the tolerance of that plane. It also
+/// meets the other fragment, or begins, within the tolerance of that plane. With a tolerance of 0 only ties
+/// are contested: fragments at exactly the same distance.
 ///
 /// This rule is stricter than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
 /// twice the tolerance apart are not contested if a plane of the tree separates them exactly.
@@ -77,8 +77,8 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Verifies a tree like [`verify`], without the backs of faces: these are neither painted nor hide other
-/// faces. For rooms seen from outside.
+/// Verifies a tree like [`verify`], without the backs of faces: backs are not painted, and hide no other
+/// faces. Use it for rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -110,8 +110,8 @@ fn judge(tree: &BspTree, rays: Rays, orders: Orders) -> Verification {
     Verification { rays, painted, truth, comparison, front_to_back, miscounted, orders }
 }
 
-/// Compares a painted picture of a tree with a true picture. Contested are ties, and pixels in which the
-/// tolerance, at the plane between the two fragments, leaves open which fragment is painted last.
+/// Compares a painted picture of a tree with a true picture. Ties are contested. So are pixels in which the
+/// tolerance at the plane between the two fragments leaves open which fragment is painted last.
 fn compare_by_planes(tree: &BspTree, rays: &Rays, painted: &Image, truth: &Image) -> Comparison {
     let faces = tree.faces();
     if faces.tolerance() == 0.0 {

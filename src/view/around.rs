@@ -54,8 +54,7 @@ pub fn views(
                     let share = random.point(0.1, 0.9);
                     bounds[0] * (1.0 - share) + bounds[1] * share
                 });
-                // In a box without extent the two points coincide, or one point is vertically above the
-                // other.
+                // If the box has no extent, the two points coincide or one is vertically above the other.
                 Camera::perspective(eye, target, up, INSIDE, size)
                     .or_else(|_| around(bounds, up, ahead + side, 0.1, size))
             }
@@ -82,8 +81,7 @@ fn around(
     let [width, height] = size.map(f64::from);
     let rise = (AROUND * 0.5).tan() * (1.0 - BORDER);
     let run = rise * width / height;
-    // A corner at c from the centre has depth d − c·from, and must lie within the picture's slopes
-    // there.
+    // A corner at c from the centre has depth d − c·from, and must lie within the picture at that depth.
     let needs = |corner: usize| {
         let sign = |axis: usize| if corner >> axis & 1 == 0 { 1.0 } else { -1.0 };
         let c = half / largest * DVec3::new(sign(0), sign(1), sign(2));
@@ -94,8 +92,8 @@ fn around(
     Camera::perspective(centre + from * (step * largest), centre, up, AROUND, size)
 }
 
-/// The unit vector along `up`, and two unit vectors perpendicular to it and to each other: for up = z, x and
-/// −y; for up = y, x and z. The last points to the front, and the second to the right of it.
+/// Three perpendicular unit vectors. The first is along `up`, the second points to the right, and the third
+/// to the front. For up = z they are z, x and −y; for up = y they are y, x and z.
 fn axes(up: DVec3) -> [DVec3; 3] {
     let up = unit(up).unwrap_or(DVec3::ZERO);
     let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };

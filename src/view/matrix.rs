@@ -15,9 +15,9 @@ const SINGULAR: f64 = 1e-10;
 /// The sine of the least angle between the sides of a pixel, and between the picture and the line of sight to
 /// its middle. Too small: rounding decides where points appear. Too large: steep off-axis views are rejected.
 const LEAST_ANGLE: f64 = 1e-3;
-/// Depths that change less than this along the rays of a parallel matrix, as a share of their change
-/// elsewhere, do not determine the matrix's direction. Too small: rounding decides. Too large: mirrored
-/// pictures are shown from behind.
+/// The direction of a parallel matrix is the direction of increasing depth. If depth changes along the rays
+/// by less than this share of its largest change, the depth does not determine the direction. Too small:
+/// rounding decides. Too large: mirrored pictures are shown from behind.
 const FLAT: f64 = 1e-9;
 
 impl Camera {
@@ -30,7 +30,7 @@ impl Camera {
     ///
     /// | w | the camera |
     /// |---|---|
-    /// | changes from point to point | perspective: at its eye, x, y and w are 0; w is positive ahead of it |
+    /// | changes from point to point | perspective: x, y and w are 0 at the eye; w is positive ahead of the eye |
     /// | is one positive number | parallel: it looks along the direction in which x and y do not change |
     ///
     /// The row of z, the depth, may have any finite numbers, and may depend on the other rows. There is no
@@ -38,16 +38,16 @@ impl Camera {
     /// viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If depths are
     /// reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
-    /// Mirrored pictures are rejected: in these, the directions right, up and towards the viewer form a
-    /// left-handed frame, as in plots with one inverted axis. Negate the first row, and mirror the drawing: x
-    /// becomes width − x. If y points down, as in Vulkan, negate the second row instead, and do not mirror
-    /// the drawing.
+    /// Mirrored pictures are rejected. In a mirrored picture, the directions right, up and towards the viewer
+    /// form a left-handed frame, as in plots with one inverted axis. Negate the first row, and mirror the
+    /// drawing: x becomes width − x. If y points down, as in Vulkan, negate the second row instead, and do
+    /// not mirror the drawing.
     ///
     /// ```
     /// use binspace::glam::{DVec3, dcamera::rh};
     /// use binspace::view::Camera;
     ///
-    /// // A window from (-2, 0) to (1, 1), seen from 1.5 in front of it: the eye is not before its middle.
+    /// // A window from (-2, 0) to (1, 1); the eye is 1.5 in front of it, but not in front of its middle.
     /// let eye = DVec3::new(0.0, 0.0, 1.5);
     /// let view = rh::view::look_to_mat4(eye, DVec3::NEG_Z, DVec3::Y);
     /// let window = rh::proj::directx::frustum(-2.0, 1.0, 0.0, 1.0, 1.5, 100.0);
@@ -57,7 +57,7 @@ impl Camera {
     /// // Pixels are twice as high as wide.
     /// let [width, height] = camera.pixel_size();
     /// assert!((height / width - 2.0).abs() < 1e-12);
-    /// // The window's corners are the picture's.
+    /// // The window's corners are the picture's corners.
     /// let [x, y] = camera.project(DVec3::new(1.0, 0.0, 0.0)).expect("ahead");
     /// assert!((x - 600.0).abs() < 1e-9 && (y - 100.0).abs() < 1e-9);
     /// # Ok::<(), binspace::Error>(())
@@ -130,11 +130,11 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle, aspect, size })
     }
 
-    /// Returns the view-projection matrix, from the world to clip coordinates. In these, x points right, y
-    /// upwards, and depths are from 0 at the distance `near` to 1 at `far`, as in WebGPU, Vulkan (except for
-    /// y), Metal and Direct3D. Distances are measured along [`forward`](Self::forward) from the eye; for a
-    /// parallel camera from its centre, and then they may be negative. The two distances must be finite and
-    /// different.
+    /// Returns the view-projection matrix, from the world to clip coordinates. In clip coordinates, x points
+    /// right, y points upwards, and depths are from 0 at the distance `near` to 1 at `far`, as in WebGPU,
+    /// Vulkan (except for y), Metal and Direct3D. Distances are measured along [`forward`](Self::forward)
+    /// from the eye. For a parallel camera they are measured from its centre and may be negative. The two
+    /// distances must be finite and different.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -233,8 +233,8 @@ mod tests {
         )
     }
 
-    /// The matrix puts points where the camera does, and depths between the two planes. The camera of the
-    /// matrix is the same.
+    /// The matrix puts points where the camera does, and maps the two distances to the depths 0 and 1. The
+    /// camera made from the matrix is the same camera.
     #[test]
     fn the_matrix_of_a_camera_has_that_camera() {
         let mut random = SplitMix64::new(5);
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn skewed_oblong_and_off_axis_pictures_are_those_of_the_matrix() {
+    fn skewed_oblong_and_off_axis_pictures_equal_the_pictures_of_the_matrix() {
         let mut random = SplitMix64::new(6);
         let mut accepted = [0; 2];
         for _ in 0..1000 {

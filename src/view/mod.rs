@@ -14,8 +14,8 @@ pub use around::views;
 use crate::error::Kind;
 use crate::viewpoint::{Frustum, Viewpoint};
 
-/// Polygons are clipped at this distance from the eye's plane, as a share of the distance of their furthest
-/// vertex. Too large: parts near the eye are missing. Too small: coordinates lose digits.
+/// A polygon is clipped at this distance from the eye's plane, as a share of the distance of the polygon's
+/// furthest vertex. Too large: parts near the eye are missing. Too small: coordinates lose digits.
 const NEAR: f64 = 1e-9;
 
 const NON_FINITE: &str = "a camera parameter is NaN or infinite";
@@ -34,8 +34,8 @@ pub struct Camera {
     up: DVec3,
     /// The unit normal of the picture's plane.
     forward: DVec3,
-    /// The vector from the eye to the middle of the picture at distance 1, measured along `forward`. It is `forward`
-    /// itself unless the camera is off-axis.
+    /// The vector from the eye to the middle of the picture at distance 1, measured along `forward`. It
+    /// equals `forward` unless the camera is off-axis.
     middle: DVec3,
     /// The width of a pixel as a multiple of its height.
     aspect: f64,
@@ -45,7 +45,7 @@ pub struct Camera {
 /// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// From an eye point.
+    /// A perspective projection from an eye.
     Perspective {
         /// The eye.
         eye: DVec3,
@@ -53,7 +53,7 @@ pub enum Projection {
         /// view, unless the camera is off-axis.
         half_height: f64,
     },
-    /// Along a direction, from infinitely far away.
+    /// A parallel projection along a direction.
     Parallel {
         /// The direction in which the camera looks, not normalised.
         direction: DVec3,
@@ -94,8 +94,8 @@ impl Camera {
         Self::perspective_by_slope(eye, target, up, half_height, size)
     }
 
-    /// Creates a perspective camera, given the tangent of half the vertical field of view. An angle would
-    /// have to be converted; a tangent makes the same bits on every machine.
+    /// Creates a perspective camera, given the tangent of half the vertical field of view. Unlike an angle, a
+    /// tangent need not be converted, so the camera has the same bits on every machine.
     ///
     /// # Errors
     ///
@@ -247,9 +247,10 @@ impl Camera {
         }
     }
 
-    /// Two vectors whose scalar products with a point's vector from the [origin](Self::origin) are its
-    /// distances from the middle of the picture, along [`right`](Self::right) and along [`up`](Self::up).
-    /// For an eye, each product is multiplied by the point's distance.
+    /// Two vectors, one for [`right`](Self::right) and one for [`up`](Self::up). The scalar product of each
+    /// with the vector from the [origin](Self::origin) to a point is the point's distance from the middle of
+    /// the picture in that direction. For a perspective camera, it is that distance times the point's
+    /// distance along [`forward`](Self::forward).
     fn rows(&self) -> [DVec3; 2] {
         let Self { right, up, forward, middle, .. } = *self;
         let sine = up.cross(right).dot(forward);
@@ -280,9 +281,9 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// Returns the region that the picture shows, up to its borders: half a pixel more on each side than the
-    /// rays through the centres of its pixels. That is more than the rounding of the camera, unless a pixel
-    /// is finer than 2⁻³⁰ of its distance, or of a parallel camera's scene.
+    /// Returns the region that the picture shows, up to its borders. On each side it is half a pixel wider
+    /// than the rays through the pixels' centres. That is more than the rounding of the camera, unless a
+    /// pixel is smaller than 2⁻³⁰ of its distance (for a parallel camera, of the scene).
     ///
     /// There is no near and no far plane; a perspective camera sees everything ahead of its eye.
     pub fn frustum(&self) -> Frustum {
@@ -454,7 +455,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_or_beside_is_gone() {
+    fn polygons_behind_or_beside_the_view_are_clipped_away() {
         let behind =
             [DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.0), DVec3::new(0.0, 1.0, 2.0)];
         assert!(camera().clip(&behind).is_empty());

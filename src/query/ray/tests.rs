@@ -14,7 +14,7 @@ use crate::viewpoint::Ray;
 /// Half an ulp of 1: one rounding.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// The largest difference between floats and integers, in roundings of a size.
+/// The largest difference between floats and integers, in roundings of a number of magnitude `size`.
 fn off(floats: [f64; 3], integers: [i128; 3], bits: u32, size: f64) -> f64 {
     let two = RBig::from(2);
     let differences = floats.into_iter().zip(integers).map(|(float, integer)| {
@@ -32,8 +32,8 @@ fn long(random: &mut SplitMix64, exponent: i32) -> f64 {
     sign * random.range(1.0, 1.00001) * 2f64.powi(exponent)
 }
 
-/// Rays and segments, some as short in proportion to their largest coordinate as floats are trusted with; on
-/// lattices at the world's origin and far from it.
+/// Rays and segments on lattices at the world's origin and far from it. Some segments are the shortest,
+/// relative to their largest coordinate, that floats may decide.
 #[test]
 fn floats_are_off_by_one_rounding_and_a_thousandth() {
     let mut random = SplitMix64::new(1);

@@ -1,4 +1,4 @@
-//! The points and edges of all fragments: vertices that are one point, and collinear edges.
+//! Finds the vertices of fragments that are one point, and the edges that are collinear.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};
@@ -12,7 +12,7 @@ use crate::tree::parts::Stored;
 use crate::union::Union;
 
 /// A vertex as one face names it: a corner, or the intersection of planes with the face. The first nodes are
-/// the corners of all faces, the other nodes [`Survey::cuts`].
+/// the corners of all faces; the other nodes are the items of [`Survey::cuts`].
 pub(super) type Node = u32;
 
 /// An edge of a fragment. It ends where the fragment's next edge begins.
@@ -31,7 +31,7 @@ pub(crate) struct Source<'t> {
     pub(crate) generation: u64,
     /// The number of the first fragment in orders.
     pub(crate) first: usize,
-    /// The first corner of their faces.
+    /// The first corner of the fragments' faces.
     pub(crate) first_corner: usize,
 }
 
@@ -41,7 +41,7 @@ impl<'t> Source<'t> {
         self.stored.records.len()
     }
 
-    /// A fragment, counted from 0.
+    /// The fragment with the number `at`, counted from 0.
     pub(super) fn fragment(&self, at: u32) -> Fragment<'t> {
         Fragment::new(self.faces, self.stored, at as usize, at)
     }
@@ -157,7 +157,8 @@ pub(super) fn ends(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
     [k, next].map(|k| faces.given_corner(range.start as u32 + k))
 }
 
-/// The numbers assigned so far: on the current face; for lines, on any face.
+/// The numbers assigned so far. The numbers of lines are shared by all faces; all other numbers belong to the
+/// current face.
 #[derive(Default)]
 struct Names {
     face: u32,
@@ -210,18 +211,18 @@ fn by_face(source: Source<'_>) -> Result<Vec<u32>, Error> {
     Ok(fragments)
 }
 
-/// A line that contains edges of fragments: the line of an edge as given, shared by all faces, or the line in
-/// which a plane cuts one face.
+/// A line that contains edges of fragments. It is either the line of a given edge, which all faces share, or
+/// the line in which a plane cuts one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier {
     /// An axis along which the line is not constant.
     pub(super) axis: usize,
-    /// The face that is cut.
+    /// The face that is cut; `None` for the line of a given edge.
     pub(super) face: Option<u32>,
 }
 
-/// The lines of edges, by their moment and their shortest integer direction, whose first coordinate that is
-/// not zero is positive.
+/// The numbers of the lines of edges. The key of a line is its shortest integer direction, whose first
+/// nonzero coordinate is positive, and its moment.
 #[derive(Default)]
 pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
 
@@ -304,7 +305,7 @@ const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The points of all lines.
 pub(super) struct Points {
-    /// The nodes that are the same point.
+    /// Unites the nodes that are the same point.
     same: Union,
     /// A node of each point, line after line, in order along each line.
     pub(super) on_lines: Vec<Node>,
@@ -316,7 +317,7 @@ pub(super) struct Points {
 #[derive(Clone, Copy, Default)]
 struct End {
     node: Node,
-    /// The edge, doubled, and 1 for its second end.
+    /// Twice the edge's number; plus 1 for its second end.
     slot: u32,
     rounded: f64,
 }
@@ -330,8 +331,8 @@ impl Points {
         reserve(&mut points.ends, survey.edges.len())?;
         points.ends.resize(survey.edges.len(), [0; 2]);
         reserve(&mut points.on_lines, all.len() / 2)?;
-        // Lines shared by faces first: if corners were moved onto their planes, the given edge decides, not
-        // one of its faces.
+        // Lines shared by faces come first: if corners were moved, the given edge decides and not the faces
+        // at it.
         for shared in [true, false] {
             for (line, range) in starts.windows(2).enumerate() {
                 if survey.carriers[line].face.is_none() == shared {
@@ -343,7 +344,8 @@ impl Points {
         Ok(points)
     }
 
-    /// The node that represents a node's point: the least, a corner if there is one.
+    /// The node that represents a node's point: the least node of that point. This is a corner if one of the
+    /// nodes is a corner.
     pub(super) fn root(&self, node: Node) -> Node {
         self.same.root(node)
     }
@@ -365,8 +367,8 @@ impl Points {
         ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
         reserve(&mut self.on_lines, ends.len())?;
         let mut last: Option<End> = None;
-        // Two ends may be one point by the edges as given, and yet have two places on a line of a face whose
-        // corners were moved.
+        // If corners of a face were moved, two ends that are one point on the given edges may have two places
+        // on a line of the face.
         let is_one = |same: &Union, a: &End, b: &End| {
             same.root(a.node) == same.root(b.node) || compare(survey, line, a, b).is_eq()
         };
@@ -385,8 +387,8 @@ impl Points {
     }
 }
 
-/// Compares two ends on a line by their [`coordinate`]s there, regardless of their points. So it is a total
-/// order.
+/// Compares two ends on a line by their [`coordinate`]s on that line, even if they are one point. So the
+/// order is total.
 fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
     let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
     // An unreliable rounded coordinate is NaN, and then no difference is large.
@@ -420,9 +422,9 @@ fn is_moved(survey: &Survey<'_>, face: u32) -> bool {
 
 /// The coordinate of a node on a line, along the line's axis.
 ///
-/// On the line of an edge as given, it is the coordinate of a corner as given, or of the point where the
-/// plane cuts the edge as given, so that all faces agree. On a line inside a face, it is the coordinate of
-/// the vertex on the face's plane.
+/// On the line of a given edge, this is the coordinate of a given corner, or of the point where the plane
+/// cuts the given edge. So all faces agree. On a line inside a face, this is the coordinate of the vertex on
+/// the face's plane.
 pub(super) fn coordinate(survey: &Survey<'_>, line: usize, node: Node) -> Fraction {
     let (faces, carrier) = (survey.faces, survey.carriers[line]);
     match (survey.cut(node), carrier.face) {
@@ -488,7 +490,7 @@ fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
     Ok((all, starts))
 }
 
-/// The rounded places of the cuts on their faces.
+/// The rounded position of each item of [`Survey::cuts`] on its face.
 fn rounded_places(survey: &Survey<'_>) -> Result<Vec<[f64; 3]>, Error> {
     let mut places = Vec::new();
     reserve(&mut places, survey.cuts.len())?;
@@ -507,7 +509,7 @@ mod tests {
     use crate::exact::EdgeLine;
 
     #[test]
-    fn a_face_cut_very_often_costs_the_faces_after_it_nothing() {
+    fn a_face_with_many_cuts_does_not_slow_later_faces() {
         let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
         let tree = BspTree::build([0.0, 1.0, 2.0].map(square)).unwrap();
         let mut names = Names::default();
@@ -517,7 +519,7 @@ mod tests {
             names.vertex_ids.insert(VertexId::crossing(EdgeLine::edge(0), plane), k);
             names.planes.insert(plane, k);
         }
-        // The entries still slow the first face after it.
+        // The many entries may slow the next face, but no later face.
         (1..3).for_each(|face| names.enter(&tree.faces, face).unwrap());
         let room = names.vertex_ids.capacity() + names.planes.capacity();
         assert!(room < 1000, "room for {room} names is emptied for each face");
@@ -553,7 +555,8 @@ mod outline_tests {
     use super::{OutlineVertex, triangulate};
     use std::collections::HashSet;
 
-    /// Outlines of integer points on the sides of polygons, with every number of points inside each side.
+    /// Outlines of integer points on the sides of polygons. Each side has 0 to 3 points inside it, in all
+    /// combinations.
     #[test]
     fn triangles_have_area_and_each_edge_of_the_outline_once() {
         let shapes: [&[[i64; 2]]; 3] = [

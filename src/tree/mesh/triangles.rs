@@ -7,8 +7,8 @@ use crate::memory::reserve;
 use crate::tree::BspTree;
 use crate::viewpoint::Viewpoint;
 
-/// Triangles of a tree's fragments: each has three vertices of a [`Mesh`](crate::mesh::Mesh), and each
-/// fragment one range of indices.
+/// Triangles of a tree's fragments. Each triangle has three vertices of a [`Mesh`](crate::mesh::Mesh), and
+/// each fragment has one range of indices.
 ///
 /// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments,
 /// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) the triangles of some polygons, such as the
@@ -23,7 +23,7 @@ pub struct Triangles {
     pub(super) vertices: u32,
     /// The first index of each fragment, and the end of the last fragment's indices.
     starts: Vec<u32>,
-    /// [`CHUNK`] more indices than are used.
+    /// All indices, and then [`CHUNK`] unused ones.
     indices: Vec<u32>,
     /// The number of triangles of each fragment, if it is the same for all.
     each: Option<u32>,
@@ -39,7 +39,7 @@ impl PartialEq for Triangles {
 impl Eq for Triangles {}
 
 impl Triangles {
-    /// Makes room for a number of indices per fragment.
+    /// Creates triangles with a given number of indices for each fragment, to be filled in.
     pub(super) fn with_lengths(
         generation: u64,
         first: usize,
@@ -61,7 +61,7 @@ impl Triangles {
         Ok(Self { generation, first, vertices: 0, starts, indices, each })
     }
 
-    /// The indices of a fragment, counted from 0, to be filled in.
+    /// The indices of the fragment at place `at` of this mesh, to be filled in.
     pub(super) fn of_mut(&mut self, at: usize) -> &mut [u32] {
         let range = self.range_at(at);
         &mut self.indices[range]
@@ -112,7 +112,7 @@ impl Triangles {
     /// `indices` may be mapped device memory: each place is written once, in increasing order, and never
     /// read. Places beyond the end are not changed. `order` is working space and finally contains the order
     /// of the fragments. As in [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once
-    /// it is large enough.
+    /// `order` is large enough.
     ///
     /// O(n).
     ///
@@ -166,9 +166,9 @@ impl Triangles {
     /// number. `pieces` are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
     /// The vertices of the pieces are numbered after the vertices of the tree's mesh: put both into one
-    /// vertex buffer, the pieces' vertices after the tree's. Lines and points in the order have no triangles.
-    /// After each [`replace`](crate::overlay::Overlay::replace) of the overlay, make its mesh again: the
-    /// triangles of an earlier mesh do not fit the new order.
+    /// vertex buffer, the vertices of the pieces after the vertices of the tree's mesh. Lines and points in
+    /// the order have no triangles. After each [`replace`](crate::overlay::Overlay::replace) of the overlay,
+    /// make its mesh again: the triangles of an earlier mesh do not fit the new order.
     ///
     /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
     ///
@@ -212,7 +212,7 @@ impl Triangles {
         Ok(count)
     }
 
-    /// Writes the indices of fragments, moved by a number of vertices.
+    /// Writes the indices of fragments, each increased by `shift`.
     fn write_one_by_one(&self, order: &[u32], places: &mut [u32], shift: u32) {
         let indices = order.iter().flat_map(|&number| &self.indices[self.range(number)]);
         places.iter_mut().zip(indices).for_each(|(place, index)| *place = index + shift);
@@ -230,7 +230,7 @@ impl Triangles {
 
     /// Writes the indices if each fragment has N of them: their place is computed from the fragment's number.
     fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
-        // Exclude the spare indices after the last fragment's, so that a number too large panics.
+        // Excludes the unused indices at the end, so that too large a number panics.
         let all = &self.indices.as_chunks::<N>().0[..self.starts.len() - 1];
         let places = places.as_chunks_mut::<N>().0;
         for (&fragment, place) in order.iter().zip(places) {
@@ -238,16 +238,16 @@ impl Triangles {
         }
     }
 
-    /// Copies each fragment's indices into a small buffer, always [`CHUNK`] indices; the next fragment
-    /// overwrites the excess. That is faster than a branch on their number, which no processor can predict.
-    /// The buffer is necessary because the caller's memory may be written only once.
+    /// Copies each fragment's indices into a small buffer. It always copies [`CHUNK`] indices, and the next
+    /// fragment overwrites the excess. That is faster than a branch on the number of indices, which no
+    /// processor can predict. The buffer is necessary because the caller's memory may be written only once.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;
         for &fragment in order {
             let fragment = fragment as usize;
             let (start, end) = (self.starts[fragment] as usize, self.starts[fragment + 1] as usize);
-            // `CHUNK` indices can be read even after the last fragment's.
+            // The unused indices at the end make `CHUNK` indices readable for every fragment.
             let from = self.indices[start..].first_chunk::<CHUNK>();
             let to = stage[filled..].first_chunk_mut::<CHUNK>();
             let (Some(from), Some(to)) = (from, to) else { continue };

@@ -51,7 +51,7 @@ impl View {
         Self { eye, point, bound: ERROR * size }
     }
 
-    /// The viewpoint on the tree's lattice.
+    /// The viewpoint, rounded to the tree's lattice.
     pub(in crate::tree) fn eye(&self) -> &Eye {
         &self.eye
     }
@@ -71,7 +71,8 @@ impl View {
         if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
     }
 
-    /// Whether the eye is in front of a plane that is also given rounded, by [`rounded`](rounded).
+    /// Whether the eye is in front of a plane. `rounded` is that plane as the function
+    /// [`rounded`](fn@rounded) returns it.
     pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
         let [x, y, z, offset] = rounded.to_array();
         let p = self.point;
@@ -82,8 +83,8 @@ impl View {
         faces.eye_side(plane, &self.eye) == Ordering::Greater
     }
 
-    /// For up to 16 planes from a given number on: a bit for each plane that certainly has the eye in front,
-    /// and a bit for each that certainly has it behind.
+    /// Returns two sets of bits for the planes of `run`, at most 16: the planes that certainly have the eye
+    /// in front, and the planes that certainly have the eye behind.
     #[inline]
     pub(in crate::tree) fn sure_sides(&self, planes: &Planes, run: Range<u32>) -> [u32; 2] {
         let groups = run.start as usize / GROUP..(run.end as usize).div_ceil(GROUP);
@@ -151,8 +152,8 @@ impl BspTree {
     /// for both and need not be written or uploaded again. (The orders may be the same even if a plane
     /// lies between.)
     ///
-    /// This is not true of [culled](crate::Order::culled) orders, which change with the facing of polygons
-    /// and with the frustum: compare their lists instead. For an overlay use
+    /// [Culled](crate::Order::culled) orders also depend on the facing of polygons and on the frustum:
+    /// compare their lists instead. For an overlay use
     /// [`Overlay::same_order`](crate::overlay::Overlay::same_order).
     ///
     /// Stops at the first plane between the two viewpoints; O(nodes) if no plane lies between them. Allocates
@@ -249,7 +250,7 @@ impl Planes {
 /// A plane, rounded: its unit normal, and its distance from the lattice's origin in 2⁵¹ lattice units.
 pub(crate) fn rounded(faces: &Faces, id: PlaneId) -> Vec4 {
     let plane = match id.kind() {
-        // The same numbers as in the other case, without integers and a square root.
+        // Computes the same numbers as for a face, but without integers and a square root.
         PlaneKind::Axis(axis, corner) => {
             DVec3::AXES[axis].extend(faces.corner(corner)[axis] / LATTICE_LIMIT)
         }

@@ -25,7 +25,8 @@ impl OrderLayout {
         Ok(layout)
     }
 
-    /// Replaces numbers within a kind by part numbers, once the size of each kind is known.
+    /// Replaces the numbers of parts within their kind by part numbers. The number of parts of each kind must
+    /// be known.
     fn number(&mut self) {
         let blocks = ROOT + self.inner.len() as u32;
         let spans = blocks + self.blocks.len() as u32;
@@ -68,7 +69,7 @@ struct Unplaced {
     node: usize,
     nodes: usize,
     fragments: u32,
-    /// The inner node above it, and its side of that node.
+    /// The inner node above the subtree, and the side of that node on which the subtree lies.
     parent: Option<(usize, InnerSide)>,
 }
 
@@ -108,8 +109,8 @@ impl LayoutBuilder<'_> {
         let mut links = self.links(subtree);
         let first = self.next;
         if links >= SHORTEST_CHAIN {
-            // To everything below, a chain looks like its last node. The other nodes each have one
-            // fragment, with consecutive numbers, so it is enough to count them.
+            // The parts below a chain depend only on the chain's last node. The other nodes have one fragment
+            // each, with consecutive numbers, so it is enough to count them.
             self.next += links as u32 - 1;
         } else {
             links = 1;
@@ -157,8 +158,8 @@ impl LayoutBuilder<'_> {
         self.nodes[subtree.node..]
             .iter()
             .take_while(|node| {
-                // Stops where the side changes: after it, the remaining fragments would no longer lie between
-                // the two ends.
+                // Stops where the side changes: after that node, the remaining fragments would no longer lie
+                // between the two ends.
                 let same = first.is_some() && side(node, fragments) == first;
                 fragments -= u32::from(same);
                 same
@@ -248,10 +249,11 @@ pub(in crate::tree) struct Inner {
     /// The node, or the first of a chain.
     pub(in crate::tree) node: u32,
     pub(in crate::tree) own: u32,
-    /// The numbers of fragments in front and behind, at all levels below; for a chain, of its last node.
+    /// The numbers of fragments in front of the node and behind it, at all levels below. For a chain, the
+    /// node is its last node.
     pub(in crate::tree) front: u32,
     pub(in crate::tree) back: u32,
-    /// The part numbers of the two sides. For a chain, one is [`NOBODY`].
+    /// The part numbers of the two sides. For a chain, one of the two is [`NOBODY`].
     pub(in crate::tree) front_part: u32,
     pub(in crate::tree) back_part: u32,
     pub(in crate::tree) own_first: u32,
@@ -260,9 +262,9 @@ pub(in crate::tree) struct Inner {
 /// Marks an [`Inner`] that is a chain.
 pub(super) const CHAIN: u32 = 1 << 31;
 
-/// Consecutive nodes, each with one fragment on its plane and all others below a single child, always on the
-/// same side. The order is written from both ends inwards; the fragments below the last node are in the
-/// middle.
+/// Consecutive nodes. Each has one fragment on its plane, and all other fragments of its subtree are below a
+/// single child, always on the same side. The order is written from both ends inwards; the fragments below
+/// the last node are in the middle.
 pub(in crate::tree) struct Chain {
     pub(in crate::tree) first_node: u32,
     pub(in crate::tree) nodes: u32,
@@ -290,11 +292,11 @@ impl Inner {
 /// A subtree or a leaf of few fragments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::tree) struct Block {
-    /// Its first node; arbitrary for a leaf.
+    /// The block's first node; arbitrary for a leaf.
     pub(in crate::tree) node: u32,
-    /// Its first fragment.
+    /// The block's first fragment.
     pub(in crate::tree) first: u32,
-    /// Its row of [`OrderLayout::permutations`].
+    /// The block's row of [`OrderLayout::permutations`].
     pub(in crate::tree) row: u32,
 }
 
@@ -331,12 +333,12 @@ pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 /// fragment k. Missing fragments share the place of the first fragment.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
-/// Everything except the signs that decides the places of a block's fragments. For each node: the numbers of
-/// fragments on its plane and in front, the number of nodes in front, and whether the back is a node. For the
-/// block: the numbers of nodes (0 for a leaf) and of fragments. Blocks of the same shape share a row of the
-/// table.
+/// The data that, together with the signs, decide the places of a block's fragments. For each node: the
+/// numbers of fragments on its plane and in front, the number of nodes in front, and whether the back is a
+/// node. For the block: the numbers of nodes (0 for a leaf) and of fragments. Blocks of the same shape share
+/// a row of the table.
 ///
-/// Packed, because each block needs a look-up.
+/// The data are packed into an integer, because the shape of every block is looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in crate::tree) struct BlockShape(u32);
 

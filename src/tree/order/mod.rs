@@ -74,14 +74,15 @@ impl<'t> Order<'t> {
 
     /// Replaces a buffer's contents by the numbers of the fragments.
     ///
-    /// O(n). Every node stores the number of fragments on each of its sides, so a subtree's place in the
-    /// order is known before the subtree is read, and each number is written directly to its final place.
-    /// The buffer also serves as working space. Its capacity grows to one or two numbers per fragment, at
-    /// most four per fragment plus sixteen; after that, nothing is allocated.
+    /// O(n). Every node stores the number of fragments on each of its sides. So a subtree's place in the
+    /// order is known before the subtree is read, and each number is written directly to its final place. The
+    /// buffer also serves as working space. Its capacity grows to one or two numbers per fragment, at most
+    /// four per fragment plus sixteen; after that, nothing is allocated.
     ///
     /// A culled order skips subtrees outside the frustum and subtrees seen only from the wrong side. Its
-    /// time is proportional to the number of remaining fragments plus those close to the frustum's
-    /// boundary. It takes O(depth) memory, and a bit for each fragment and each block of 16.
+    /// time is proportional to the number of remaining fragments plus the number of fragments close to the
+    /// frustum's boundary. It takes O(depth) memory, plus a bit for each fragment and for each block of 16
+    /// fragments.
     ///
     /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) converts the list into indices of
     /// triangles.
@@ -319,7 +320,7 @@ impl BspTree {
     }
 }
 
-/// Adds the order of a subtree, or of the whole tree, from the nodes themselves.
+/// Appends the order of a subtree, or of the whole tree, without using the layout.
 pub(in crate::tree) fn write_from_nodes(
     tree: &BspTree,
     view: &View,
@@ -365,8 +366,9 @@ pub(in crate::tree) fn write_from_nodes(
     order.truncate(begin + len);
 }
 
-/// Writes an order in three passes over the tree's memory: the eye's side of each node, then the place of
-/// each subtree in the order, then the fragments of small subtrees.
+/// Writes an order in three passes over the tree's memory. The first computes the eye's side of each node,
+/// the second computes the place of each subtree in the order, and the third writes the fragments of small
+/// subtrees.
 ///
 /// `write_signs` fills `words` words with a bit for each node, 1 if the eye is in front.
 #[inline]
@@ -435,7 +437,7 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
 fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
     for (block, &begin) in layout.blocks.iter().zip(begins) {
         let word = block.node as usize / 32;
-        // The bits of a block's nodes may lie across two words; `signs` has one word more than it needs.
+        // The bits of a block's nodes may lie across two words; `signs` has a spare word at the end.
         let words = u64::from(signs[word]) | u64::from(signs[word + 1]) << 32;
         let signs = (words >> (block.node % 32)) as usize % (1 << NODES);
         let places = layout.permutations[block.row as usize][signs] as usize;

@@ -134,7 +134,8 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// All trees of `fragments` fragments, at least one: each plane has some fragments, or both sides do.
+/// All trees of `fragments` fragments, at least one. Each node has fragments on its plane or on both of its
+/// sides.
 fn trees(fragments: u32) -> Vec<Tree> {
     let mut all = Vec::new();
     for own in 0..=fragments {
@@ -179,8 +180,8 @@ fn trees_of_up_to_five_fragments_come_by_every_sign() {
     assert_eq!(counts, [1, 9, 69, 589, 5529]);
 }
 
-/// The possible subtrees below a list: spans on a plane, beside it, and on both sides, and blocks of every
-/// size.
+/// Subtrees that may lie below a list: spans on a plane, on one side of a plane and on both sides, and blocks
+/// of every size.
 fn rests() -> Vec<Tree> {
     let run = Tree::new(7, Leaf(0), Leaf(0));
     let mut rests = vec![
@@ -211,7 +212,7 @@ fn chains_of_any_length_are_followed_by_blocks_and_spans() {
     }
 }
 
-/// Nodes that are links except for a fragment more or less, and lists above and below them.
+/// Nodes that have one fragment too many or too few to be links, with lists above and below them.
 #[test]
 fn nodes_that_are_hardly_links_are_ordered_as_well() {
     let mut random = SplitMix64::new(5);
@@ -284,7 +285,8 @@ fn trees_by_chance_come_by_any_signs() {
     }
 }
 
-/// Each plane has nothing on it and one fragment on a side: an inner node and a block for each.
+/// No plane has a fragment on it, and each plane has one fragment on one side. So each makes an inner node
+/// and a block.
 #[test]
 fn the_most_parts_are_nearly_two_to_a_fragment() {
     let mut tree = Tree::new(0, Leaf(1), Leaf(1));

@@ -1,8 +1,8 @@
 //! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
 //! A file contains no vertices, so a forged file cannot make wrong pieces: for any planes, each piece is on
-//! its side of every plane above it, and the pieces of a face cover it. The file's numbers of fragments only
-//! limit the number of pieces.
+//! its side of every plane above it, and the pieces of each face cover the face. The file's numbers of
+//! fragments only limit the number of pieces.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -17,14 +17,14 @@ use crate::tree::parts::{Parts, Record};
 /// Trees with more fragments are split by several threads. Too small: waking a thread takes longer than the
 /// time that it saves. Too large: one thread works while others are idle.
 const WORTH_A_THREAD: usize = 4096;
-/// Subtrees of less than 1/`JOBS` of the fragments are handed over. Too small: threads wait for the last. Too
-/// large: more of the tree is split before threads share the work.
+/// Subtrees of less than 1/`JOBS` of the fragments are handed over to other threads. Too small: threads wait
+/// for the last subtree. Too large: more of the tree is split before threads share the work.
 const JOBS: usize = 32;
 /// Subtrees of less than 1/`MOST_JOBS` of the fragments are not worth handing over.
 const MOST_JOBS: usize = 512;
 
-/// The number of pieces of a list that share a bounding box. Too small: more boxes are tested. Too large:
-/// more pieces are tested near the plane.
+/// A *list* is a sequence of nodes that each have one node below. This is the number of pieces in a list that
+/// share a bounding box. Too small: more boxes are tested. Too large: more pieces are tested near the plane.
 const BLOCK: usize = 16;
 /// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
 /// save. Too large: all pieces are tested against each plane.
@@ -91,7 +91,7 @@ impl Piece {
 /// A subtree whose pieces are known.
 struct Job {
     node: usize,
-    /// The numbers of its fragments.
+    /// The numbers of the subtree's fragments.
     fragments: Range<u32>,
     pieces: Vec<Piece>,
 }
@@ -100,7 +100,7 @@ struct Job {
 /// positions of their vertices.
 ///
 /// Returns an error unless each node has as many fragments on its plane and in its leaves as it states, and
-/// these belong to the `listed` faces.
+/// the fragments belong to the `listed` faces.
 pub(super) fn replay(
     faces: &Faces,
     nodes: &[NodeRecord],
@@ -162,7 +162,7 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    /// All faces, or their parts in their cell.
+    /// The job of the root: all faces, or their parts in the cell.
     fn root(&self, fragments: u32) -> Result<Job, Error> {
         let mut clipper = Clipper::new(self.faces);
         let mut pieces = Vec::new();
@@ -176,12 +176,13 @@ impl Replay<'_> {
         Ok(Job { node: 0, fragments: 0..fragments, pieces })
     }
 
-    /// Splits the pieces of a subtree. Subtrees with numbers of fragments in `jobs` are handed over, each
-    /// with the fragments before it. The fragments after the last such subtree are returned separately.
+    /// Splits the pieces of a subtree. Subtrees whose number of fragments is in `jobs` are not split. They
+    /// are returned as jobs, each with the fragments before it. The fragments after the last job are returned
+    /// separately.
     fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), Error> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
         let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
-        // In a list, such as peeled layers, each node has one node below: most pieces stay in their places,
+        // In a list, such as peeled layers, most pieces go on to the node below. They stay in their places,
         // in blocks with boxes. The other pieces leave gaps.
         let (mut boxes, mut gaps): (Vec<Bounds>, _) = (Vec::new(), 0);
         // The sets of pieces still to be split, the next one on top, and the start of each.

@@ -5,13 +5,13 @@
 //! to one piece. Their outlines share the cut: they traverse it in opposite directions between the same two
 //! vertices, and the lines of these edges name the plane and the side. The piece is then the two outlines
 //! without the cut, and without the vertices that the plane made on a line that continues behind it. At the
-//! root, each face must result as given.
+//! root, the result must be each face as given.
 //!
 //! This check is complete. Suppose that a convex piece is right, and that two outlines with vertices on their
-//! sides of a plane glue to it. Then they are its two parts. Every vertex is a vertex of the piece or the
-//! point where its line crosses the plane. Vertices of both parts lie on the plane, because they are on
-//! neither side of it. By induction from the root, the fragments are exactly the pieces that the planes make
-//! of the faces: convex, in the face's orientation, each once.
+//! sides of a plane glue to it. Then the two outlines are the two parts of that piece. Every vertex is a
+//! vertex of the piece or the point where its line crosses the plane. Vertices of both parts lie on the
+//! plane, because they are on neither side of it. By induction from the root, the fragments are exactly the
+//! pieces that the planes make of the faces: convex, in the face's orientation, each once.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -29,7 +29,7 @@ impl BspTree {
     /// Glues the fragments together, and compares the result with the faces, and the number of undone cuts
     /// with the builder's count.
     pub(super) fn check_cover(&self, visits: &[Visit]) -> Result<(), String> {
-        // The sets of subtrees whose parents have not been visited yet, the front's above the back's.
+        // A stack of the sets of subtrees whose parents have not been visited yet, front above back.
         let mut sets: Vec<Set> = Vec::new();
         let mut splits = 0;
         for visit in visits.iter().rev() {
@@ -172,8 +172,8 @@ fn glue(
     Some(outline)
 }
 
-/// An outline rotated so that it begins with its edge on a line. It has one such edge: a second edge would
-/// remain to the end, and be found at the root.
+/// An outline rotated so that it begins with its edge on a line. A valid outline has one such edge. A second
+/// such edge would stay in the glued outline and be found at the root.
 fn from_cut(outline: &[Vertex], cut: EdgeLine) -> Option<Vec<Vertex>> {
     // Fragments have three vertices or more, but wrong glueing may leave fewer.
     if outline.len() < 3 {
@@ -228,7 +228,7 @@ mod tests {
         assert_eq!(whole.iter().map(Vertex::vertex_id).collect::<Vec<_>>(), corners);
     }
 
-    /// Another vertex on the plane, on a line that continues across it, would occur twice.
+    /// If a vertex beside the cut lay on the plane, both parts would contain it.
     #[test]
     fn the_vertices_beside_a_cut_are_off_the_plane() {
         for part in 0..2 {

@@ -1,4 +1,4 @@
-//! Trees broken by hand, in every way that validation names and in some others.
+//! Trees broken by hand, in every way for which validation has a message, and in some other ways.
 
 mod cover;
 mod layout;
@@ -46,7 +46,8 @@ impl Dismantled {
         Self { nodes, pieces, cuts: tree.cuts }
     }
 
-    /// A tree whose sizes, layout and rounded planes agree with these parts, right or wrong.
+    /// A tree made of these parts, right or wrong. The tree's sizes, layout and rounded planes agree with the
+    /// parts.
     fn tree(&self, like: &BspTree) -> BspTree {
         let (nodes, cuts) = (self.nodes.clone(), self.cuts);
         let mut parts = parts::Parts { nodes, cuts, ..Default::default() };
@@ -63,7 +64,7 @@ fn verdict(tree: &BspTree) -> String {
     tree.validate().err().unwrap_or_default()
 }
 
-/// Fails unless validation finds this fault in the tree after an edit of another's parts.
+/// Takes a tree apart, edits the parts and joins them again. Fails unless validation finds this fault.
 #[track_caller]
 fn assert_fault(tree: &BspTree, edit: impl FnOnce(&mut Dismantled), fault: &str) {
     assert_eq!(verdict(tree), "");
@@ -87,7 +88,7 @@ fn square(half: f64, z: f64) -> [DVec3; 4] {
         .map(|(x, y)| DVec3::new(x * half, y * half, z))
 }
 
-/// Nested squares in two planes, some facing up and some down, and an upright one that cuts all.
+/// Nested squares in two planes, some facing up and some down, and an upright square that cuts all of them.
 fn decals() -> Scene {
     let mut scene = Scene::new("decals", DVec3::Z);
     let upright = square(9.0, 0.1).map(|p| DVec3::new(p.z, p.x, p.y));
@@ -137,7 +138,7 @@ fn trees() -> Vec<(String, BspTree)> {
 }
 
 #[test]
-fn trees_as_they_are_built_are_valid_and_their_cuts_are_those_counted() {
+fn built_trees_are_valid_and_have_the_counted_cuts() {
     let (mut cut, mut lists, mut large) = (0, 0, 0);
     for (name, tree) in trees() {
         assert_eq!(verdict(&tree), "", "{name}");

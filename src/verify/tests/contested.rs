@@ -16,7 +16,8 @@ use glam::DVec3;
 /// The allowed addition to the tolerance for rounded corners, in lattice units.
 const ROUNDED_CORNERS: f64 = 4.0;
 
-/// The plane between two fragments, by the ranges of all nodes, and the side of each.
+/// The plane between two fragments, and the side of each fragment. Both are found from the ranges of all
+/// nodes.
 fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
     let mut parting = tree.nodes().filter_map(|node| {
         let side = |f: u32| {
@@ -36,8 +37,8 @@ fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
 }
 
 /// The rule of the tolerance, exactly. A ray meets the nearer of two fragments within the tolerance of the
-/// plane between them. It also meets the other fragment, or starts, within the tolerance. And it meets one of
-/// the two fragments beyond that plane.
+/// plane between them. It also meets the other fragment, or starts, within the tolerance of that plane. And
+/// it meets one of the two fragments on the wrong side of that plane, or off that plane.
 fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
     let faces = tree.faces();
     let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());
@@ -112,7 +113,7 @@ fn walls(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
 }
 
 #[test]
-fn exact_rays_confirm_what_planes_excuse() {
+fn exact_rays_confirm_the_pixels_that_planes_excuse() {
     let mut random = SplitMix64::new(1);
     let mut counts = [0, 0];
     let first = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);

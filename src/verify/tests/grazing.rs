@@ -21,7 +21,7 @@ fn wall_on_floor() -> BspTree {
 }
 
 /// Eyes half the tolerance above the floor. All their rays meet the wall below the eye, and the floor up to
-/// 18 behind the wall.
+/// 18 units behind the wall.
 fn cameras() -> [Camera; 2] {
     let (eye, foot) =
         (DVec3::new(-1.0, 0.0, 0.5 * TOLERANCE), DVec3::new(1.0, 0.0, 0.2 * TOLERANCE));
@@ -71,7 +71,7 @@ fn a_floor_far_behind_a_wall_is_not_contested_by_the_polygons() {
 
 /// A wall that reaches below the floor's plane within the tolerance is excused only there.
 #[test]
-fn what_reaches_across_the_plane_within_the_tolerance_is_excused() {
+fn walls_across_the_plane_within_the_tolerance_are_excused() {
     let floor = [(3.0, 5.0), (4.0, 5.0), (4.0, 6.0), (3.0, 6.0)].map(|(x, y)| [x, y, 0.0]);
     let wall = |x: f64, low: f64, high: f64| {
         [(-9.0, low), (9.0, low), (9.0, high), (-9.0, high)].map(|(y, z)| [x, y, z])
@@ -109,7 +109,7 @@ fn rough(random: &mut SplitMix64, tolerance: f64) -> Vec<[DVec3; 4]> {
     polygons
 }
 
-/// Every exchange due to the tolerance is excused, seen along the planes from inside the scene.
+/// The views are along the planes, from inside the scene. Every exchange due to the tolerance is excused.
 #[test]
 fn the_orders_of_trees_are_never_wrong() {
     let mut random = SplitMix64::new(3);

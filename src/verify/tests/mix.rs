@@ -1,6 +1,6 @@
 //! The method of engines: opaque polygons in any order with a depth buffer, then translucent polygons in the
-//! tree's order, with the depth test on and depth writes off. Each pixel is judged by all polygons that an
-//! exact ray meets, sorted by their exact distances.
+//! tree's order, with the depth test on and depth writes off. The expected colour of a pixel is computed from
+//! all polygons that an exact ray meets, sorted by their exact distances.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ fn is_opaque(polygon: usize) -> bool {
     polygon.is_multiple_of(4)
 }
 
-/// A colour and an opacity that distinguish each polygon from all others.
+/// Paints a polygon over a colour. Each polygon has a different colour and opacity.
 fn paint(over: &mut Colour, polygon: usize) {
     let opacity =
         if is_opaque(polygon) { 1.0 } else { 0.3 + 0.4 * (polygon as f64 * 0.61).fract() };
@@ -147,5 +147,5 @@ fn opaque_by_depth_and_translucent_in_tree_order_is_the_exact_picture() {
         }
     }
     assert!(pixels > 13_000 && deep > 2600, "{pixels} pixels, {deep} of three faces or more");
-    assert!(wrong_unsorted > 600, "the order is no matter: {wrong_unsorted}");
+    assert!(wrong_unsorted > 600, "the order does not matter: {wrong_unsorted}");
 }

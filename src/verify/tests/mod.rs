@@ -13,14 +13,14 @@ use crate::view::{Camera, views};
 use crate::{BspTree, BuildOptions, Heuristic, scene};
 use glam::DVec3;
 
-/// Small cameras around a scene and inside it.
+/// Cameras around a scene and inside it, with small pictures.
 fn cameras(scene: &Scene, count: usize) -> Vec<Camera> {
     let (low, high) = scene.bounds().unwrap();
     views([low, high], scene.up(), count, [96, 72], 3).unwrap()
 }
 
 #[test]
-fn a_tree_paints_what_the_depth_buffer_sees() {
+fn a_tree_paints_the_picture_of_the_depth_buffer() {
     for scene in [scene::newell_bars(), scene::crossing(5), scene::random_triangles(60, 1)] {
         let cameras = cameras(&scene, 4);
         for &heuristic in Heuristic::ALL {
@@ -41,10 +41,10 @@ fn a_tree_paints_what_the_depth_buffer_sees() {
     }
 }
 
-/// Square 1 counts as on the plane of square 0, which is at the side; the eye is between them, and square
-/// 2, far behind square 1, counts as nearer.
+/// Square 0 is at the side, and square 1 counts as on its plane. The eye is between this plane and square 1.
+/// So square 2, far behind square 1, counts as nearer.
 #[test]
-fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
+fn pictures_of_an_eye_within_the_tolerance_of_a_plane_are_contested() {
     let square =
         |x: f64, z: f64, r: f64| [[x - r, -r, z], [x + r, -r, z], [x + r, r, z], [x - r, r, z]];
     for unit in [1e-2, 1e-6] {
@@ -65,10 +65,10 @@ fn what_an_eye_within_the_tolerance_of_a_plane_sees_is_contested() {
     }
 }
 
-/// Two walls across the plane of a floor at the side, seen along it: one reaches up, the other down, by less
-/// than the tolerance.
+/// Two walls, seen along the plane of a floor at the side. Both reach across that plane by less than the
+/// tolerance, one upwards and the other downwards.
 #[test]
-fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
+fn pixels_of_rays_along_a_plane_within_the_tolerance_are_contested() {
     let unit = 1e-2;
     let wall = |x: f64, low: f64, high: f64| {
         [[x, -1.0, low], [x, 1.0, low], [x, 1.0, high], [x, -1.0, high]]
@@ -92,7 +92,7 @@ fn what_a_ray_along_a_plane_within_the_tolerance_sees_is_contested() {
 }
 
 #[test]
-fn opaque_colours_are_those_of_the_picture_of_polygons() {
+fn opaque_colours_equal_the_picture_of_polygons() {
     let scene = scene::random_triangles(60, 1);
     let tree = BspTree::build(scene.polygons()).unwrap();
     let camera = &cameras(&scene, 1)[0];

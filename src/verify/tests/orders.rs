@@ -53,7 +53,7 @@ fn a_form_that_contradicts_the_others_is_named() {
             assert!(fault(&judgement).starts_with(&expected), "{}", fault(&judgement));
         }
     }
-    // Errors name the other forms, because these are compared with the list.
+    // Errors name the other forms, because the other forms are compared with the list.
     let judgement = judged(&tree, camera, 0, |list| list.swap(0, 1));
     assert!(fault(&judgement).starts_with("order contradicts"));
 }
@@ -107,8 +107,8 @@ fn a_fragment_that_is_left_out_is_counted_though_others_hide_it() {
     assert!(hidden > 5, "only {hidden} hidden fragments");
 }
 
-/// For each node, the other subtree first: some of these faults are visible, only in the picture that is
-/// painted in that direction.
+/// For one node after the other, exchanges its two subtrees in one order. Some of these faults are visible,
+/// but only in the picture that is painted in that direction.
 #[test]
 fn a_flipped_side_shows_in_the_picture_of_its_direction() {
     let (scene, tree) = case();
@@ -141,7 +141,7 @@ fn a_flipped_side_shows_in_the_picture_of_its_direction() {
 
 /// Lists that agree with each other, but are wrong.
 #[test]
-fn orders_that_agree_on_what_is_wrong_show_as_wrong_pixels() {
+fn wrong_orders_that_agree_cause_wrong_pixels() {
     let (scene, tree) = case();
     let camera = &cameras(&scene, 1)[0];
     let mut reversed = orders(&tree, camera);

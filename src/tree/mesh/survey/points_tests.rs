@@ -9,12 +9,12 @@ use crate::tree::BspTree;
 use crate::tree::mesh::survey::{Points, Survey, by_line, compare};
 use crate::{BuildOptions, Heuristic};
 
-/// The distance of a corner below the plane of the others.
+/// The distance of the quad's topmost corner below the plane of its other corners.
 const OFF: f64 = 1.0 / 64.0;
 
-/// A quad, a floor, and triangles. The quad's topmost corner is given below the plane of the others, by less
-/// than the tolerance, and is moved up onto it. The floor goes through that corner as given, so it cuts off a
-/// tip of the moved quad, but nothing of the given quad. The triangles cut the tip.
+/// A quad, a floor, and triangles. The quad's topmost corner is given below the plane of its other corners,
+/// by less than the tolerance, so it is moved up onto that plane. The floor goes through that corner as
+/// given, so it cuts off a tip of the moved quad, but nothing of the given quad. The triangles cut the tip.
 fn tip(triangles: usize, random: &mut SplitMix64) -> BspTree {
     let quad = [[2.0, 1.0, -2.625], [4.0, 4.0, -7.0], [1.0, 2.0, -2.625], [0.0, 0.0, -OFF]];
     let floor = [(-3.0, -3.0), (-2.0, -3.0), (-2.0, -2.0), (-3.0, -2.0)].map(|(x, y)| [x, y, -OFF]);
@@ -69,7 +69,7 @@ fn ends_on_a_line_of_a_face_with_moved_corners_have_a_total_order() {
     assert!(apart > 0, "no point has two places on a line");
 }
 
-/// Enough ends that a sort by a contradictory order panics.
+/// With this many ends, a sort would panic if the order contradicted itself.
 #[test]
 fn a_face_with_moved_corners_does_not_make_a_sort_panic() {
     for (triangles, seed) in [(8, 8), (9, 10), (10, 10), (11, 10)] {

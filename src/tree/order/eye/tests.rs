@@ -1,5 +1,4 @@
-//! The distance of eyes' rounded values from their bound: searches for eyes that a smaller bound would
-//! misplace.
+//! Searches for eyes that a smaller error bound would put on the wrong side of a plane.
 
 use std::cmp::Ordering;
 
@@ -11,7 +10,7 @@ use crate::random::mix;
 use crate::viewpoint::Viewpoint;
 use crate::{BspTree, BuildOptions, Heuristic};
 
-/// The extent of a scene of which 1 is 2⁵⁰ lattice units.
+/// The largest coordinate of a scene in which the length 1 is 2⁵⁰ lattice units.
 const ALMOST_TWO: f64 = 2.0 - 1e-9;
 
 /// A stream of numbers from −1 to 1, many of them at the ends.
@@ -43,8 +42,8 @@ fn tree(numbers: &mut Numbers) -> BspTree {
     options.build([triangle, all]).expect("finite")
 }
 
-/// The distance on the wrong side of the first plane by an eye's rounded value, in the unit of the bound; 0
-/// if it is on the right side.
+/// The rounded distance of an eye from the first plane, in the unit of the bound, if its sign is wrong;
+/// otherwise 0.
 fn error(tree: &BspTree, eye: Viewpoint) -> f64 {
     let view = View::new(tree, eye);
     let distance = view.distances(&tree.planes.0[0])[0];
@@ -59,8 +58,8 @@ fn error(tree: &BspTree, eye: Viewpoint) -> f64 {
     if rounded == exact { 0.0 } else { f64::from(distance.abs()) / size }
 }
 
-/// An eye in the first plane except for rounding, from any place, in 2⁵¹ lattice units; or likewise a
-/// direction along it.
+/// Moves a place into the first plane, up to rounding. Returns it as an eye, in 2⁵¹ lattice units, or as a
+/// direction parallel to the plane.
 fn in_plane(tree: &BspTree, place: DVec3, is_far: bool, nudge: f64) -> Viewpoint {
     let plane = tree.faces.plane(tree.nodes[0].plane);
     let length = plane.normal_f64().length();

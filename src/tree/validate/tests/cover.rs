@@ -12,7 +12,8 @@ const INCOMPLETE: &str = "do not add up to it";
 const OVERLAP: &str = "occurs twice, or another piece overlaps it";
 const CUT: &str = "on its two sides do not fit along the cut";
 
-/// The group of its node that contains a fragment: the node, and 0 on the plane, 1 in front, 2 behind.
+/// The node whose plane or leaf contains a fragment, and the place at that node: 0 on the plane, 1 in front,
+/// 2 behind.
 fn place(tree: &BspTree, fragment: u32) -> (usize, usize) {
     let is_here = |range: &std::ops::Range<u32>| range.contains(&fragment);
     let mut walk = crate::tree::node::Walk::new(tree);
@@ -52,7 +53,8 @@ fn double(tree: &BspTree, fragment: u32) -> Dismantled {
         return parts;
     }
     assert!(sides.contains(&group));
-    // A leaf's subtree is stored after the other leaf, and before or after the other subtree.
+    // A subtree that replaces a leaf is stored after the other side's leaf, and before or after the other
+    // side's subtree.
     let raw = &mut parts.nodes[node];
     let child = if group == 1 { &mut raw.front } else { &mut raw.back };
     *child = RawChild::Node;
@@ -111,7 +113,7 @@ fn a_face_without_any_fragment_is_missed() {
 }
 
 #[test]
-fn a_fragment_that_is_there_twice_is_found() {
+fn a_duplicate_fragment_is_found() {
     let mut doubled = [0; 3];
     for (name, tree) in small_trees() {
         for fragment in 0..tree.len() as u32 {
@@ -123,9 +125,9 @@ fn a_fragment_that_is_there_twice_is_found() {
     assert!(doubled.iter().all(|&doubled| doubled > 50), "{doubled:?}");
 }
 
-/// A sum of areas would not show this.
+/// A sum of areas would not find this fault.
 #[test]
-fn a_half_that_is_lost_while_the_other_half_is_there_twice_is_found() {
+fn a_missing_half_and_a_duplicate_of_the_other_half_are_found() {
     let tree = crossing(2);
     let halves: Vec<u32> =
         tree.fragments().filter(|half| !half.is_whole()).map(|half| half.index()).collect();
@@ -163,7 +165,8 @@ fn a_half_in_place_of_the_other_half_s_quarter_is_found() {
     }
 }
 
-/// Changes one vertex of one fragment at a time; returns the number of changes found by their cuts.
+/// Changes one vertex of one fragment at a time. Returns the number of changes that are found when pieces are
+/// glued.
 fn change_vertices(tree: &BspTree, change: impl Fn(u32, &Stored) -> Stored) -> usize {
     let mut found = 0;
     for fragment in tree.fragments() {
@@ -310,7 +313,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
                 found += usize::from(!verdict(&parts.tree(&tree)).is_empty());
                 edits += 1;
             }
-            // The start of an outline means nothing.
+            // An outline may start at any vertex.
             let mut parts = Dismantled::of(&tree);
             parts.pieces[fragment.index() as usize].1.rotate_left(1);
             assert_eq!(verdict(&parts.tree(&tree)), "", "{name}");
@@ -320,7 +323,7 @@ fn outlines_that_are_turned_round_or_lack_a_vertex_are_found() {
 }
 
 #[test]
-fn a_plane_that_is_coplanar_with_the_one_that_cut_is_found() {
+fn a_plane_that_is_coplanar_with_the_cutting_plane_is_found() {
     // Two squares in one plane, and a square that their plane cuts.
     let upright = square(1.0, 0.2).map(|p| glam::DVec3::new(p.z, p.x, p.y));
     let polygons = [square(1.0, 0.0), square(2.0, 0.0), upright];

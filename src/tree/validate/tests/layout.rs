@@ -1,4 +1,4 @@
-//! Orders laid out wrongly.
+//! Wrong layouts of orders.
 
 use super::{trees, verdict};
 use crate::exact::StoredVertex;
@@ -8,7 +8,7 @@ const LAYOUT: &str = "the layout for orders does not match the nodes";
 const POSITIONS: &str = "node 0: the positions do not match the vertices";
 const ROUNDED: &str = "the rounded planes do not match the nodes";
 
-/// Breaks every tree to which an edit applies; returns their number.
+/// Breaks every tree to which an edit applies. Returns the number of these trees.
 fn assert_all(fault: &str, edit: impl Fn(&mut BspTree) -> Option<()>) -> usize {
     let mut broken = 0;
     for (name, mut tree) in trees() {

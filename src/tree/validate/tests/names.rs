@@ -1,4 +1,4 @@
-//! Names of things that do not exist.
+//! Planes, faces and vertices that name missing parts of the input.
 
 use super::{Dismantled, Stored, assert_fault, build, crossing, verdict};
 use crate::build::Heuristic;
@@ -8,12 +8,12 @@ use crate::tree::BspTree;
 
 const OUTLINE: &str = "does not have three or more known vertices";
 
-/// The first fragment that is a piece of a face.
+/// The first fragment that is not a whole face.
 fn cut_piece(parts: &Dismantled) -> usize {
     parts.pieces.iter().position(|(_, vertices)| !vertices.is_empty()).expect("a cut")
 }
 
-/// Puts another vertex in place of the first of a cut piece.
+/// Replaces the first vertex of a cut piece, and asserts that validation does not know the new vertex.
 #[track_caller]
 fn assert_unknown(tree: &BspTree, vertex: Stored) {
     let edit = |parts: &mut Dismantled| {
@@ -24,7 +24,7 @@ fn assert_unknown(tree: &BspTree, vertex: Stored) {
 }
 
 #[test]
-fn planes_that_name_nothing_are_found() {
+fn planes_of_missing_faces_and_corners_are_found() {
     for tree in [crossing(5), build(&scene::city(300, 1), Heuristic::default())] {
         let (faces, corners) = (tree.faces.len() as u32, tree.faces.corner_count() as u32);
         let unknown = [
@@ -37,7 +37,7 @@ fn planes_that_name_nothing_are_found() {
         ];
         for plane in unknown {
             for node in [0, tree.nodes.len() / 2, tree.nodes.len() - 1] {
-                // Its plane cannot be rounded either.
+                // A missing plane cannot be rounded, so `Dismantled::tree` cannot make this tree.
                 let mut tree = tree.clone();
                 tree.nodes[node].plane = plane;
                 let said = verdict(&tree);
@@ -49,13 +49,13 @@ fn planes_that_name_nothing_are_found() {
 }
 
 #[test]
-fn faces_and_vertices_that_name_nothing_are_found() {
+fn missing_faces_and_vertices_are_found() {
     let tree = crossing(5);
     let faces = tree.faces.len() as u32;
     assert_fault(&tree, |parts| parts.pieces[0].0 = faces, OUTLINE);
     assert_fault(&tree, |parts| parts.pieces[3].0 = u32::MAX, OUTLINE);
 
-    // Vertices of a scene of more faces, with more corners.
+    // Vertices of a scene with more faces and corners.
     let large = crossing(9);
     let octagon: Vec<_> =
         (0..8).map(|k| glam::DVec2::from_angle(f64::from(k)).extend(f64::from(k))).collect();
@@ -113,7 +113,7 @@ fn corners_and_lines_beyond_a_face_are_found() {
 }
 
 #[test]
-fn outlines_of_two_vertices_and_those_without_a_place_are_found() {
+fn outlines_of_two_vertices_or_without_a_place_are_found() {
     let tree = crossing(5);
     let mut fragments = 0;
     for fragment in 0..tree.len() {

@@ -1,4 +1,4 @@
-//! Randomly broken trees, compared with the faces cut by the planes again.
+//! Randomly broken trees. The oracle cuts the faces by the planes again and compares the pieces.
 
 use super::{Dismantled, Stored, build, crossing, decals, tilted, verdict};
 use crate::build::Heuristic;
@@ -11,7 +11,7 @@ use crate::tree::parts::{RawChild, RawNode};
 /// A piece of a face, or the whole face if it has no vertices.
 type Live = (u32, Vec<Vertex>);
 
-/// Whether a tree equals its faces cut by its planes from the root down.
+/// Whether a tree's pieces are the faces, cut by the tree's planes from the root down.
 fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     let faces = &tree.faces;
     let mut pieces = parts.pieces.iter();
@@ -69,7 +69,7 @@ fn is_right(tree: &BspTree, parts: &Dismantled) -> bool {
     nodes.next().is_none() && pieces.next().is_none() && cuts == parts.cuts
 }
 
-/// Whether a stored piece has a face and an outline, up to its start.
+/// Whether a stored piece has the expected face and outline; the outline may start at another vertex.
 fn same((face, stored): &(u32, Vec<Stored>), (expected, vertices): &Live) -> bool {
     let outline: Vec<Stored> = vertices.iter().map(|vertex| vertex.stored()).collect();
     let n = outline.len();
@@ -102,7 +102,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
         10 if n > 1 => vertices.insert(k % n, vertices[other % n]),
         11 if n > 1 => vertices.swap(k % n, other % n),
         12 | 13 if n > 1 && !from.is_empty() => {
-            // A line of a vertex, or a vertex except for its line, from another piece.
+            // Takes the line of a vertex, or a vertex without its line, from another piece.
             let [here, there] = [vertices[k % n], from[other % from.len()]]
                 .map(|vertex| vertex.restored(faces, face));
             let (vertex, line) =
@@ -131,7 +131,7 @@ fn change(parts: &mut Dismantled, tree: &BspTree, random: &mut SplitMix64) {
 }
 
 #[test]
-fn trees_broken_at_random_are_valid_if_they_are_what_their_planes_make_of_the_faces() {
+fn randomly_broken_trees_are_valid_only_if_their_pieces_are_the_faces_cut_by_their_planes() {
     let mut random = SplitMix64::new(7);
     let (mut valid, mut cover, mut broken) = (0, 0, 0);
     for scene in [

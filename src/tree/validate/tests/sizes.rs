@@ -89,14 +89,14 @@ fn sizes_that_send_a_walk_in_circles_end_it() {
 }
 
 #[test]
-fn a_plane_that_tells_nothing_apart_is_idle() {
+fn a_plane_that_separates_nothing_is_found() {
     let idle = RawNode {
         plane: PlaneId::axis(0, 0),
         own: 0,
         front: RawChild::Node,
         back: RawChild::Leaf(0),
     };
-    // All of the last square's polygons are on one side of the first corner's plane.
+    // All squares are on one side of the plane through the first corner.
     let tree = build(&scene::chain(30), Heuristic::First);
     let fault = "its plane separates no fragments";
     assert_fault(&tree, |parts| parts.nodes.insert(0, idle), fault);
@@ -109,7 +109,7 @@ fn fragments_that_no_plane_tells_apart_are_a_crowd() {
     let fault = "a leaf has more than one fragment";
     for heuristic in [Heuristic::First, Heuristic::default()] {
         let tree = build(&scene::random_triangles(50, 1), heuristic);
-        // The root keeps one side as a leaf, with everything below.
+        // One side of the root becomes a leaf that contains the whole subtree.
         for front in [true, false] {
             let edit = |parts: &mut Dismantled| {
                 let root = &tree.nodes[0];
