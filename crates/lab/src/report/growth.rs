@@ -30,7 +30,7 @@ pub(super) struct Growth {
     pub(super) found: Result<Size, String>,
 }
 
-/// Its cost.
+/// The size of a tree, and the time that it takes.
 pub(super) struct Size {
     pub(super) fragments: usize,
     pub(super) depth: usize,

@@ -39,7 +39,7 @@ impl<'a> Summary<'a> {
         Self::of_trials(sections, |_, _| true)
     }
 
-    /// The same, over the trials that every method finished.
+    /// Returns the same sums over the trials that every method finished.
     fn of_common_trials(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |family, row| {
             let mut same = family.rows.iter().filter(|other| other.difficulty == row.difficulty);
@@ -114,7 +114,7 @@ impl<'a> Summary<'a> {
         self.bytes = self.bytes.max(figures.bytes);
     }
 
-    /// Its name, and the number of finished trials if it gave up in others.
+    /// Returns the method's name, and the number of finished trials if it gave up in others.
     pub(super) fn label(&self) -> String {
         label(self.method, self.ended, self.ended + self.failed)
     }
@@ -181,7 +181,8 @@ pub(super) fn headline(sections: &[Section]) -> Table {
     six(Summary::of_families(sections))
 }
 
-/// The same, over the trials that every method finished; `None` if every method finished all.
+/// Returns the same table over the trials that every method finished; `None` if every method finished all
+/// trials.
 pub(super) fn in_common(sections: &[Section]) -> Option<Table> {
     let all = Summary::of_families(sections);
     all.iter().any(|summary| summary.failed > 0).then(|| six(Summary::of_common_trials(sections)))

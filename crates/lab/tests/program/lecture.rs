@@ -47,7 +47,7 @@ fn all_chapters_are_on_one_page() {
     {
         assert!(page.contains(part), "{part}");
     }
-    // A command is never left as it was typed.
+    // No backticks around a command are left.
     assert!(!page.contains(">`") && !page.contains(" `"));
     // Without the pictures, whose letters may be anything.
     let texts =
