@@ -13,7 +13,7 @@ use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part};
 /// The result of a step.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The polygons it leaves out, in words.
+    /// The name of the polygons that this step leaves out.
     pub name: &'static str,
     /// The fragments that are left, back to front.
     pub left: Vec<u32>,
@@ -21,11 +21,11 @@ pub struct Step {
     pub time: Duration,
 }
 
-/// The steps of culling for a camera, each after the steps before it: none, polygons outside the view volume,
-/// back faces, and hidden polygons.
+/// Runs the steps of culling for a camera. They leave out nothing, polygons outside the view volume, back
+/// faces, and hidden polygons; each step includes the steps before it.
 ///
-/// Backs may only be left out of closed bodies that are seen from outside. Hidden polygons are found on one
-/// front-to-back traversal, which skips subtrees that the other steps leave out.
+/// Back faces may be left out only if all bodies are closed and seen from outside. Hidden polygons are found
+/// on one front-to-back traversal, which skips subtrees that the other steps leave out.
 pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
     // Boxes are made once, before the frames that are timed.
     tree.bounds();
@@ -55,7 +55,7 @@ pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
 /// The figures of a step.
 #[derive(Clone, Debug)]
 pub struct Left {
-    /// The polygons it leaves out, in words.
+    /// The name of the polygons that this step leaves out.
     pub name: &'static str,
     /// The polygons that are left.
     pub polygons: usize,
@@ -80,7 +80,7 @@ pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
     steps(tree, camera, rays).into_iter().map(left).collect()
 }
 
-/// An eye over a crossing of streets of a city, above the highest roof.
+/// Creates a camera over a street crossing of the city, above the highest roof.
 ///
 /// # Errors
 ///
@@ -90,11 +90,11 @@ pub fn over_the_city(size: [u32; 2]) -> Result<Camera, Error> {
     Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
 }
 
-/// Sets `left` to the fragments that own a pixel, back to front, from the wanted fragments. Returns the
-/// number of subtrees entered to find them.
+/// Sets `left` to the wanted fragments that are visible in at least one pixel, back to front. Returns the
+/// number of subtrees that were entered to find them.
 ///
 /// One front-to-back traversal finds them: it skips subtrees that are out of view or hidden by earlier
-/// fragments. The mask alone would find most of the subtrees out of view as well.
+/// fragments. The mask alone would skip most subtrees out of view, but not all.
 pub fn unhidden(
     tree: &BspTree,
     camera: &Camera,
@@ -162,7 +162,7 @@ mod tests {
         let mut random = SplitMix64::new(3);
         let mut sums = [0; 4];
         for _ in 0..12 {
-            // Over the streets or just above the roofs, never in a house.
+            // Eyes are over the streets or just above the roofs, never in a house.
             let street = dvec3(
                 1.0 + random.range(0.0, 23.0).floor(),
                 1.0 + random.range(0.0, 23.0).floor(),

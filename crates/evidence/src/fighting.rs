@@ -44,13 +44,13 @@ pub struct Fight {
 pub struct Prediction {
     /// The nearest and the furthest depth at which the sheets are less than a step apart.
     pub begin: Option<[f64; 2]>,
-    /// The number of wrong pixels. Sheets that are a share s of a step apart are stored as the same in 1 − s
-    /// of all places.
+    /// The number of wrong pixels. Where the sheets are s steps apart, with s below 1, both are stored as the
+    /// same number in a share 1 − s of the pixels.
     pub wrong: f64,
 }
 
 impl Sheets {
-    /// The sheets, and a picture of them of this size, 4 to 3.
+    /// Creates the sheets, and their true picture of this size. Width and height should be as 4 to 3.
     ///
     /// # Panics
     ///
@@ -107,9 +107,9 @@ impl Sheets {
         self.shown_by(&DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]))
     }
 
-    /// The prediction that includes the roundings of the pipeline: the planes as it sets them up, the
-    /// roundings in each pixel within their bounds, and the steps. No pixel is wrong outside the predicted
-    /// depths.
+    /// Returns the prediction that includes the roundings of the pipeline: it uses the planes that the
+    /// pipeline sets up, bounds of the roundings in each pixel, and the steps. No pixel is wrong outside the
+    /// predicted depths.
     ///
     /// # Errors
     ///
@@ -171,13 +171,14 @@ struct Apart {
 }
 
 impl Apart {
-    /// Whether they are certainly stored as different numbers, the nearer as the nearer.
+    /// Whether both are certainly stored as different numbers, in the right order.
     fn is_right(&self) -> bool {
         self.steps - self.roundings[0] - self.roundings[1] > 1.0
     }
 
-    /// The probability that they are not, if both roundings are anywhere within their bounds: numbers that
-    /// are a share s of a step apart are stored as the same in 1 − s of all places.
+    /// The probability of a wrong pixel, if each rounding is equally likely anywhere within its bound.
+    /// Numbers that are s steps apart, with s below 1, are stored as the same number with the probability 1 −
+    /// s.
     fn share_wrong(&self) -> f64 {
         const PARTS: u32 = 8;
         let middle = |k: u32| (2 * k + 1) as f64 / f64::from(PARTS) - 1.0;
@@ -241,9 +242,9 @@ mod tests {
         }
     }
 
-    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be
-    /// wrong, the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels
-    /// is half to twice the predicted number.
+    /// No pixel is wrong where roundings cannot make it so. If at least a tenth of the picture is predicted
+    /// to be wrong, then the nearest wrong pixel is within 15 % of the predicted depth, and the number of
+    /// wrong pixels is half to twice the predicted number.
     #[test]
     fn roundings_predict_where_every_format_fights() {
         let cases: [(DepthFormat, &[f64]); 6] = [

@@ -13,11 +13,11 @@ use self::components::{components, fewest_removed};
 use self::cone::Seen;
 use crate::place;
 
-/// Which faces hide parts of which from a viewpoint, for every direction of view, in big integers. For small
-/// scenes: every pair is tested, O(n²).
+/// Which faces hide parts of which other faces from a viewpoint, for every direction of view, in big
+/// integers. For small scenes only: every pair is tested, in O(n²) time.
 ///
-/// A face hides another if a ray from the eye passes through the inside of both and meets it first. Faces
-/// that penetrate each other may hide parts of each other.
+/// A face hides another if a ray from the eye passes through the inside of both and meets the hiding face
+/// first. Faces that penetrate each other may hide parts of each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hiding {
     /// For each face, the faces that it hides parts of, in ascending order.
@@ -74,7 +74,7 @@ impl Hiding {
     }
 
     /// An order in which whole faces can be painted, each after all faces that it hides parts of; `None` if
-    /// there is a cycle. Of several possible next faces, the first is taken.
+    /// there is a cycle. Of several possible next faces, the face with the least number is taken.
     pub fn paint_order(&self) -> Option<Vec<u32>> {
         let mut waits_for: Vec<usize> = self.hidden.iter().map(Vec::len).collect();
         let mut order = Vec::with_capacity(waits_for.len());
@@ -90,14 +90,14 @@ impl Hiding {
         Some(order)
     }
 
-    /// The minimal number of faces that have to be cut by any method: each cycle contains one of them. `None`
-    /// if more than [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another, as all their
-    /// subsets are tried.
+    /// The minimal number of faces that have to be cut by any method: each cycle contains one of them. All
+    /// subsets of the faces on a cycle are tried, so the result is `None` if more than
+    /// [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another.
     pub fn fewest_cut(&self) -> Option<usize> {
         self.cycles().iter().map(|cycle| fewest_removed(&self.hidden, cycle)).sum()
     }
 
-    /// The most faces of which all subsets are tried.
+    /// The largest number of faces whose subsets are all tried.
     pub const SEARCHED: usize = components::SEARCHED;
 }
 
@@ -115,7 +115,7 @@ pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
     let overlaps = |i: usize| {
         let [low, high] = extents[i];
         let later = extents[i + 1..].iter().take_while(move |other| other[0] < high);
-        // Not one that is as near as the other begins and has no depth.
+        // Except a face without extent in depth at the start of this face's extent.
         later.filter(move |other| other[1] > low).count()
     };
     (0..extents.len()).map(overlaps).sum()

@@ -63,8 +63,8 @@ pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     overdraw
 }
 
-/// From front to back with a mask of the covered pixels: each pixel is written once. Subtrees whose box the
-/// mask hides are skipped. Once all pixels are covered, the traversal ends.
+/// Paints from front to back with a mask of the covered pixels: each pixel is written once. Subtrees whose
+/// box the mask hides are skipped. Once all pixels are covered, the traversal ends.
 ///
 /// # Errors
 ///
@@ -90,8 +90,8 @@ pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     Ok(overdraw)
 }
 
-/// The overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is nearer than all
-/// earlier ones. `layers` belong to the same rays.
+/// The overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is nearer than
+/// all earlier ones. `layers` must have been made with the same rays.
 pub fn depth_buffer(
     faces: &Faces,
     rays: &Rays,
@@ -151,8 +151,8 @@ mod tests {
         [at(0.0, 0.0), at(side, 0.0), at(side, side), at(0.0, side)]
     }
 
-    /// The tests and writes of squares seen from above, 20 by 20 pixels of 0.1 each: of painting,
-    /// from front to back, and of depth buffers that get them in input order and in reverse.
+    /// The tests and writes of squares seen from above, in 20 by 20 pixels of 0.1 each: by a painter, from
+    /// front to back with a mask, and by depth buffers in input order and in reverse order.
     fn sums(squares: &[[DVec3; 4]]) -> [[u64; 2]; 4] {
         let tree = BspTree::build(squares).unwrap();
         let centre = DVec3::new(0.5, 0.5, 0.0);

@@ -1,8 +1,8 @@
 //! The exact positions of planes and vertices, from their definitions, in big integers.
 //!
-//! It shares no arithmetic with the library's: planes by their coefficients, vertices as crossings
-//! of segments and by Cramer's rule. Its input is the corners on the lattice, the
-//! corners that define each face's plane, and the names of planes and vertices.
+//! Shares no arithmetic with the library: planes are coefficients, and vertices are computed as crossings of
+//! segments or by Cramer's rule. Its input is the corners on the lattice, the corners that define each face's
+//! plane, and the names of planes and vertices.
 
 use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use dashu_int::IBig;
@@ -138,8 +138,8 @@ impl Place {
         place.with_positive_weight()
     }
 
-    /// The point in which a segment meets a plane: its ends' mean, weighted by the plane at the
-    /// other end.
+    /// The point in which a segment meets a plane: the mean of both ends, each weighted by the value of the
+    /// plane at the other end.
     fn crossing([a, b]: &[Self; 2], plane: &Plane) -> Option<Self> {
         let (at_a, at_b) = (plane.at(a), plane.at(b));
         let mean = |of_a: &IBig, of_b: &IBig| &at_a * of_b - &at_b * of_a;
@@ -180,7 +180,7 @@ impl Place {
         &self.weight
     }
 
-    /// Two coordinates, those behind an axis, as numerators.
+    /// The numerators of the two coordinates that follow an axis, in cyclic order.
     pub(crate) fn along(&self, axis: usize) -> [&IBig; 2] {
         [&self.coordinates[(axis + 1) % 3], &self.coordinates[(axis + 2) % 3]]
     }
@@ -214,7 +214,8 @@ pub(crate) fn eye(eye: &Eye) -> [IBig; 4] {
     [x, y, z, u8::from(eye.shift().is_some()).into()]
 }
 
-/// Rounded trees make vertices anywhere; further off than 256 scenes is as bad as infinitely far.
+/// A larger coordinate counts as infinite. Rounded trees can have vertices at any distance, and 256 extents
+/// are beyond any useful error.
 const REACH: f64 = (1u64 << 59) as f64;
 
 /// A whole number below 2⁶³.

@@ -23,15 +23,15 @@ pub const UNITS: f64 = 256.0;
 /// The intersection of a ray and a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
-    /// Nothing.
+    /// The ray misses the polygon.
     Nothing,
-    /// Its boundary, or all of its plane.
+    /// The ray meets the polygon's boundary, or lies in its plane.
     Boundary,
-    /// Its inside.
+    /// The ray meets the inside of the polygon at this depth.
     At(Depth),
 }
 
-/// A depth, exactly: a fraction whose lower part is above 0.
+/// An exact depth: a fraction with a denominator above 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Depth {
     over: i128,
@@ -44,7 +44,7 @@ impl Depth {
         (self.over * other.under).cmp(&(other.over * self.under))
     }
 
-    /// As a multiple of a ray, a fraction.
+    /// The depth as a multiple of a ray: numerator and denominator.
     pub(crate) fn along(&self, ray: [i128; 3]) -> [i128; 2] {
         [self.over, self.under * -ray[2]]
     }
@@ -56,7 +56,7 @@ impl Depth {
 }
 
 impl PlainView {
-    /// A view of this size, about 50 degrees high.
+    /// Creates a view of this size, about 50 degrees high.
     pub fn new(size: [u32; 2]) -> Self {
         Self { size, shift: size[1].next_power_of_two().ilog2() }
     }
@@ -88,7 +88,7 @@ impl PlainView {
     pub fn meet(&self, polygon: &[Corner], pixel: [u32; 2]) -> Met {
         let ray = self.ray(pixel);
         let corner = |k: usize| polygon[k % polygon.len()].map(i128::from);
-        // On which side of the plane through the eye and an edge the ray is.
+        // The side of the plane through the eye and an edge on which the ray lies.
         let sides = (0..polygon.len()).map(|k| dot(ray, cross(corner(k), corner(k + 1))).signum());
         let (mut left, mut right, mut on) = (false, false, false);
         sides.for_each(|side| match side {

@@ -29,7 +29,7 @@ impl Residue {
 
     pub(crate) fn times(self, other: Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
-        // 2⁶¹ leaves 1, so the digits of 61 bits are added up.
+        // 2⁶¹ is 1 modulo the prime, so the digits of 61 bits are added up.
         Self(((product >> 61) as u64 + (product as u64 & PRIME)) % PRIME)
     }
 

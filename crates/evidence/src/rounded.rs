@@ -41,8 +41,8 @@ pub struct RoundedPlane<T> {
     precision: PhantomData<T>,
 }
 
-/// A face, or a piece of one that was cut. Definitions of vertices are kept to judge them; no
-/// decision uses them.
+/// A face or a piece of a face. The definitions of vertices are kept to judge the vertices; no decision uses
+/// them.
 #[derive(Clone, Debug)]
 pub struct RoundedPiece {
     face: u32,
@@ -123,7 +123,7 @@ impl<T: Precision> RoundedPlane<T> {
             let (here, next) = (sides[i], sides[j]);
             let crossing = || self.crossing(&vertex, &piece.vertices[j]);
             for (part, own) in parts.iter_mut().zip([Ordering::Greater, Ordering::Less]) {
-                // The line along the plane, where the part's outline leaves the piece's.
+                // The line along the plane, where the outline of the part leaves the outline of the piece.
                 let cut = EdgeLine::cut(self.plane, own.is_lt());
                 let leaves = next == own.reverse();
                 if here == own || here.is_eq() {
@@ -285,7 +285,7 @@ impl Tree {
     }
 }
 
-/// The best plane of a sample of the pieces' planes: few cuts, and sides of like size.
+/// The best plane of a sample of the pieces' planes: few cuts, and sides of similar size.
 fn choose<T: Precision>(faces: &Faces, pieces: &[RoundedPiece], epsilon: f64) -> RoundedPlane<T> {
     let count = CANDIDATES.min(pieces.len());
     let planes = (0..count).map(|i| {

@@ -26,7 +26,7 @@ pub enum Zone {
     Umbra,
 }
 
-/// Which zone a point is in, by exact sight lines to points of a lamp.
+/// Returns the zone of a point, by exact sight lines to points of a lamp.
 ///
 /// For a point lamp this is complete. For a rectangle, it is right except near the shadow's boundary: lit or
 /// hidden parts between the points are not noticed. [`is_umbra`] is certain.

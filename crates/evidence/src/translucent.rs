@@ -111,9 +111,10 @@ pub fn by_nearest_layers(
     layers.pixels().map(blend).collect()
 }
 
-/// The weights of [`by_weights`], by the numbers of their equations. They take the distance of a layer from the
-/// eye: in 7 to 9 as if the furthest corner had the distance 500, in 10 as the depth between the nearest and the
-/// furthest corner.
+/// The weights of [`by_weights`], by the numbers of their equations in the paper. A weight depends on the
+/// distance z of a layer from the eye. In equations 7 to 9, distances are scaled so that the furthest corner
+/// is at 500. In equation 10, d is the depth after the perspective divide, from 0 at the nearest corner to 1
+/// at the furthest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {
     /// 10 / (10⁻⁵ + (z/5)² + (z/200)⁶).
@@ -148,8 +149,9 @@ impl Weight {
 }
 
 /// Weighted blended order-independent transparency (M. McGuire and L. Bavoil, "Weighted blended
-/// order-independent transparency", 2013): the mean of the layers' colours by opacity and weight, over the
-/// background as often as the layers cover it.
+/// order-independent transparency", 2013): the mean of the layers' colours, weighted by opacity and `weight`,
+/// over the background. The share of the background that remains is the product of the layers'
+/// transparencies.
 ///
 /// # Panics
 ///
@@ -226,7 +228,7 @@ mod tests {
     /// Two squares that fill a picture, the nearer one red with opacity 0.5, the further one green with opacity 0.25;
     /// and white behind them.
     #[test]
-    fn blends_without_an_order_are_those_by_hand() {
+    fn blends_without_an_order_match_hand_computation() {
         let square = |z: f64| [[-9., -9., z], [9., -9., z], [9., 9., z], [-9., 9., z]];
         let (faces, _) = Faces::new([square(-1.0), square(-2.0)], Some(0.0)).unwrap();
         let (eye, middle) = (DVec3::ZERO, DVec3::NEG_Z);

@@ -47,8 +47,8 @@ pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, Error> {
     Camera::perspective(eye, target, DVec3::Z, 1.2, size)
 }
 
-/// An order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut
-/// are numbered as they come.
+/// An order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut are
+/// numbered in this order.
 pub fn letters(tree: &BspTree, order: &[u32]) -> String {
     let polygon = |fragment: u32| tree.fragment(fragment).polygon();
     let name = |(place, &fragment): (usize, &u32)| {
@@ -60,9 +60,9 @@ pub fn letters(tree: &BspTree, order: &[u32]) -> String {
     order.iter().enumerate().map(name).collect::<Vec<_>>().join(" ")
 }
 
-/// Two triangles on a grid of six by six pixels, seen along −z: the depths at the centres of pixels
-/// are whole numbers. The first is 5 deep everywhere, the second 2 at the left, and 2 more from
-/// column to column.
+/// Two triangles on a grid of six by six pixels, seen along −z: the depths at the centres of pixels are whole
+/// numbers. The first triangle has depth 5 everywhere. The second has depth 2 in the first column, and 2 more
+/// in each further column.
 pub fn six_by_six() -> [[DVec3; 3]; 2] {
     let first = [[0.0, 0.0, -5.0], [12.0, 0.0, -5.0], [0.0, 12.0, -5.0]];
     // Depth 2x + 1, so 2 at the centre of the first column.

@@ -30,7 +30,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Polygons by the library's routine, under their own numbers.
+    /// Draws polygons by the library's routine. They keep their numbers.
     pub fn new(rays: &Rays, faces: &Faces) -> Self {
         let depth = zbuffer(rays, faces);
         let number = |&face: &u32| if face == NONE { NONE } else { faces.polygon(face) as u32 };

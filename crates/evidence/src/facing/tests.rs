@@ -119,10 +119,10 @@ fn a_box_shows_one_two_or_three_faces() {
     }
 }
 
-/// Two boxes, the nearer first: their fronts overlap, so the step alone is not enough; before
-/// another method it changes nothing but the work.
+/// Two boxes, the nearer first. Their fronts overlap, so the step alone is not enough. Before another method,
+/// the step changes only the work.
 #[test]
-fn of_closed_bodies_the_step_leaves_the_picture_as_it_is() {
+fn the_step_does_not_change_pictures_of_closed_bodies() {
     let near = cuboid(DVec3::new(0.0, 0.0, 2.0), DVec3::new(1.0, 1.0, 3.0));
     let two = [near, cuboid(DVec3::ZERO, DVec3::ONE)].concat();
     let eye = DVec3::new(1.5, 1.7, 9.0);

@@ -49,7 +49,8 @@ pub enum Family {
     /// Long narrow triangles woven through each other; the difficulty is their width, as a share of
     /// their length.
     Sliver,
-    /// One triangle that others pierce, and that is cut for each; the difficulty is their number.
+    /// One triangle that other triangles pierce, so that each of them cuts it; the difficulty is the number
+    /// of the others.
     Nesting,
     /// Squares and diagonals of an integer grid, with ties everywhere; the difficulty is the number
     /// of cells per side.
@@ -67,7 +68,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// Every family, in the order in which to list them.
+    /// All families, in the order in which they are listed.
     pub const ALL: [Self; 11] = [
         Self::Angle,
         Self::Gap,
@@ -102,7 +103,7 @@ impl Family {
         }
     }
 
-    /// One line on the scenes.
+    /// Returns a one-line description of the scenes.
     pub fn description(self) -> &'static str {
         match self {
             Self::Angle => "six triangles that cross each other at a small angle",
@@ -165,18 +166,18 @@ impl Family {
         }
     }
 
-    /// The scene of a difficulty. A difficulty that is a number of things is rounded down, and is
-    /// at least the smallest of the sweep.
+    /// The scene of a difficulty. A difficulty that counts things is rounded down, and is at least the
+    /// smallest of the sweep.
     pub fn scene(self, difficulty: f64, seed: u64) -> Scene {
         self.trial(difficulty, seed).scene
     }
 
-    /// Cameras that show the difficulty in many pixels, from the front, from behind, from within
-    /// and from around, for pictures of `[width, height]` pixels. The first is the most telling.
+    /// Cameras that show the difficulty in many pixels, from the front, from behind, from within and from
+    /// around, for pictures of `[width, height]` pixels. The first camera shows the difficulty best.
     ///
     /// # Errors
     ///
-    /// If the size is zero or too large, or the difficulty is not a usable number.
+    /// If the size is zero or too large, or the difficulty is so large or small that no camera can be made.
     pub fn cameras(self, difficulty: f64, seed: u64, size: [u32; 2]) -> Result<Vec<Camera>, Error> {
         let Trial { looks, half_height, .. } = self.trial(difficulty, seed);
         let camera = |look: &Look| {

@@ -37,9 +37,9 @@ pub(super) fn scale(factor: f64, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// Nine places in the picture, in each a pair of triangles that cross at an angle of 1/500, at
-/// depths from 1 to `ratio` in even steps of a factor, each as large as it takes to be seen alike;
-/// and a triangle behind all of them.
+/// Nine pairs of triangles, each in its own place of the picture. The triangles of a pair cross at an angle
+/// of 1/500. The depths of the pairs grow from 1 to `ratio` by a constant factor. Pairs grow with their
+/// depths, so that all look equally large. Another triangle lies behind all pairs.
 pub(super) fn depth_range(ratio: f64, seed: u64) -> Trial {
     /// The slope of one triangle of a pair against the other.
     const SLOPE: f64 = 2e-3;

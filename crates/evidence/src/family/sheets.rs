@@ -8,7 +8,7 @@ use binspace::internals::SplitMix64;
 use binspace::internals::unit_circle;
 
 /// Six triangles around one point. Triangle `i` rises by `angle` in its own direction, a sixth of a turn from
-/// the next one's. So neighbours cross at `angle`, and other triangles at up to twice that.
+/// the next one's. So neighbours cross at `angle`, and other triangles at up to twice this angle.
 pub(super) fn angle(angle: f64, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);

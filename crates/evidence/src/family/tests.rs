@@ -163,13 +163,13 @@ fn boxes_touch_but_for_rounding() {
 #[test]
 fn bars_cover_each_other_in_a_cycle() {
     each_step(Family::Cycle, |count, scene| {
-        // The ends of one bar at a time, as a line from the middle of one end to the other's.
+        // Each bar as a line from the middle of one end to the middle of the other end.
         let lines: Vec<[DVec3; 2]> = scene
             .polygons()
             .map(|p| [(p.points()[0] + p.points()[3]) * 0.5, (p.points()[1] + p.points()[2]) * 0.5])
             .collect();
         let centre = scene.polygons().flatten().sum::<DVec3>() / (4.0 * count);
-        // Every bar rises along itself; all together they do not.
+        // Each bar rises along its length, but the slopes cancel in the sum over all bars.
         let across =
             |line: &[DVec3; 2]| ((line[0] + line[1]) * 0.5 - centre).cross(line[1] - line[0]);
         let up = lines.iter().map(across).sum::<DVec3>().normalize();

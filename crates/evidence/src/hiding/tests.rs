@@ -40,8 +40,8 @@ fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> 
     (face.place(&at).is_gt() && t.is_positive()).then_some(t)
 }
 
-/// Every detected pair has a ray as proof: the one through the middle of the part where the one is in front,
-/// by rationals.
+/// Every detected pair is proved by a ray, in rationals: the ray through the middle of the part in which the
+/// first face hides the second.
 fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
     let viewpoint = Viewpoint::eye(eye);
     let hiding = Hiding::of(faces, viewpoint);
@@ -57,7 +57,8 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
                 assert!(!hiding.hides(a, b));
                 continue;
             }
-            // Rays through the middle, and near each vertex: one in 2³⁰ of the way from it.
+            // Rays through the middle, and near each vertex: at 2⁻³⁰ of the way from the vertex to the
+            // middle.
             let points: Vec<Vector> = part
                 .iter()
                 .map(|v| {
@@ -120,7 +121,7 @@ fn nothing_that_hides_in_a_picture_is_overlooked() {
                 only.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
                 painter.finish()
             };
-            // Where both are, A is the truly visible one.
+            // A pixel that both cover and in which A is the visible face proves that A hides B.
             let (one, other) = (draw(&[a]), draw(&[b]));
             let pixels = one.faces().iter().zip(other.faces()).zip(truth.image().faces());
             let hides = pixels.filter(|((p, q), t)| **p == a && **q == b && **t == a).count();
@@ -178,7 +179,7 @@ fn scenes_without_cycles_are_painted_whole_and_those_with_one_in_no_order() {
             let place = |face: u32| order.iter().position(|&f| f == face);
             order.iter().all(|&a| order.iter().all(|&b| !hiding.hides(a, b) || place(b) < place(a)))
         };
-        // The most faces that can be painted whole in some order: the longest beginning of an order.
+        // The largest number of faces that can be painted whole: the longest valid prefix of any order.
         let whole = |order: &Vec<u32>| (0..=5).filter(|&k| is_kept(&order[..k])).max().unwrap();
         let most = orders(5).iter().map(whole).max().unwrap();
         assert_eq!(hiding.fewest_cut(), Some(5 - most));

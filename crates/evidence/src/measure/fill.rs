@@ -7,7 +7,7 @@ use binspace::raster::{Image, NONE};
 /// outlines are off by up to 2⁻¹⁵.
 const NEAR: f64 = 4e-5;
 
-/// The cover of a pixel's centre.
+/// The polygon at a pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pixel {
     Nothing,
@@ -16,7 +16,7 @@ enum Pixel {
     Unsure,
 }
 
-/// A picture that outlines are filled in, one over another.
+/// A picture into which outlines are filled, one over another.
 #[derive(Clone, Debug)]
 pub struct Filled {
     size: [usize; 2],
@@ -28,7 +28,8 @@ pub struct Filled {
 pub struct FillError {
     /// Pixels that show a polygon in either picture and could be compared.
     pub compared: usize,
-    /// Compared pixels that differ: another polygon, a polygon in an empty pixel, or an empty pixel.
+    /// Compared pixels that differ: they show another polygon, a polygon where none should be, or no polygon
+    /// where one should be.
     pub wrong: usize,
     /// Undecided pixels: an outline passes too near their centre.
     pub unsure: usize,
@@ -75,7 +76,7 @@ impl Filled {
         near.into_iter().for_each(|pixel| self.pixels[pixel] = Pixel::Unsure);
     }
 
-    /// Finds the pixels whose centres an edge passes too near.
+    /// Finds the pixels whose centres are too near to an edge.
     fn find_near(&self, a: [f64; 2], b: [f64; 2], near: &mut Vec<usize>) {
         let size = self.size.map(|side| side as f64);
         for axis in 0..2 {

@@ -25,7 +25,7 @@ pub struct PictureError {
     pub depth_max: f64,
     /// The mean distance, over the wrong pixels in which the ray meets the painted polygon at all.
     pub depth_mean: f64,
-    /// The number of these pixels.
+    /// The number of pixels in `depth_mean`.
     pub depth_pixels: usize,
 }
 
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// The same for an eye: depth is measured along the direction of view, not along rays.
+    /// For an eye as well, depth is measured along the direction of view, not along rays.
     #[test]
     fn depth_is_along_the_direction_of_view() {
         let (faces, _) = scene(&[(6.0, 0.0), (6.0, -2.0)], Some(0.0));

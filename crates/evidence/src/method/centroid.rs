@@ -12,8 +12,8 @@ use binspace::view::Camera;
 /// Paints faces in the order of the depths of their centroids, the means of their corners, the furthest
 /// first. Most programs for plots and vector graphics do this.
 ///
-/// Depth is measured along the camera's direction of view. Nothing is split, so faces that overlap in depth may
-/// be in the wrong order. Of faces at the same depth, the later one is painted later.
+/// Depth is measured along the camera's direction of view. Nothing is split, so faces that overlap in depth
+/// may be in the wrong order. If two faces have the same depth, the later one is painted later.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Centroid;
 
@@ -62,7 +62,7 @@ fn sort(
 struct Ready<'a> {
     faces: &'a Faces,
     centroids: Vec<[f64; 3]>,
-    /// Depths with the faces they are of.
+    /// Depths, each with its face.
     keys: Vec<(f64, u32)>,
 }
 

@@ -12,7 +12,7 @@ pub enum Space {
     Image,
     /// Priorities among the polygons, overlaps in the picture.
     Both,
-    /// It does not decide.
+    /// The method does not decide visibility.
     Neither,
 }
 

@@ -8,11 +8,12 @@ use binspace::internals::{Eye, Faces, PlaneId};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
-/// Another method, shown only the faces that turn their fronts to the eye.
+/// Another method, which gets only the faces that turn their fronts to the eye.
 ///
-/// All visible faces of a convex body are front faces, and none of them hides another. There the step alone,
-/// before [`InputOrder`](super::InputOrder), gives the exact picture. For other closed bodies it removes
-/// about half of the faces ahead of the method. Surfaces that are not closed lose their visible backs.
+/// All visible faces of a convex body are front faces, and none of them hides another. So for a convex body,
+/// this step and [`InputOrder`](super::InputOrder) give the exact picture. For other closed bodies, the step
+/// removes about half of the faces before the method starts. Surfaces that are not closed lose their visible
+/// backs.
 ///
 /// The side of the eye is decided exactly.
 #[derive(Clone, Copy, Debug, Default)]

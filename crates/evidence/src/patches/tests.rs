@@ -59,7 +59,7 @@ fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
     assert!(one_way[2] < 0.3 * one_way[0] && one_way[2] < 0.05, "{one_way:?}");
 }
 
-/// A rectangle in a level plane, its front above; or below, if it is turned.
+/// A rectangle in a level plane. Its front is above, or below if `is_turned`.
 fn level(x: [f64; 2], y: [f64; 2], z: f64, is_turned: bool) -> [DVec3; 4] {
     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z));
     let [a, b, c, d] = corners;
@@ -84,9 +84,10 @@ fn rectangles_of_other_shapes_are_those_of_the_closed_formulas() {
     }
 }
 
-/// A small patch sees a large wall through a window in a screen: as much of it as of the window.
+/// A small patch sees a large wall through a window in a screen. The form factor of the wall is the form
+/// factor of the window.
 #[test]
-fn through_a_window_as_much_is_seen_as_of_the_window() {
+fn a_wall_behind_a_window_gets_the_form_factor_of_the_window() {
     let small = level([-1e-3, 1e-3], [-1e-3, 1e-3], 0.0, false);
     let wall = level([-40.0, 40.0], [-40.0, 40.0], 4.0, true);
     // The window reaches from the point above the patch to 2 and 3, one unit above.
@@ -106,7 +107,7 @@ fn through_a_window_as_much_is_seen_as_of_the_window() {
 
 /// A screen right above a patch, at a thousandth of the way, hides all.
 #[test]
-fn what_is_near_an_end_hides_as_well() {
+fn screens_near_an_end_of_a_sight_line_block_it() {
     let floor = level([0.0, 2.0], [0.0, 3.0], 0.0, false);
     let over = level([0.0, 2.0], [0.0, 3.0], 1.5, true);
     for height in [1.5e-3, 1.5 - 1.5e-3] {
@@ -118,7 +119,7 @@ fn what_is_near_an_end_hides_as_well() {
 /// The form factor from a point to a patch, as a sum over small parts: also for patches partly below its
 /// horizon.
 #[test]
-fn what_a_point_sees_is_what_small_parts_send_it() {
+fn the_point_form_factor_is_the_sum_over_small_parts() {
     const PARTS: u32 = 200;
     let mut random = SplitMix64::new(6);
     let (mut cut, mut compared) = (0, 0);

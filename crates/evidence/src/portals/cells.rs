@@ -13,7 +13,7 @@ use super::outline::{Outline, Plane, clip, split, without};
 pub(super) const NOISE: f64 = 1e-12;
 const THIN: f64 = 1e-9;
 
-/// The cells that a tree divides space into, and where one sees from one to the next: the portals.
+/// The cells into which a tree divides space, and the portals: the openings between two cells.
 ///
 /// Cells are the tree's leaves. A leaf that holds a fragment is divided by its plane as well, so that all
 /// polygons lie on the walls of cells. The portals on a plane are the parts that its polygons leave open (S.
@@ -34,7 +34,7 @@ pub struct Cells {
 #[derive(Clone, Debug)]
 struct Node {
     plane: Plane,
-    /// The front, then the back.
+    /// The front side, then the back side.
     sides: [Next; 2],
     /// The fragments on the plane.
     own: Range<u32>,
@@ -68,7 +68,7 @@ pub(super) struct Surface {
 pub(super) struct Portal {
     pub(super) plane: Plane,
     pub(super) outline: Outline,
-    /// The cell in front, and that behind.
+    /// The cell in front, and the cell behind.
     pub(super) cells: [usize; 2],
 }
 

@@ -66,7 +66,7 @@ pub(super) fn clip(outline: &[DVec3], plane: &Plane) -> Outline {
 }
 
 /// The parts of a polygon in front of a plane and behind it. A polygon that reaches no further than `thin` to
-/// a side has no part there; a polygon that reaches no further to either side is on both.
+/// a side has no part there. If this is so on both sides, the whole polygon counts as a part on each side.
 pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2] {
     let [low, high] = plane.range(outline);
     let is_on = low >= -thin && high <= thin;
@@ -150,8 +150,8 @@ pub(super) fn hull(mut points: Vec<DVec3>, plane: &Plane) -> Outline {
     hull
 }
 
-/// Whether all of some points on a plane are in a polygon on it, or out of it by no more than
-/// `thin`.
+/// Whether all points are in a polygon, or outside it by no more than `thin`. Points and polygon are on one
+/// plane.
 pub(super) fn holds(outline: &[DVec3], plane: &Plane, points: &[DVec3], thin: f64) -> bool {
     outline.len() > 2 && side_planes(outline, plane).all(|side| side.range(points)[1] <= thin)
 }

@@ -8,13 +8,13 @@ use binspace::glam::DVec3;
 use super::cells::{Cells, NOISE, Portal};
 use super::outline::{Outline, Plane, apart, clip, holds, hull};
 
-/// The largest distance beyond a plane that bounds the lines of sight at which something still counts as in
-/// sight, as a share of the scene's extent.
+/// Geometry no further than this beyond a plane that bounds the lines of sight counts as visible. It is a
+/// share of the scene's extent.
 ///
 /// Points of a source and of an opening are within 4 `NOISE` of their exact places: one each for the
 /// outlines, for cutting, for the test that the plane is between them, and for parts that are not visited
-/// again. A line from the one to the other carries the sum of both on to the end of the box, which is no more
-/// than √3 · 1.02 / `NEAREST` times as far: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
+/// again. A line from the source through the opening magnifies the sum of both errors up to the end of the
+/// box, which is at most √3 · 1.02 / `NEAREST` times as far as the opening: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
 pub(super) const SLACK: f64 = 1e-7;
 /// Openings that are nearer to the source do not narrow the view: lines from the source through them would
 /// carry roundings too far. Too large: more is kept without need. Too small: `SLACK` has to be larger.

@@ -80,9 +80,9 @@ fn nothing_is_left_out_from_the_threshold_of_a_door() {
 }
 
 /// A target behind a wall with an opening, of which only a strip thinner than the slack is visible: it counts
-/// as seen. With the view narrowed by as much instead, it would be left out.
+/// as seen. If the view were narrowed by the slack instead of widened, the target would be left out.
 #[test]
-fn a_strip_along_the_rim_of_an_opening_is_seen() {
+fn a_strip_along_the_boundary_of_an_opening_is_seen() {
     let wall = |x: [f64; 2], z: f64| {
         let y = [-20.0, 20.0];
         [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z)).to_vec()
@@ -108,10 +108,9 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
 }
 
 /// Eyes so close to the boundary of an opening that its rounding turns the view by more than the slack.
-/// Polygons seen along the boundary are kept. They would not be kept if openings as near as that narrowed the
-/// view.
+/// Polygons seen along the boundary are kept. They would be lost if such near openings narrowed the view.
 #[test]
-fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
+fn polygons_seen_along_the_boundary_of_an_opening_are_kept() {
     // Upright rectangles, from one point of the ground to another.
     let upright = |from: DVec3, to: DVec3| {
         [(from, -20.0), (to, -20.0), (to, 20.0), (from, 20.0)].map(|(p, z)| p.with_z(z)).to_vec()
@@ -155,7 +154,7 @@ fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
 /// A slit of a 4-millionth of the scene, a hundred times the width that counts as closed: the far wall is
 /// seen.
 #[test]
-fn what_is_seen_through_a_slit_is_kept() {
+fn polygons_seen_through_a_slit_are_kept() {
     let wall = |x: [f64; 2], z: f64| {
         [(0, -20.0), (1, -20.0), (1, 20.0), (0, 20.0)].map(|(i, y)| dvec3(x[i], y, z)).to_vec()
     };

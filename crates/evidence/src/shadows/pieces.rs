@@ -13,10 +13,10 @@ use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 
-/// A convex part of a face, all of whose inner points see the same of a lamp.
+/// A convex part of a face. All its inner points see the same points of a lamp.
 ///
-/// It is bounded by edges of the face, and by planes through a point of the lamp and an edge of a
-/// face that hides it. Corners are exact: each is where two such planes meet the face's own.
+/// It is bounded by edges of the face, and by planes through a point of the lamp and an edge of a face that
+/// hides it. Corners are exact: each is the point where two of these planes meet the plane of the face.
 #[derive(Clone, Debug)]
 pub struct Piece {
     /// The face that it is a part of.
@@ -112,7 +112,7 @@ pub struct Pieces {
 }
 
 /// Cuts all faces of a tree along the boundaries of the shadows that points of a lamp cast. A face whose
-/// plane goes through the lamp is in its light edge-on, and sees nothing of it.
+/// plane contains a point of the lamp sees nothing of this point.
 ///
 /// Each face is cut by the shadows of the faces that the tree's boxes find between it and the lamp. Time
 /// grows with these and with the number of pieces. The lamp is rounded to the faces' lattice.
@@ -120,7 +120,8 @@ pub fn pieces(tree: &BspTree, lamp: &[DVec3]) -> Pieces {
     pieces_by(tree.faces(), lamp, |corners, at| casters(tree, corners, at))
 }
 
-/// The pieces; a function finds the possible casters of shadows on a face with some corners from a point.
+/// The pieces. The function `casters` finds the faces that may throw a shadow from a point on a face with the
+/// given corners.
 pub(super) fn pieces_by(
     faces: &Faces,
     lamp: &[DVec3],
@@ -131,7 +132,7 @@ pub(super) fn pieces_by(
     for face in 0..faces.len() as u32 {
         let whole = whole(faces, face, lamp.len());
         let corners: Vec<DVec3> = whole.corners(faces).collect();
-        // A face sees nothing of a lamp in its plane, whatever is before it.
+        // A face sees nothing of a lamp in its plane, even if nothing is between them.
         let is_asked = |number: usize| shades[number][face as usize].is_some();
         let casters = |(number, &at): (usize, &DVec3)| match is_asked(number) {
             true => casters(&corners, at),
@@ -183,7 +184,7 @@ fn pieces_of(
     pieces
 }
 
-/// Cuts the part in front of all of some planes out of pieces, and marks it.
+/// Cuts out of pieces the part that is in front of all given planes, and marks it.
 fn cut(
     pieces: Vec<Piece>,
     face: &Plane,
@@ -210,7 +211,7 @@ fn cut(
                 result.extend(outside);
                 result.push(inside);
             }
-            // Nothing is in front of all: it need not be cut.
+            // No part is in front of all planes, so the piece need not be cut.
             None => result.push(piece),
         }
     }

@@ -55,8 +55,8 @@ fn every_tree_of_own_planes_has_the_fragments_of_the_formula() {
     assert_eq!(counted, 54);
 }
 
-/// Sheets by another count: of cells, as runs of signs. Each region between the sheets has its own
-/// row of sides, all of which occur at points near the corners of the arrangement.
+/// Counts the cells between sheets in another way. Each cell has its own row of signs: its sides of all
+/// sheets. All rows occur at points near the corners of the arrangement.
 #[test]
 fn sheets_have_as_many_cells_as_rows_of_signs() {
     for count in 1..9u32 {

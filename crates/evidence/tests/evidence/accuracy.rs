@@ -24,7 +24,7 @@ struct Figures {
     drift_mean: f64,
 }
 
-/// A vertex where its definition puts it, and whether it is on a wrong side.
+/// The exact position of a vertex, and whether it is on a wrong side.
 struct Placed {
     point: Point,
     misplaced: [bool; 2],
@@ -144,7 +144,7 @@ struct Tally {
     trees: usize,
     vertices: usize,
     misplaced: usize,
-    /// Trees with vertices that one limit calls misplaced, and the other does not.
+    /// Trees with vertices that are misplaced by one limit and not by the other.
     unclear: usize,
     undefined: usize,
     torn: usize,
@@ -202,7 +202,8 @@ impl Tally {
     }
 }
 
-/// The library's tree, which misplaces nothing and keeps within three roundings, by rationals.
+/// Asserts in rationals that the library's tree misplaces nothing, and that its vertices are within three
+/// roundings.
 fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), String> {
     let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
     let tree = tree_of(&options, &Tuning::DEFAULT, faces, Preparation::default())

@@ -51,7 +51,7 @@ fn known_faults_of_pictures_are_found() {
     let halved = judged(&[0, 1, 2], Outline::Vertices(&half));
     assert_eq!((halved.holes, halved.wrong()), (800, 800));
 
-    // Half as high again: pixels above and below are painted without need.
+    // Half as high again: pixels above and below are painted by mistake.
     let high = faces.corners(0).to_vec();
     let high: Vec<[f64; 3]> = high.into_iter().map(|[x, y, z]| [x, 1.5 * y, z]).collect();
     let spilt = judged(&[0, 1, 2], Outline::Vertices(&high));

@@ -122,8 +122,9 @@ fn triangles() -> (Scene, Vec<DVec3>) {
     (scene::random_triangles(14, 5), lamp.to_vec())
 }
 
-/// A wall in the plane of two corners of the lamp. It hides the other two from places beside it on the floor,
-/// and a plate hides the first two. So no corner is seen, but the lamp between them is.
+/// A wall in the plane of two corners of the lamp. It hides the other two corners from places beside it on
+/// the floor, and a plate hides the first two. So no corner is visible from there, but the lamp between the
+/// corners is.
 fn edge_on() -> Scene {
     let mut scene = Scene::new("edge on", DVec3::Z);
     let level = |x: [f64; 2], y: [f64; 2], z: f64| {
@@ -203,7 +204,8 @@ fn a_certain_umbra_is_hidden_from_all_between() {
     assert!(by_several > 0);
 }
 
-/// The numbers of pieces that are in the umbra for certain, and that see no corner of the lamp but are not.
+/// The number of pieces that are certainly in the umbra, and of pieces that see no corner of the lamp but are
+/// not certainly in the umbra.
 fn umbra(scene: &Scene) -> [usize; 2] {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let pieces = cut(scene, &lamp(2));

@@ -124,7 +124,7 @@ fn zones_agree_with_many_more_points_except_near_a_boundary() {
         }
         for (differing, lamp) in differing.iter_mut().zip([&corners, &some]) {
             let found = zone(&tree, point, lamp);
-            // Fewer points of the lamp see less of it, never anything else.
+            // With fewer points, only a penumbra may be taken for another zone.
             assert!(found == truth || truth == Zone::Penumbra, "{point}");
             *differing += usize::from(found != truth);
         }

@@ -25,23 +25,23 @@ pub struct Layered<'a> {
     pub buffer: DepthBuffer,
     /// The polygons, and the order of their fragments.
     pub tree: &'a BspTree,
-    /// Who looks.
+    /// The camera.
     pub camera: &'a Camera,
     /// The camera's rays through the tree's faces.
     pub rays: &'a Rays,
     /// Which polygons are opaque, by number.
     pub opaque: &'a [bool],
-    /// Whether translucent polygons leave their depths; they should not.
+    /// Whether translucent polygons write their depths; they should not.
     pub writes: bool,
 }
 
 impl Layered<'_> {
-    /// Draws the opaque polygons by depth, and then fragments of the translucent ones in the order
-    /// that is given, each where it passes the depth test.
+    /// Draws the opaque polygons by depth. Then draws the fragments of the translucent polygons in the given
+    /// order, each where it passes the depth test.
     ///
     /// # Errors
     ///
-    /// If the buffer's planes make no range.
+    /// If the buffer's near and far planes do not suit the camera.
     pub fn draw(&self, order: &[u32]) -> Result<Layers, MethodError> {
         if self.buffer.format.is_float() {
             self.draw_in::<f32>(order)

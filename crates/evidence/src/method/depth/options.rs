@@ -5,15 +5,15 @@ use super::rules::DepthRules;
 
 /// The depth buffer (Catmull 1974) with depths of limited precision.
 ///
-/// A pixel shows the face of the least stored depth. Of equal stored depths the *earlier* face's
-/// counts (the test `LESS` of graphics libraries); a pixel without a face is beyond any depth. Other
+/// A pixel shows the face of the least stored depth. If two faces have the same stored depth, the *earlier*
+/// one shows (the test `LESS` of graphics libraries). A pixel without a face is beyond any depth. Other
 /// [rules](DepthRules) can be given.
 ///
 /// # Roundings
 ///
-/// Corners are placed in the camera's coordinates and clipped to the picture and to the range of
-/// depths in `f64`. From there on, with R the rounding of each single operation, which is to `f32`
-/// for the floating-point formats and to `f64` for the integer ones:
+/// Corners are placed in the camera's coordinates and clipped to the picture and to the range of depths in
+/// `f64`. After this, every operation is rounded: to `f32` for the floating-point formats, and to `f64` for
+/// the integer formats. R stands for one such rounding. The operations are:
 ///
 /// 1. the place, to x, y and the depth w: one R each;
 /// 2. the position on the picture: x / (w · pixel) + half the width, y likewise;
@@ -21,12 +21,12 @@ use super::rules::DepthRules;
 ///    libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
 /// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points: of
 ///    a face of more corners, the first and two neighbours that span the most;
-/// 5. the value in a pixel, by the way of [`Interpolation`];
+/// 5. the value in a pixel, as [`Interpolation`] describes;
 /// 6. the stored number: see [`DepthFormat`].
 ///
-/// So an integer format errs by its steps alone, as with interpolators that are wide enough, while
-/// the floating-point formats err as a pipeline of `f32` does. (Such a pipeline errs more in 1, as
-/// it multiplies matrices in `f32` as well, and has positions of fewer bits in 2.)
+/// So an integer format has only the error of its steps, like hardware with wide interpolators. A
+/// floating-point format has the errors of a pipeline of `f32`. (A real pipeline has larger errors in 1,
+/// where it also multiplies matrices in `f32`, and in 2, where its positions have fewer bits.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthBuffer {
     /// The stored number.

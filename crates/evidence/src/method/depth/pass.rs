@@ -11,7 +11,7 @@ use crate::Precision;
 use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
-/// One picture in the making.
+/// The state of one picture while it is drawn.
 pub(super) struct Pass<'a, P> {
     pub(super) space: CameraSpace,
     pub(super) range: DepthRange,

@@ -44,7 +44,7 @@ impl DepthFormat {
 
     /// The largest difference between depths around this one, within `share` of it, and their stored values.
     pub fn largest_error(self, planes: [f64; 2], depth: f64, share: f64) -> f64 {
-        // Steps that no regular pattern of the format's steps follows.
+        // Samples at irregular distances, so that their pattern differs from the regular steps of the format.
         let golden = |i: u32| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
         let near = |i: u32| (depth * (1.0 + share * golden(i))).clamp(planes[0], planes[1]);
         let error = |i| (self.store(planes, near(i)).depth - near(i)).abs();
@@ -54,7 +54,7 @@ impl DepthFormat {
     /// The difference of two depths, near this one, whose stored numbers are a step apart, by the formula: a
     /// step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
     ///
-    /// Steps of an `f32` are the steps of the number's power of two.
+    /// The step of an `f32` depends on the power of two of the stored number.
     pub fn step(self, [near, far]: [f64; 2], depth: f64) -> f64 {
         let slope = depth * depth * (far - near) / (far * near);
         let of_bits = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);
@@ -70,7 +70,8 @@ impl DepthFormat {
     }
 }
 
-/// The number of depths sampled for an error. Too small: the largest error is missed. Too large: time.
+/// The number of depths sampled for an error. Too small: the largest error is missed. Too large: the search
+/// takes longer.
 const LOOKED_AT: u32 = 2000;
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub enum DepthTest {
 /// The clear value of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clear {
-    /// To nothing: any depth passes where no face is yet.
+    /// To no number: any depth passes in a pixel without a face.
     Nothing,
     /// To the smallest number that can be stored.
     Smallest,
@@ -79,8 +79,8 @@ impl DepthRules {
 /// Rules as a comparison of integers, given the keys of a format's ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Comparison {
-    /// A stored number is kept as its key, the smaller, the nearer, with these bits flipped: none, or all if
-    /// the test selects the further.
+    /// The bits that are flipped in a stored key: none, or all bits if the test selects the further face.
+    /// Keys are smaller for nearer depths.
     flip: u32,
     or_equal: bool,
     /// The clear value, flipped.
@@ -94,7 +94,7 @@ impl Comparison {
     pub(super) fn new(rules: DepthRules, [first, last]: [u32; 2]) -> Self {
         let asks_smaller = matches!(rules.test, DepthTest::Less | DepthTest::LessOrEqual);
         let smaller_is_nearer = rules.nearer == Nearer::Smaller;
-        // A test for the end that is not the nearer shows the furthest faces.
+        // If the test selects the numbers that are not nearer, the furthest faces show.
         let flip = if asks_smaller == smaller_is_nearer { 0 } else { u32::MAX };
         let cleared = match (rules.clear, smaller_is_nearer) {
             (Clear::Nothing, _) => u32::MAX ^ flip,

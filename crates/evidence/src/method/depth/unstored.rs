@@ -1,4 +1,4 @@
-//! The number that a depth buffer is about to store, with bounds of the roundings on the way.
+//! The number that a depth buffer is about to store, with bounds of the roundings before that.
 
 use super::super::clip::{Clipper, Range};
 use super::super::space::CameraSpace;
@@ -13,10 +13,10 @@ use binspace::view::Camera;
 /// A number that is about to be stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unstored {
-    /// The number of the face's plane in the pixel, as the pipeline set the plane up, with rounded corners
-    /// and slopes; the smaller, the nearer.
+    /// The number of the face's plane in the pixel, for the plane that the pipeline sets up with rounded
+    /// corners and slopes. Smaller numbers are nearer.
     pub value: f64,
-    /// The difference of two stored numbers that are next to each other there.
+    /// The difference of two consecutive stored numbers there.
     pub step: f64,
     /// The largest effect of the roundings in the pixel on the number, before it is stored.
     pub rounding: f64,
@@ -108,7 +108,8 @@ impl SetUp {
                 Unstored { value, step, rounding: rounding + 3.0 * sum }
             }
             DepthFormat::LinearInteger(_) | DepthFormat::LinearFloat => {
-                // 1 / w is interpolated: w moves by as much times w², and is rounded itself.
+                // 1 / w is interpolated. An error of 1 / w changes w by this error times w², and w is rounded
+                // as well.
                 let depth = 1.0 / value;
                 let rounding = (rounding + sum) * depth * depth;
                 let Range { near, far } = self.range;

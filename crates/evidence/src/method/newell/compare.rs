@@ -38,13 +38,13 @@ pub(super) fn why_not_hidden(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> O
     }
 }
 
-/// Whether nothing of P is in front of Q's plane.
+/// Whether no part of P is in front of Q's plane.
 pub(super) fn is_behind(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool {
     let plane = pieces.plane(q);
     pieces.vertices(p).iter().all(|vertex| plane.distance(vertex.at) <= epsilon)
 }
 
-/// Whether nothing of P is behind Q's plane.
+/// Whether no part of P is behind Q's plane.
 pub(super) fn is_in_front(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool {
     let plane = pieces.plane(q);
     pieces.vertices(p).iter().all(|vertex| plane.distance(vertex.at) >= -epsilon)

@@ -14,7 +14,7 @@ pub(super) struct EyePlane {
 }
 
 impl EyePlane {
-    /// The plane of a face. A face whose plane contains the eye has it on either side.
+    /// The plane of a face. If the plane contains the eye, the normal may point to either side.
     fn of(space: &CameraSpace, faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
         // Differences of lattice points are exact.
@@ -32,7 +32,7 @@ impl EyePlane {
     }
 }
 
-/// A piece's extents and where its vertices are.
+/// The extents of a piece, and the place of its vertices in the lists.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) face: u32,

@@ -18,7 +18,7 @@ enum State {
     Gone,
 }
 
-/// The next piece to paint, unless it hides something; no piece from `place` in the list on prevents it.
+/// The next piece to paint, unless it hides another piece. It hides no piece of the list from `place` on.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     piece: u32,
@@ -32,7 +32,7 @@ pub(super) struct Sorter<'a> {
     /// Pieces by their furthest depths, the furthest last; removed pieces may still be there.
     list: Vec<u32>,
     state: Vec<State>,
-    /// Each has taken the place of the one before it.
+    /// Candidates, each of which has taken the place of the candidate before it.
     chain: Vec<Candidate>,
     /// The number of removed pieces in the list.
     gone: usize,
@@ -48,7 +48,7 @@ impl<'a> Sorter<'a> {
     ) -> Result<Self, MethodError> {
         let mut list: Vec<u32> = (0..pieces.len() as u32).collect();
         let far = |piece: u32| pieces.get(piece).far;
-        // Of two faces at the same depth, the earlier is painted first, so it is the last in the list.
+        // If two faces have the same depth, the earlier is painted first, so it is later in the list.
         list.sort_unstable_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
         let state = vec![State::Waiting; list.len()];
         let (chain, gone, comparisons) = (Vec::new(), 0, 0);

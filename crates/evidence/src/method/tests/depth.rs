@@ -22,7 +22,8 @@ fn wall(depth: f64) -> Vec<DVec3> {
     [(-c, -c), (c, -c), (c, c), (-c, c)].map(|(x, y)| DVec3::new(x, y, -depth)).to_vec()
 }
 
-/// The number of pairs of walls, `gap` apart, in which the further, which comes first, is shown.
+/// The number of pairs of walls, `gap` apart, in which the further wall is shown. The further wall is drawn
+/// first.
 fn mistaken(format: DepthFormat, gap: f64) -> usize {
     let camera = ahead([2, 2]);
     let method = DepthBuffer::new(format).with_range(1.0, 1000.0);
@@ -52,8 +53,8 @@ fn precision_is_that_of_the_format() {
     assert!(mistaken(FloatReversed, 1e-6) > 20 && mistaken(LinearFloat, 1e-6) > 20);
 }
 
-/// The justification of two pictures that differ in a pixel: one of the two polygons has an edge there, or
-/// both are at about the same depth.
+/// Whether a difference between two pictures in a pixel is excused: one of the two polygons has an edge
+/// there, or both are at about the same depth.
 fn is_excused(polygons: &Polygons, camera: &Camera, [x, y]: [u32; 2], shown: [u32; 2]) -> bool {
     let meeting = shown.map(|face| match face {
         NONE => Meeting::Nothing,
@@ -103,7 +104,8 @@ fn walks_along_edges_agree_with_edge_functions() {
 
 #[test]
 fn edge_functions_leave_holes_only_beyond_the_range_of_depths() {
-    // A floor at the eye's feet, so near below it that the range ends before.
+    // A floor below the eye. At the least height, the eye is so near to the floor that its visible part is
+    // outside the range of depths.
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let floor = corners.map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
     let faces = faces(&vec![floor], Some(0.0));

@@ -53,7 +53,7 @@ fn the_nearer_of_two_triangles_wins_pixel_by_pixel() {
         assert_eq!(drawn(&*method, &there, &camera()), NEARER_WINS, "{name}");
         assert_eq!(drawn(&*method, &back, &camera()), swapped, "{name}, the other order");
     }
-    // The last face is on top, wherever it is; with its back to the eye it is not there.
+    // The last face is on top, whatever its depth. If its back is to the eye, it is left out.
     let all_a = "AAAAAA ".repeat(6);
     let b_on_top = "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA";
     assert_eq!(drawn(&InputOrder, &there, &camera()), b_on_top);
@@ -79,7 +79,7 @@ fn of_two_in_one_plane_painters_show_the_later_and_depth_buffers_the_earlier() {
     let b = points([[2.0, 0.0, 1.0], [6.0, 0.0, 1.0], [6.0, 6.0, 1.0], [2.0, 6.0, 1.0]]);
     for method in all(&Options::DEFAULT) {
         let name = method.name();
-        // All is at the far plane, to which that one is cleared.
+        // All faces are at the far plane, and this buffer is cleared to it, so nothing shows.
         if name.ends_with("cleared") {
             continue;
         }

@@ -32,7 +32,7 @@ fn disjoint(side: usize, seed: u64) -> Polygons {
     polygons
 }
 
-/// Blades around the z axis, each over the next, the last over the first; none of their planes
+/// Blades around the z axis. Each blade is over the next, and the last over the first. No plane of a blade
 /// cuts a neighbour.
 fn cycle_that_no_plane_cuts() -> Polygons {
     // With 5 blades, they overlap beyond 36 degrees each way, and cut the next beyond 54.

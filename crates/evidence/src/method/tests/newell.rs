@@ -9,8 +9,8 @@ use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
 use binspace::raster::NONE;
 
-/// Asserts that every pixel for which brute force is certain shows its result; and returns the pieces of all
-/// views together.
+/// Asserts that every pixel for which brute force is certain shows the result of brute force. Returns the
+/// number of pieces of all views together.
 fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     let faces = faces(polygons, Some(0.0));
     let (mut certain, mut all, mut pieces) = (0, 0, 0);
@@ -31,7 +31,7 @@ fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     pieces
 }
 
-/// A square around the origin, of which each corner is put somewhere.
+/// A square around the origin whose corners are moved by `place`.
 fn square(half: f64, place: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
     [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| place(x, y)).to_vec()
 }
@@ -57,7 +57,7 @@ fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
 
 #[test]
 fn thin_layers_come_out_as_brute_force_has_them() {
-    // Tilted by more than they are apart, now one way, now the other, in no order of depth.
+    // Tilted by more than their distance, in alternating directions, in no order of depth.
     let layer = |i: u32| {
         let height = 1e-3 * f64::from(i * 7 % 20);
         let (tilt, reach) = (2e-4 * f64::from(i % 3) - 2e-4, 0.3 + 0.03 * f64::from(i * 3 % 20));
@@ -91,7 +91,7 @@ fn from_above(height: f64, size: [u32; 2]) -> [Camera; 2] {
     [perspective, Camera::parallel(down, DVec3::Y, DVec3::ZERO, height, size).unwrap()]
 }
 
-/// The cycle of three bars, each of which is over the next at one end.
+/// The cycle of three bars: each bar is over the next at one end.
 fn three_bars() -> Polygons {
     let bar = |number: i32| {
         let corner = |x: f64, y: f64, z: f64| {
@@ -155,7 +155,7 @@ fn random_cycles_come_out_as_brute_force_has_them() {
         let place = |point: DVec3| turn * point * scale + shift;
         let polygons: Polygons =
             ring.iter().map(|spike| spike.iter().map(|&corner| place(corner)).collect()).collect();
-        // From above, all of it is seen, and no order is right.
+        // From above, the whole ring is visible, and no order of whole spikes is right.
         let eye =
             place(DVec3::new(0.3 * random.range(-1.0, 1.0), 0.3 * random.range(-1.0, 1.0), 4.0));
         let [target, up] = [place(DVec3::ZERO), turn * DVec3::Y];
@@ -238,7 +238,7 @@ fn budgets_run_out_with_a_figure() {
 
 #[test]
 fn a_long_chain_of_swaps_needs_no_stack() {
-    // Parallel and tilted: the higher a plank, the deeper it reaches. So of all remaining planks the highest
+    // Parallel and tilted: the higher a plank, the deeper it reaches. So the highest of the remaining planks
     // is always the furthest, and all others take its place, one after the other.
     let count = 4000;
     let plank = |i: i32| {

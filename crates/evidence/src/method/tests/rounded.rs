@@ -6,8 +6,7 @@ use crate::{Precision, RoundedPiece, RoundedPlane};
 use binspace::internals::{PreparedPlane, Side, SplitMix64, Vertex, split};
 use testkit::prelude::*;
 
-/// The least distance of positions from the plane of a face, as a share of half the extent and of up to four
-/// times that: the unit of an epsilon.
+/// The least distance of positions from the plane of a face, in the unit of an epsilon: 2⁵¹ lattice steps.
 fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let normal = (q - p).cross(r - p).normalize();
@@ -80,9 +79,9 @@ impl Twins {
     }
 }
 
-/// Compares every face with all planes, cuts it several times, and asserts that rounded sides are the exact
-/// ones of each piece wherever none of its vertices is within the epsilon, its drift and the plane's
-/// rounding. Returns the number of other sides that differ.
+/// Compares every face with all planes, and cuts it several times. Asserts that the rounded side of a piece
+/// is the exact one if all vertices are further from the plane than the epsilon, the drift and the plane's
+/// rounding together. Returns the number of nearer pieces whose rounded side is wrong.
 fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;
