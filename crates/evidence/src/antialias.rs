@@ -20,7 +20,7 @@ pub struct Areas {
 }
 
 impl Areas {
-    /// The areas of a map.
+    /// Creates the areas of a map.
     pub fn of(map: &VisibilityMap<'_>) -> Self {
         let [width, height] = map.size();
         let mut pixels = vec![Vec::new(); width as usize * height as usize];
@@ -42,7 +42,7 @@ impl Areas {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// The picture: each pixel is the mean of its visible polygons.
+    /// Returns the picture: each pixel is the mean of its visible polygons.
     pub fn picture(&self, colour: impl Fn(usize) -> Colour, background: Colour) -> Vec<Colour> {
         let pixel = |shares: &[(usize, f64)]| {
             let rest = 1.0 - shares.iter().map(|(_, area)| area).sum::<f64>();

@@ -38,7 +38,7 @@ impl Facing {
         facing
     }
 
-    /// The faces that need not be drawn: all except front faces.
+    /// Returns the faces that need not be drawn: all except front faces.
     pub fn removed(&self) -> usize {
         self.back + self.edge_on
     }

@@ -67,17 +67,17 @@ impl Sheets {
         Self { gap, faces, camera, rays, truth: truth.into_image(), depths }
     }
 
-    /// The four triangles: two of the further sheet, two of the nearer.
+    /// Returns the four triangles: two of the further sheet, two of the nearer.
     pub fn polygons(&self) -> Vec<[DVec3; 3]> {
         [1.0 + self.gap, 1.0].into_iter().flat_map(sheet).collect()
     }
 
-    /// The camera.
+    /// Returns the camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// The picture of a method.
+    /// Returns the picture of a method.
     ///
     /// # Errors
     ///
@@ -98,7 +98,7 @@ impl Sheets {
         Ok(Fight { image, wrong: wrong.len(), seen: (!wrong.is_empty()).then_some(ends) })
     }
 
-    /// The picture of a depth buffer.
+    /// Returns the picture of a depth buffer.
     ///
     /// # Errors
     ///
@@ -144,7 +144,7 @@ impl Sheets {
         Ok((0..).zip(self.truth.faces()).map(apart).collect())
     }
 
-    /// The prediction from the steps of a format, by the formula of [`DepthFormat::step`].
+    /// Returns the prediction from the steps of a format, by the formula of [`DepthFormat::step`].
     pub fn predicted(&self, format: DepthFormat) -> Prediction {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for &depth in &self.depths {

@@ -48,17 +48,17 @@ impl Hiding {
         Self { hidden }
     }
 
-    /// Whether a face hides a part of another.
+    /// Returns whether a face hides a part of another.
     pub fn hides(&self, face: u32, other: u32) -> bool {
         self.hidden[face as usize].binary_search(&other).is_ok()
     }
 
-    /// The number of pairs in which one face hides a part of the other.
+    /// Returns the number of pairs in which one face hides a part of the other.
     pub fn pairs(&self) -> usize {
         self.hidden.iter().map(Vec::len).sum::<usize>() - self.mutual()
     }
 
-    /// The number of pairs that hide parts of each other: these penetrate each other.
+    /// Returns the number of pairs that hide parts of each other: these penetrate each other.
     pub fn mutual(&self) -> usize {
         let both = |a: u32| {
             let back = self.hidden[a as usize].iter().filter(move |&&b| b > a && self.hides(b, a));
@@ -67,14 +67,14 @@ impl Hiding {
         (0..self.hidden.len() as u32).map(both).sum()
     }
 
-    /// The faces on cycles of hiding (strongly connected components): in each list all faces hide each other,
-    /// directly or through others.
+    /// Returns the faces on cycles of hiding (strongly connected components): in each list all faces hide
+    /// each other, directly or through others.
     pub fn cycles(&self) -> Vec<Vec<u32>> {
         components(&self.hidden)
     }
 
-    /// An order in which whole faces can be painted, each after all faces that it hides parts of; `None` if
-    /// there is a cycle. Of several possible next faces, the face with the least number is taken.
+    /// Returns an order in which whole faces can be painted, each after all faces that it hides parts of;
+    /// `None` if there is a cycle. Of several possible next faces, the face with the least number is taken.
     pub fn paint_order(&self) -> Option<Vec<u32>> {
         let mut waits_for: Vec<usize> = self.hidden.iter().map(Vec::len).collect();
         let mut order = Vec::with_capacity(waits_for.len());
@@ -90,8 +90,8 @@ impl Hiding {
         Some(order)
     }
 
-    /// The minimal number of faces that have to be cut by any method: each cycle contains one of them. All
-    /// subsets of the faces on a cycle are tried, so the result is `None` if more than
+    /// Returns the minimal number of faces that have to be cut by any method: each cycle contains one of
+    /// them. All subsets of the faces on a cycle are tried, so the result is `None` if more than
     /// [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another.
     pub fn fewest_cut(&self) -> Option<usize> {
         self.cycles().iter().map(|cycle| fewest_removed(&self.hidden, cycle)).sum()
@@ -101,8 +101,8 @@ impl Hiding {
     pub const SEARCHED: usize = components::SEARCHED;
 }
 
-/// The number of pairs of faces that overlap in depth along a direction of view. A sort by depth does not
-/// determine their order. Exact, except for the direction, which is rounded to 2⁻⁴⁰.
+/// Returns the number of pairs of faces that overlap in depth along a direction of view. A sort by depth does
+/// not determine their order. Exact, except for the direction, which is rounded to 2⁻⁴⁰.
 pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
     let direction = forward.to_array().map(|c| (c * 2f64.powi(40)).round() as i128);
     let extent = |face: u32| {

@@ -87,12 +87,12 @@ impl Layers {
         Self { pixels: met.into_iter().map(sorted).collect() }
     }
 
-    /// The faces of each pixel, row by row from the top left, each the nearest first.
+    /// Returns the faces of each pixel, row by row from the top left, each the nearest first.
     pub fn pixels(&self) -> impl ExactSizeIterator<Item = &[u32]> + Clone {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// The number of layers of the deepest pixel.
+    /// Returns the number of layers of the deepest pixel.
     pub fn deepest(&self) -> usize {
         self.pixels().map(<[u32]>::len).max().unwrap_or(0)
     }

@@ -8,9 +8,9 @@ use binspace::scene::{Scene, sphere};
 /// are shiny, and better where they were smoothed.
 const NOISE: f64 = 0.2;
 
-/// A closed surface of about `triangles` small triangles: a sphere with a few bulges, whose corners are moved
-/// along their radii by noise. As in real scans, hardly two triangles are in one plane, and neighbours bend
-/// inwards as often as outwards.
+/// Returns a closed surface of about `triangles` small triangles: a sphere with a few bulges, whose corners
+/// are moved along their radii by noise. As in real scans, hardly two triangles are in one plane, and
+/// neighbours bend inwards as often as outwards.
 pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
     let smooth = sphere(triangles / 2);
     let mut scene = Scene::new(format!("noisy sphere:{triangles}"), DVec3::Z);

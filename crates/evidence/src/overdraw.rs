@@ -26,12 +26,12 @@ impl Overdraw {
         Self { tested: vec![0; width * height], written: vec![0; width * height] }
     }
 
-    /// All tests, and all writes.
+    /// Returns the number of all tests, and the number of all writes.
     pub fn sums(&self) -> [u64; 2] {
         [&self.tested, &self.written].map(|counts| counts.iter().map(|&n| u64::from(n)).sum())
     }
 
-    /// The number of pixels that show something.
+    /// Returns the number of pixels that show something.
     pub fn shown(&self) -> u64 {
         self.written.iter().filter(|&&count| count > 0).count() as u64
     }
@@ -51,7 +51,7 @@ impl Overdraw {
     }
 }
 
-/// The overdraw of a painter: it writes a pixel once for every fragment that covers it.
+/// Returns the overdraw of a painter: it writes a pixel once for every fragment that covers it.
 pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     let (mut overdraw, mut pieces) = (Overdraw::new(rays), Pieces::default());
     let width = rays.size()[0];
@@ -90,8 +90,8 @@ pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     Ok(overdraw)
 }
 
-/// The overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is nearer than
-/// all earlier ones. `layers` must have been made with the same rays.
+/// Returns the overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is
+/// nearer than all earlier ones. `layers` must have been made with the same rays.
 pub fn depth_buffer(
     faces: &Faces,
     rays: &Rays,
@@ -118,7 +118,8 @@ pub fn depth_buffer(
     overdraw
 }
 
-/// A colour for each count: black for zero, blue for one, then green and yellow, and red for `most` or more.
+/// Returns a colour for each count: black for zero, blue for one, then green and yellow, and red for `most`
+/// or more.
 pub fn heat(counts: &[u32], most: u32) -> Vec<u8> {
     const STOPS: [[f64; 3]; 5] = [
         [40.0, 60.0, 150.0],

@@ -137,18 +137,18 @@ impl FormFactors {
         sums.map(|sum| share * sum / f64::from(count))
     }
 
-    /// The share of the light of one patch that arrives at another.
+    /// Returns the share of the light of one patch that arrives at another.
     pub fn factor(&self, from: usize, to: usize) -> f64 {
         self.factors[from * self.patches + to]
     }
 
-    /// The share of the light of a patch that arrives anywhere: 1 in a closed room.
+    /// Returns the share of the light of a patch that arrives anywhere: 1 in a closed room.
     pub fn sum(&self, from: usize) -> f64 {
         (0..self.patches).map(|to| self.factor(from, to)).sum()
     }
 
-    /// The light that arrives at each patch, for each unit of area, if `leaving` is the light that leaves
-    /// them.
+    /// Returns the light that arrives at each patch, for each unit of area, if `leaving` is the light that
+    /// leaves them.
     pub fn arriving(&self, leaving: &[f64]) -> Vec<f64> {
         let n = self.patches;
         let at = |to: usize| (0..n).map(|from| self.factor(to, from) * leaving[from]).sum();

@@ -49,7 +49,7 @@ impl Depth {
         [self.over, self.under * -ray[2]]
     }
 
-    /// The depth along the view, in world units, rounded.
+    /// Returns the depth along the view, in world units, rounded.
     pub fn to_f64(self) -> f64 {
         self.over as f64 / self.under as f64 / UNITS
     }
@@ -61,12 +61,12 @@ impl PlainView {
         Self { size, shift: size[1].next_power_of_two().ilog2() }
     }
 
-    /// The picture's width and height.
+    /// Returns the picture's width and height.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The camera. Its pixels' rays are exactly this view's rays.
+    /// Returns the camera. Its pixels' rays are exactly this view's rays.
     ///
     /// # Panics
     ///
@@ -77,14 +77,14 @@ impl PlainView {
         Camera::perspective_by_slope(eye, ahead, up, half, self.size).expect("a camera")
     }
 
-    /// The direction of a pixel's ray.
+    /// Returns the direction of a pixel's ray.
     pub fn ray(&self, [x, y]: [u32; 2]) -> [i128; 3] {
         let [width, height] = self.size.map(i128::from);
         let (x, y) = (i128::from(x), i128::from(y));
         [2 * x + 1 - width, height - 2 * y - 1, -(2 << self.shift)]
     }
 
-    /// The intersection of a pixel's ray and a convex flat polygon.
+    /// Returns the intersection of a pixel's ray and a convex flat polygon.
     pub fn meet(&self, polygon: &[Corner], pixel: [u32; 2]) -> Met {
         let ray = self.ray(pixel);
         let corner = |k: usize| polygon[k % polygon.len()].map(i128::from);
@@ -109,8 +109,8 @@ impl PlainView {
         if over > 0 { Met::At(Depth { over, under }) } else { Met::Nothing }
     }
 
-    /// All polygons that a pixel's ray meets, the nearest first; `None` if it meets a boundary, or two
-    /// polygons at the same depth.
+    /// Returns all polygons that a pixel's ray meets, the nearest first; `None` if it meets a boundary, or
+    /// two polygons at the same depth.
     pub fn layers(&self, polygons: &[Vec<Corner>], pixel: [u32; 2]) -> Option<Vec<(u32, Depth)>> {
         let mut met = Vec::new();
         for (polygon, number) in polygons.iter().zip(0..) {
@@ -125,8 +125,9 @@ impl PlainView {
         (!tied).then_some(met)
     }
 
-    /// The visible polygons in a pixel where some are opaque and the others translucent, the furthest first:
-    /// the nearest opaque one, and all translucent ones before it. `None` as for [`layers`](Self::layers).
+    /// Returns the visible polygons in a pixel where some are opaque and the others translucent, the furthest
+    /// first: the nearest opaque one, and all translucent ones before it. `None` as for
+    /// [`layers`](Self::layers).
     pub fn shown(
         &self,
         polygons: &[Vec<Corner>],
@@ -139,7 +140,7 @@ impl PlainView {
         Some(layers[..end].iter().rev().map(|&(number, _)| number).collect())
     }
 
-    /// The value of an attribute where a pixel's ray meets the plane of a triangle, given its values
+    /// Returns the value of an attribute where a pixel's ray meets the plane of a triangle, given its values
     /// at the corners, below 2²⁰ in magnitude: a fraction, rounded once it is known.
     pub fn interpolate(&self, triangle: [Corner; 3], values: [i64; 3], pixel: [u32; 2]) -> f64 {
         let (ray, [a, b, c]) = (self.ray(pixel), triangle.map(|corner| corner.map(i128::from)));
@@ -149,7 +150,7 @@ impl PlainView {
     }
 }
 
-/// A corner in world units.
+/// Returns a corner in world units.
 pub fn to_world(corner: Corner) -> DVec3 {
     DVec3::from_array(corner.map(|c| c as f64 / UNITS))
 }

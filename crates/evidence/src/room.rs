@@ -73,12 +73,13 @@ impl Room {
         Ok(Self { patches, factors, reflected, light, closing })
     }
 
-    /// The number of patches, the first ones, that are surfaces of the scene; the rest closes the room.
+    /// Returns the number of patches, the first ones, that are surfaces of the scene; the rest closes the
+    /// room.
     pub fn surfaces(&self) -> usize {
         self.closing.start
     }
 
-    /// The light that leaves each patch: its own light, its reflection of the lamp's light, and after
+    /// Returns the light that leaves each patch: its own light, its reflection of the lamp's light, and after
     /// `bounces` its reflection of the light that others reflect.
     pub fn leaving(&self, bounces: u32) -> Vec<[f64; 3]> {
         let channels = [0, 1, 2].map(|channel| {
@@ -95,7 +96,7 @@ impl Room {
         (0..self.patches.len()).map(|k| [0, 1, 2].map(|c| channels[c][k])).collect()
     }
 
-    /// The destinations of the lamp's light.
+    /// Returns the destinations of the lamp's light.
     pub fn balance(&self) -> Balance {
         let sent: f64 =
             self.patches.iter().zip(&self.light).map(|(p, light)| p.area() * light).sum();

@@ -51,7 +51,7 @@ pub struct RoundedPiece {
 }
 
 impl<T: Precision> RoundedPlane<T> {
-    /// The plane of a face. Vertices no further from it than `epsilon` times half the scene's extent
+    /// Creates the plane of a face. Vertices no further from it than `epsilon` times half the scene's extent
     /// are on it.
     pub fn new(faces: &Faces, face: u32, epsilon: f64) -> Self {
         let triangle = faces.reference_triangle(face);
@@ -93,7 +93,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// The side of a plane on which a piece lies.
+    /// Returns the side of a plane on which a piece lies.
     pub fn classify(&self, piece: &RoundedPiece) -> Side {
         if self.plane == PlaneId::face(piece.face) {
             return Side::Coplanar;
@@ -112,7 +112,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// The parts of a piece in front of the plane and behind it.
+    /// Returns the parts of a piece in front of the plane and behind it.
     pub fn split(&self, piece: &RoundedPiece) -> [RoundedPiece; 2] {
         let part = || RoundedPiece { face: piece.face, vertices: Vec::new(), is_whole: false };
         let mut parts = [part(), part()];
@@ -153,7 +153,7 @@ impl<T: Precision> RoundedPlane<T> {
 }
 
 impl RoundedPiece {
-    /// A whole face.
+    /// Creates the piece that is a whole face.
     pub fn whole<T: Precision>(faces: &Faces, face: u32) -> Self {
         let vertex = |(k, corner): (u32, &[f64; 3])| Vertex {
             position: corner.map(T::round),
@@ -164,12 +164,12 @@ impl RoundedPiece {
         Self { face, vertices, is_whole: true }
     }
 
-    /// The positions of its vertices, in lattice units.
+    /// Returns the positions of the piece's vertices, in lattice units.
     pub fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
         self.vertices.iter().map(|vertex| vertex.position)
     }
 
-    /// The definitions of its vertices.
+    /// Returns the definitions of the piece's vertices.
     pub fn vertex_ids(&self) -> impl Iterator<Item = VertexId> {
         self.vertices.iter().map(|vertex| vertex.vertex_id)
     }

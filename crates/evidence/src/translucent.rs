@@ -53,7 +53,7 @@ impl<'a, F: Fn(usize) -> Look> Canvas<'a, F> {
     }
 }
 
-/// The fragments of a tree blended in its order, back to front.
+/// Blends the fragments of a tree in its order, back to front.
 pub fn by_tree(
     tree: &BspTree,
     rays: &Rays,
@@ -68,7 +68,7 @@ pub fn by_tree(
     canvas.pixels
 }
 
-/// Whole faces blended in the order of a list.
+/// Blends whole faces in the order of a list.
 pub fn by_list(
     faces: &Faces,
     list: impl IntoIterator<Item = u32>,
@@ -81,7 +81,7 @@ pub fn by_list(
     canvas.pixels
 }
 
-/// The layers of each pixel blended, the furthest first: the truth.
+/// Blends the layers of each pixel, the furthest first: the truth.
 pub fn by_layers(
     faces: &Faces,
     layers: &Layers,
@@ -95,8 +95,9 @@ pub fn by_layers(
     layers.pixels().map(blend).collect()
 }
 
-/// The nearest layers of each pixel blended, the furthest of these first: depth peeling (C. Everitt, "Interactive
-/// order-independent transparency", 2001) that stops after some passes. Its depth tests are exact here.
+/// Blends the nearest layers of each pixel, the furthest of these first: depth peeling (C. Everitt,
+/// "Interactive order-independent transparency", 2001) that stops after some passes. Its depth tests are
+/// exact here.
 pub fn by_nearest_layers(
     faces: &Faces,
     layers: &Layers,
@@ -148,8 +149,8 @@ impl Weight {
     }
 }
 
-/// Weighted blended order-independent transparency (M. McGuire and L. Bavoil, "Weighted blended
-/// order-independent transparency", 2013): the mean of the layers' colours, weighted by opacity and `weight`,
+/// Blends layers without an order (M. McGuire and L. Bavoil, "Weighted blended order-independent
+/// transparency", 2013). Each pixel is the mean of the layers' colours, weighted by opacity and `weight`,
 /// over the background. The share of the background that remains is the product of the layers'
 /// transparencies.
 ///
@@ -200,13 +201,13 @@ pub fn by_weights(
     layers.pixels().enumerate().map(blend).collect()
 }
 
-/// The number of pixels that differ in a bit.
+/// Returns the number of pixels that differ in at least one bit.
 pub fn differences(a: &[Colour], b: &[Colour]) -> usize {
     let bits = |colour: &Colour| colour.map(f32::to_bits);
     a.iter().zip(b).filter(|(a, b)| bits(a) != bits(b)).count()
 }
 
-/// The picture in 8 bits a channel.
+/// Returns the picture with 8 bits per channel.
 pub fn rgb(pixels: &[Colour]) -> Vec<u8> {
     pixels.iter().flatten().map(|c| (255.0 * c).round() as u8).collect()
 }

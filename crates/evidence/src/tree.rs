@@ -61,42 +61,42 @@ pub(crate) struct Vertex {
 }
 
 impl Tree {
-    /// The number of fragments.
+    /// Returns the number of fragments.
     pub fn len(&self) -> usize {
         self.fragments.len()
     }
 
-    /// Whether there are no fragments.
+    /// Returns whether there are no fragments.
     pub fn is_empty(&self) -> bool {
         self.fragments.is_empty()
     }
 
-    /// The number of times that a piece was cut in two.
+    /// Returns the number of times that a piece was cut in two.
     pub fn cuts(&self) -> usize {
         self.cuts
     }
 
-    /// The number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The most nodes on a path from the root.
+    /// Returns the largest number of nodes on a path from the root.
     pub fn depth(&self) -> usize {
         self.nodes.iter().map(|node| node.depth).max().unwrap_or(0)
     }
 
-    /// The faces that the fragments are pieces of.
+    /// Returns the faces that the fragments are pieces of.
     pub fn faces(&self) -> &Faces {
         &self.faces
     }
 
-    /// The resident size in bytes, without the faces.
+    /// Returns the resident size in bytes, without the faces.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + size_of_val(&*self.fragments) + size_of_val(&*self.vertices)
     }
 
-    /// The face that a fragment is a piece of.
+    /// Returns the face that a fragment is a piece of.
     pub fn face(&self, fragment: u32) -> u32 {
         self.fragments[fragment as usize].face
     }
@@ -108,12 +108,12 @@ impl Tree {
         &self.vertices[start..next.map_or(self.vertices.len(), |next| next.start as usize)]
     }
 
-    /// Whether a fragment is a whole face.
+    /// Returns whether a fragment is a whole face.
     pub fn is_whole(&self, fragment: u32) -> bool {
         self.stored(fragment).is_empty()
     }
 
-    /// The vertices of a fragment in lattice units, rounded.
+    /// Returns the vertices of a fragment in lattice units, rounded.
     pub fn lattice_vertices(&self, fragment: u32) -> impl Iterator<Item = [f64; 3]> {
         let stored = self.stored(fragment);
         let whole = if stored.is_empty() { self.faces.corners(self.face(fragment)) } else { &[] };
@@ -130,8 +130,7 @@ impl Tree {
             .chain(stored.iter().map(|vertex| vertex.vertex_id))
     }
 
-    /// The partition planes, depth first, each with the fragments on it, and all in front and
-    /// behind.
+    /// Returns the partition planes, depth first, each with the fragments on it, and all in front and behind.
     pub fn partitions(&self) -> impl Iterator<Item = (PlaneId, [Range<u32>; 3])> {
         let all = |side: &Side| match side {
             Side::Leaf(fragments) => fragments.clone(),

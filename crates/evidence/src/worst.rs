@@ -33,7 +33,7 @@ impl Worst {
     /// All families.
     pub const ALL: [Self; 3] = [Self::Walls, Self::Saddle, Self::Sheets];
 
-    /// A short name.
+    /// Returns a short name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Walls => "walls",
@@ -42,7 +42,7 @@ impl Worst {
         }
     }
 
-    /// A scene of this many polygons; the number is even where there are two halves.
+    /// Returns a scene of this many polygons; the number is even where there are two halves.
     pub fn scene(self, count: u32) -> Scene {
         let mut scene = Scene::new(format!("{self}:{count}"), DVec3::Z);
         Material::palette().for_each(|material| {
@@ -59,7 +59,8 @@ impl Worst {
         scene
     }
 
-    /// The number of fragments of a tree of n polygons that takes its planes from these alone, in any order.
+    /// Returns the number of fragments of a tree of n polygons that takes its planes from these alone, in any
+    /// order.
     ///
     /// For walls and strips, each pair that crosses as seen from above is cut once: the one whose plane is
     /// taken first cuts the other. For sheets, each leaf is one of the 1 + n + C(n, 2) + C(n, 3) cells

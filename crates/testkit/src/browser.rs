@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 /// The possible names of Chromium.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"];
 
-/// The browser's name.
+/// Returns the browser's name.
 pub fn browser() -> &'static str {
     let runs = |name: &&&str| {
         let mut command = Command::new(name);
@@ -49,7 +49,7 @@ pub fn said(browser: &str, folder: &Path, page: &str, script: &str) -> String {
     said.to_owned()
 }
 
-/// A number of a list, by the hash of Fowler, Noll and Vo over its words.
+/// Returns a number of a list, by the hash of Fowler, Noll and Vo over its words.
 pub fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }
@@ -61,7 +61,7 @@ pub fn hash_in_script(list: &str) -> String {
     )
 }
 
-/// An eye at a point of the grid as the library takes it; `None` if its position cannot be expressed.
+/// Returns an eye at a point of the grid as the library takes it; `None` if its position cannot be expressed.
 pub fn eye_at(tree: &BspTree, point: [f64; 3]) -> Option<Viewpoint> {
     let grid = tree.grid();
     let away = DVec3::from(point) * 2f64.powi(grid.exponent);

@@ -59,7 +59,7 @@ pub fn judge(scene: &Divided, seed: u64, views: usize, score: &mut Score) -> Ver
     Ok(())
 }
 
-/// The place of each fragment of each cell in the order of all.
+/// Returns the place of each fragment of each cell in the order of all.
 pub fn places(scene: &Divided, viewpoint: Viewpoint) -> Result<Vec<Vec<usize>>, String> {
     let mut places: Vec<Vec<usize>> =
         scene.cells.iter().map(|cell| vec![usize::MAX; cell.tree.len()]).collect();

@@ -63,7 +63,7 @@ impl Divided {
 }
 
 impl Cell {
-    /// The number in the scene of the polygon of a fragment.
+    /// Returns the number in the scene of the polygon of a fragment.
     pub fn polygon(&self, fragment: u32) -> usize {
         self.given[self.tree.fragment(fragment).polygon()]
     }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// The effort: `BINSPACE_EFFORT`, and 1 without it.
+/// Returns the effort: `BINSPACE_EFFORT`, and 1 without it.
 pub fn effort() -> usize {
     static EFFORT: LazyLock<usize> = LazyLock::new(|| match std::env::var("BINSPACE_EFFORT") {
         Ok(text) => match text.parse() {
@@ -19,12 +19,12 @@ pub fn effort() -> usize {
     *EFFORT
 }
 
-/// A number of scenes, rays or rounds, times the effort.
+/// Returns a number of scenes, rays or rounds, times the effort.
 pub fn times(count: usize) -> usize {
     count * effort()
 }
 
-/// The seeds of a number of scenes, times the effort.
+/// Returns the seeds of a number of scenes, times the effort.
 pub fn seeds(count: u64) -> Range<u64> {
     0..count * effort() as u64
 }

@@ -6,7 +6,7 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, Facing, Hit, Viewpoint};
 
-/// A view of polygons with opacities.
+/// Returns a view of polygons with opacities.
 pub fn with_opacities(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> ViewOptions<'static> {
     ViewOptions::DEFAULT.with_opacities((0..tree.preparation().polygons).map(opacity).collect())
 }
@@ -207,7 +207,7 @@ pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<
     Ok(())
 }
 
-/// The ray through a point of the picture of a camera with square pixels that looks at its middle.
+/// Returns the ray through a point of the picture of a camera with square pixels that looks at its middle.
 pub fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
     let ([width, height], [_, pixel]) = (camera.size().map(f64::from), camera.pixel_size());
     let across = camera.right() * ((x - 0.5 * width) * pixel);

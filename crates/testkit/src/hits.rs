@@ -265,7 +265,8 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// The oracle of an overlay's hits. It contains the faces of the tree and of the overlay's polygons.
+    /// Creates the oracle of an overlay's hits. It contains the faces of the tree and of the overlay's
+    /// polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }
@@ -302,12 +303,12 @@ impl<'t> Oracle<'t> {
         self.given
     }
 
-    /// A face in rationals.
+    /// Returns a face in rationals.
     pub fn model(&self, face: u32) -> &model::Face {
         self.models[face as usize].get_or_init(|| model::Face::new(self.faces(), face))
     }
 
-    /// The plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
+    /// Returns the plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
     pub fn plane(&self, normal: DVec3, offset: f64) -> rational::Plane {
         let (normal, step) = (rational::point(normal), rational::step(self.faces().lattice()));
         let origin = rational::point(self.origin);
@@ -315,7 +316,7 @@ impl<'t> Oracle<'t> {
         rational::Plane { normal: normal.map(|c| c * &step), offset }
     }
 
-    /// The exact vertices of a fragment.
+    /// Returns the exact vertices of a fragment.
     pub fn vertices(&self, fragment: u32) -> Vec<Point> {
         let piece = self.overlay.and_then(|overlay| overlay.piece(fragment));
         let fragment = piece.unwrap_or_else(|| self.tree.fragment(fragment));
@@ -418,7 +419,7 @@ impl<'t> Oracle<'t> {
         hits
     }
 
-    /// The parameter of the nearest hit.
+    /// Returns the parameter of the nearest hit.
     pub fn nearest(&self, ray: Ray) -> Option<f64> {
         let line = self.line(ray);
         let first = self.chords(&line).into_iter().map(|chord| chord.enter).min()?;

@@ -35,7 +35,7 @@ pub fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdict {
     if condition { Ok(()) } else { Err(message()) }
 }
 
-/// Every check of this file; `corners` are the corners of each polygon as given to the library.
+/// Runs every check of this file on a tree. `polygons` are the polygons as given to the library.
 pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate()?;
     let judge = Judge::new(tree);
@@ -45,7 +45,7 @@ pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
-/// Every check of this file that holds for the tree of a cell: all except that faces are complete.
+/// Runs the checks of this file on the tree of a cell: all checks except that faces are complete.
 pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate()?;
     let judge = Judge::new(tree);
@@ -134,7 +134,7 @@ impl<'t> Judge<'t> {
         covers.iter_mut().enumerate().try_for_each(|(face, cover)| self.is_covered(face, cover))
     }
 
-    /// The covered part of each face.
+    /// Returns the covered part of each face.
     pub fn covers(&self) -> Vec<Cover> {
         let empty = |face: &Face| Cover {
             area: Rational::zero(),
@@ -258,7 +258,7 @@ fn along(face: &Face, edge: usize, point: &Point) -> Rational {
     (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
 }
 
-/// The vertex where two consecutive lines around a piece meet.
+/// Returns the vertex where two consecutive lines around a piece meet.
 pub fn meeting(before: EdgeLine, after: EdgeLine, corners: u32) -> VertexId {
     match (before.as_edge(), before.as_cut(), after.as_cut()) {
         (_, _, Some(plane)) => VertexId::crossing(before, plane),

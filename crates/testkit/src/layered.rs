@@ -51,7 +51,7 @@ pub fn check_layers(tree: &BspTree, camera: &Camera, score: &mut Layers) -> Resu
     Ok(())
 }
 
-/// The same check for polygons with opacities.
+/// Runs the check of this module for polygons with opacities.
 pub fn check_mixed(
     tree: &BspTree,
     camera: &Camera,

@@ -30,7 +30,7 @@ impl Page {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Carousel, Self::Stack, Self::Cubes, Self::Crossing];
 
-    /// The name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Carousel => "carousel",
@@ -75,7 +75,7 @@ impl PageLayer {
     }
 }
 
-/// The perspective of the page, from the middle of the screen.
+/// Returns the perspective of the page, from the middle of the screen.
 pub fn camera() -> DMat4 {
     let mut perspective = DMat4::IDENTITY;
     perspective.z_axis.w = -1.0 / PERSPECTIVE;

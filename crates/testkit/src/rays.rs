@@ -57,14 +57,14 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The line of sight through a point in lattice units, unless the eye is there.
+    /// Creates the line of sight through a point in lattice units, unless the eye is there.
     pub fn through(target: DVec3, view: &View) -> Option<Self> {
         let (origin, direction) = view.ray_to(target);
         let is_ray = !direction.iter().all(Zero::is_zero);
         is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
     }
 
-    /// The rounded place of a hit, and the ray's beginning, if it has one.
+    /// Returns the rounded place of a hit, and the ray's beginning, if it has one.
     pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
         let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().value()));
         let at = |i: usize| {
@@ -167,7 +167,7 @@ impl<'t> Rays<'t> {
         Ok(())
     }
 
-    /// A point inside a fragment, rounded, in lattice units.
+    /// Returns a point inside a fragment, rounded, in lattice units.
     pub fn some_point(&self, dice: &mut Dice) -> DVec3 {
         let fragment = self.tree.fragment(dice.below(self.tree.len()) as u32);
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
@@ -179,7 +179,7 @@ impl<'t> Rays<'t> {
         sum / total
     }
 
-    /// The hits of a ray inside the outlines of fragments.
+    /// Returns the hits of a ray inside the outlines of fragments.
     pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
         let hit = |(id, (own, bounds)): (usize, &Outline)| {

@@ -11,14 +11,14 @@ use binspace::{
     BspTree, BuildOptions, Culling, Facing, Flow, Frustum, Node, Part, Ray, Viewpoint, view,
 };
 
-/// A tree's file.
+/// Returns a tree's file.
 pub fn bytes(tree: &BspTree) -> Vec<u8> {
     let mut bytes = Vec::new();
     tree.write(&mut bytes).expect("a list takes all");
     bytes
 }
 
-/// The CRC-32 of gzip and PNG, bit by bit.
+/// Returns the CRC-32 of gzip and PNG, bit by bit.
 pub fn checksum(bytes: &[u8]) -> u32 {
     let step = |rest: u32| if rest & 1 == 1 { rest >> 1 ^ 0xedb8_8320 } else { rest >> 1 };
     let next = |rest: u32, &byte: &u8| (0..8).fold(rest ^ u32::from(byte), |rest, _| step(rest));

@@ -20,20 +20,20 @@ impl<'t> Shots<'t> {
         Self { faces, low, high }
     }
 
-    /// A corner of any face.
+    /// Returns a corner of any face.
     pub fn corner(&self, dice: &mut Dice) -> DVec3 {
         world(self.faces, dice.below(self.faces.corner_count()) as u32)
     }
 
-    /// A point of the plane of a face, inside the face or not: exactly on it if eighths of its edges are
-    /// numbers.
+    /// Returns a point of the plane of a face, inside the face or not: exactly on it if eighths of its edges
+    /// are numbers.
     pub fn on_plane(&self, face: u32, dice: &mut Dice) -> DVec3 {
         let [a, b, c] = self.faces.reference_triangle(face).map(|k| world(self.faces, k));
         let mut share = || (dice.below(17) as f64 - 4.0) / 8.0;
         a + (b - a) * share() + (c - a) * share()
     }
 
-    /// A point of the bounding box, enlarged.
+    /// Returns a point of the bounding box, enlarged.
     pub fn around(&self, by: f64, dice: &mut Dice) -> DVec3 {
         let share = DVec3::from_array([0; 3].map(|_| (dice.share() - 0.5) * by + 0.5));
         self.low + (self.high - self.low) * share
@@ -49,7 +49,7 @@ impl<'t> Shots<'t> {
         [0, 1].map(|_| world(self.faces, (range.start + dice.below(range.len())) as u32))
     }
 
-    /// A ray of any kind, with finite numbers.
+    /// Returns a ray of any kind, with finite numbers.
     pub fn ray(&self, dice: &mut Dice) -> Ray {
         let ray = self.any_ray(dice);
         let (Ray::Segment { from: a, to: b } | Ray::Endless { from: a, direction: b }) = ray;

@@ -40,12 +40,12 @@ impl Sliver {
     }
 }
 
-/// The point `s` and `t` steps along `u` and `v` from another.
+/// Returns the point `s` and `t` steps along `u` and `v` from another.
 pub fn along(from: Point, [u, v]: [Point; 2], [s, t]: [i64; 2]) -> Point {
     std::array::from_fn(|i| from[i] + s * u[i] + t * v[i])
 }
 
-/// A whole number from −n to n.
+/// Returns a whole number from −n to n.
 pub fn whole(dice: &mut Dice, n: i64) -> i64 {
     (dice.roll() % (2 * n as u64 + 1)) as i64 - n
 }

@@ -46,12 +46,12 @@ impl Shared {
         }
     }
 
-    /// The surface in each pixel, row by row from the top left; [`NONE`] in empty pixels.
+    /// Returns the surface in each pixel, row by row from the top left; [`NONE`] in empty pixels.
     pub fn shown(&self) -> &[u32] {
         &self.shown
     }
 
-    /// The depth in each pixel; infinite in empty pixels.
+    /// Returns the depth in each pixel; infinite in empty pixels.
     pub fn depths(&self) -> &[f64] {
         &self.depths
     }

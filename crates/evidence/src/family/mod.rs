@@ -86,7 +86,7 @@ impl Family {
     /// The coplanar tolerance for the families: none.
     pub const TOLERANCE: f64 = 0.0;
 
-    /// The family's name on the command line.
+    /// Returns the family's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Angle => "angle",
@@ -120,7 +120,7 @@ impl Family {
         }
     }
 
-    /// The meaning of the difficulty, for the axis of a plot.
+    /// Returns the meaning of the difficulty, for the axis of a plot.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Angle => "angle between triangles [rad]",
@@ -137,8 +137,8 @@ impl Family {
         }
     }
 
-    /// The difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the smallest to the
-    /// largest); a few of them if `quick`.
+    /// Returns the difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the
+    /// smallest to the largest); a few of them if `quick`.
     pub fn sweep(self, quick: bool) -> &'static [f64] {
         const DECADES: &[f64] =
             &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -166,8 +166,8 @@ impl Family {
         }
     }
 
-    /// The scene of a difficulty. A difficulty that counts things is rounded down, and is at least the
-    /// smallest of the sweep.
+    /// Returns the scene of a difficulty. A difficulty that counts things is rounded down, and is at least
+    /// the smallest of the sweep.
     pub fn scene(self, difficulty: f64, seed: u64) -> Scene {
         self.trial(difficulty, seed).scene
     }

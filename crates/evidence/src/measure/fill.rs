@@ -36,7 +36,7 @@ pub struct FillError {
 }
 
 impl Filled {
-    /// An empty picture.
+    /// Creates an empty picture.
     pub fn new(size: [u32; 2]) -> Self {
         let size = size.map(|side| side as usize);
         Self { size, pixels: vec![Pixel::Nothing; size[0] * size[1]] }

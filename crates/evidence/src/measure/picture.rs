@@ -30,8 +30,8 @@ pub struct PictureError {
 }
 
 impl PictureError {
-    /// The errors of one picture; `truth` is the [exact depth buffer](binspace::raster::zbuffer)'s, made with
-    /// the same rays.
+    /// Counts the errors of one picture. `truth` is the picture of the [exact depth
+    /// buffer](binspace::raster::zbuffer), made with the same rays.
     pub fn of(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Self {
         let found = compare(rays, faces, painted, truth);
         let depth = DepthError::of(rays, faces, painted, truth, &found);
@@ -49,12 +49,12 @@ impl PictureError {
         }
     }
 
-    /// The number of wrong pixels. Contested pixels do not count.
+    /// Returns the number of wrong pixels. Contested pixels do not count.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
 
-    /// The wrong pixels as a share of the covered ones.
+    /// Returns the wrong pixels as a share of the covered ones.
     pub fn wrong_share(&self) -> f64 {
         self.wrong() as f64 / self.covered.max(1) as f64
     }
@@ -133,7 +133,7 @@ fn met(faces: &Faces, face: u32, [start, direction]: [[i128; 3]; 2]) -> [IBig; 2
     [less(p, start), direction].map(|v| normal.iter().zip(v).map(|(n, c)| n * IBig::from(c)).sum())
 }
 
-/// The longest side of the box around all faces, in world units.
+/// Returns the longest side of the box around all faces, in world units.
 pub fn extent(faces: &Faces) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for corner in (0..faces.corner_count() as u32).map(|corner| faces.corner(corner)) {

@@ -29,17 +29,18 @@ enum Arithmetic {
 }
 
 impl Bsp {
-    /// The library's tree: no decision is ever wrong. The tolerance is the faces' tolerance.
+    /// Creates the library's tree: no decision is ever wrong. The tolerance is the faces' tolerance.
     pub fn exact(options: BuildOptions) -> Self {
         Self { options, arithmetic: Arithmetic::Exact }
     }
 
-    /// A tree of `f64`; see [`Tree::with_epsilon`]. Of the options, only the budget of fragments is used.
+    /// Creates a tree of `f64`; see [`Tree::with_epsilon`]. Of the options, only the budget of fragments is
+    /// used.
     pub fn double(options: BuildOptions, epsilon: f64) -> Self {
         Self { options, arithmetic: Arithmetic::Double(epsilon) }
     }
 
-    /// A tree of `f32`; otherwise as [`double`](Self::double).
+    /// Creates a tree of `f32`; otherwise as [`double`](Self::double).
     pub fn single(options: BuildOptions, epsilon: f64) -> Self {
         Self { options, arithmetic: Arithmetic::Single(epsilon) }
     }

@@ -31,7 +31,7 @@ impl Method for Centroid {
     }
 }
 
-/// All faces in the order that [`Centroid`] paints them in.
+/// Returns all faces in the order that [`Centroid`] paints them in.
 pub fn centroid_order(faces: &Faces, camera: &Camera) -> Vec<u32> {
     let mut keys = Vec::new();
     sort(&centroids(faces), &CameraSpace::new(camera, faces.lattice()), &|_| true, &mut keys);

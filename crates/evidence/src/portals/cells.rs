@@ -73,7 +73,7 @@ pub(super) struct Portal {
 }
 
 impl Cells {
-    /// The cells of a tree of `polygons` polygons.
+    /// Creates the cells of a tree of `polygons` polygons.
     pub fn new(tree: &BspTree, polygons: usize) -> Self {
         let corners = || tree.fragments().flat_map(|fragment| fragment.vertices());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
@@ -93,22 +93,22 @@ impl Cells {
         cells
     }
 
-    /// The number of cells.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
     }
 
-    /// Whether there is no cell: never.
+    /// Returns whether there is no cell: never.
     pub fn is_empty(&self) -> bool {
         self.cells.is_empty()
     }
 
-    /// The number of portals.
+    /// Returns the number of portals.
     pub fn portal_count(&self) -> usize {
         self.portals.len()
     }
 
-    /// The cells that contain a point; several if it is on their common boundary.
+    /// Returns the cells that contain a point; several if it is on their common boundary.
     pub fn at(&self, point: DVec3) -> Vec<usize> {
         let (mut pending, mut found) = (vec![self.whole], Vec::new());
         while let Some(next) = pending.pop() {

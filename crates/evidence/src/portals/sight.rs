@@ -37,20 +37,20 @@ impl Seen {
         Self { cells: vec![false; cells.len()], polygons: vec![false; cells.polygons] }
     }
 
-    /// The number of polygons that may be seen.
+    /// Returns the number of polygons that may be seen.
     pub fn polygon_count(&self) -> usize {
         self.polygons.iter().filter(|&&seen| seen).count()
     }
 
-    /// The number of cells that may be seen.
+    /// Returns the number of cells that may be seen.
     pub fn cell_count(&self) -> usize {
         self.cells.iter().filter(|&&seen| seen).count()
     }
 }
 
 impl Cells {
-    /// The set that an eye may see within a frustum, through portals that are within the portals before them
-    /// (C. Jones 1971; D. Luebke and C. Georges 1995).
+    /// Returns the set that an eye may see within a frustum, through portals that are within the portals
+    /// before them (C. Jones 1971; D. Luebke and C. Georges 1995).
     pub fn seen_from(&self, eye: DVec3, frustum: &Frustum) -> Seen {
         self.seen_with(SLACK, NEAREST, eye, frustum)
     }
@@ -74,9 +74,9 @@ impl Cells {
         seen
     }
 
-    /// The set that may be seen from some point of a cell: its potentially visible set (J. Airey 1990; S.
-    /// Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is the union of
-    /// the sets that may be seen from each portal.
+    /// Returns the set that may be seen from some point of a cell: its potentially visible set (J. Airey
+    /// 1990; S. Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is the
+    /// union of the sets that may be seen from each portal.
     pub fn seen_from_cell(&self, cell: usize) -> Seen {
         let mut seen = Seen::nothing(self);
         self.look_around(cell, &[], &mut seen);

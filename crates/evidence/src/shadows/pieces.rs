@@ -46,12 +46,12 @@ impl Piece {
         }
     }
 
-    /// The corners, exact: coordinates in lattice units, times a weight above 0, and that weight.
+    /// Returns the corners, exact: coordinates in lattice units, times a weight above 0, and that weight.
     pub fn exact_corners(&self) -> impl Iterator<Item = [IBig; 4]> + '_ {
         self.corners.iter().map(|corner| corner.place.homogeneous())
     }
 
-    /// The corners, each coordinate within a few roundings.
+    /// Returns the corners, each coordinate within a few roundings.
     pub fn corners<'a>(&'a self, faces: &'a Faces) -> impl Iterator<Item = DVec3> + 'a {
         self.corners.iter().map(|corner| faces.lattice().to_world(corner.place.rounded()))
     }

@@ -41,7 +41,7 @@ impl Cells {
         Self { nodes, above }
     }
 
-    /// Whether two fragments are said to lie on one plane.
+    /// Returns whether two fragments are said to lie on one plane.
     pub fn share_a_plane(&self, a: u32, b: u32) -> bool {
         let [above, other] = [a, b].map(|fragment| self.above[fragment as usize]);
         above.is_some_and(|node| {
@@ -49,8 +49,8 @@ impl Cells {
         }) && above == other
     }
 
-    /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its border, or
-    /// (`None`) not. An error if the fragment is said to lie on a plane that does not contain the point.
+    /// Returns whether a point of a fragment's polygon is in the cell of the fragment: inside, on its border,
+    /// or (`None`) not. An error if the fragment is said to lie on a plane that does not contain the point.
     pub fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
         let mut border = Border::Inside;
         let mut next = self.above[fragment as usize];

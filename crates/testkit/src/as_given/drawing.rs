@@ -46,7 +46,7 @@ impl<'t> Drawing<'t> {
         Self { targets, outlines, off }
     }
 
-    /// The fragments of a polygon that a point may be in; if it certainly is in one, only that.
+    /// Returns the fragments of a polygon that a point may be in; if it certainly is in one, only that.
     pub fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
         let at = flat(&self.targets.planes[polygon], DVec3::from(point));
         let within = |outline: &Outline| (outline.fragment, self.within(outline, at));

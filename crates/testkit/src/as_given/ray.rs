@@ -66,7 +66,7 @@ impl<'s> Targets<'s> {
         Self { scene, planes, balls }
     }
 
-    /// A plane by its name, from the corners as given.
+    /// Returns a plane by its name, from the corners as given.
     pub fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
         let faces = tree.faces();
         match id.kind() {
@@ -78,7 +78,7 @@ impl<'s> Targets<'s> {
         }
     }
 
-    /// The hits of a ray, the furthest first; hits at the same point are in one list.
+    /// Returns the hits of a ray, the furthest first; hits at the same point are in one list.
     pub fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
         let origin = DVec3::from_array(ray.origin.map(|c| c as f64 / ray.below as f64));
         let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
@@ -152,13 +152,13 @@ fn is_convex(polygon: &[Point], plane: &Plane) -> bool {
 }
 
 impl Ray {
-    /// Whether the whole ray lies in a plane.
+    /// Returns whether the whole ray lies in a plane.
     pub fn is_in(&self, plane: &Plane) -> bool {
         let start = scalar(&plane.normal, &big(self.origin)) - &plane.offset * self.below;
         sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
     }
 
-    /// The distance from a plane at which it begins; `None` if it is endless.
+    /// Returns the distance from a plane at which it begins; `None` if it is endless.
     pub fn start_from(&self, plane: &Plane) -> Option<f64> {
         let eye = Spot::new(big(self.origin), self.below.into());
         (!self.endless).then(|| plane.distance(&eye))

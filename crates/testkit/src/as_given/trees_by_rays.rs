@@ -110,7 +110,7 @@ impl<'t> Court<'t> {
         Self { targets, tree, drawing, cells, score }
     }
 
-    /// All checks.
+    /// Returns all checks.
     pub fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
         self.input_has_not_moved()?;
         self.drawing.check(self.tree)?;

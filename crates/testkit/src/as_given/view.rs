@@ -58,7 +58,7 @@ impl View {
         }
     }
 
-    /// A ray to a corner, a point of an edge or a point inside a polygon; `None` if the eye is there.
+    /// Returns a ray to a corner, a point of an edge or a point inside a polygon; `None` if the eye is there.
     pub fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
         let all = self.about.is_empty() || dice.below(4) == 0;
         let polygon = if all {
@@ -82,7 +82,7 @@ impl View {
         self.ray_to(target, total)
     }
 
-    /// The ray to the view's target, if it has one.
+    /// Returns the ray to the view's target, if it has one.
     pub fn first_ray(&self) -> Option<Ray> {
         self.target.and_then(|(target, total)| self.ray_to(target, total))
     }
@@ -115,8 +115,9 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     add(corners[0], add(times(s, arm(1)), times(t, arm(corners.len() - 1))))
 }
 
-/// A viewpoint around the scene, within it, on a corner or a plane, just off a plane, far out at the height
-/// of a corner, or collinear with two corners; or a direction along an edge or a plane, or next to one.
+/// Returns a viewpoint around the scene, within it, on a corner or a plane, just off a plane, far out at the
+/// height of a corner, or collinear with two corners; or a direction along an edge or a plane, or next to
+/// one.
 pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
@@ -156,8 +157,8 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
 /// The number of kinds of views.
 pub const KINDS: usize = 10;
 
-/// An eye collinear with points of two consecutive polygons, which may be near each other; rays aim at
-/// both.
+/// Returns an eye collinear with points of two consecutive polygons, which may be near each other; rays aim
+/// at both.
 pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     let first = dice.below(scene.polygons.len());
     let second = (first + 1 + dice.below(3)) % scene.polygons.len();

@@ -64,7 +64,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A partition's file.
+/// Returns a partition's file.
 pub fn written(partition: &Partition) -> Vec<u8> {
     let mut bytes = Vec::new();
     partition.write(&mut bytes).expect("a list takes all");
@@ -98,7 +98,8 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A partition that is read can be used: all cells are in the order, bounded, and have each point once.
+/// Reads a partition and uses it if it is valid: all cells are in the order and bounded, and each point is in
+/// one cell.
 pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     let Ok(partition) = Partition::read(file) else { return false };
     assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);

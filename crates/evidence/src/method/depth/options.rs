@@ -55,7 +55,7 @@ pub struct Sections {
 }
 
 impl DepthBuffer {
-    /// A buffer of this format with edge functions and the scene's own range.
+    /// Creates a buffer of this format with edge functions and the scene's own range.
     pub const fn new(format: DepthFormat) -> Self {
         Self {
             format,
@@ -67,25 +67,25 @@ impl DepthBuffer {
         }
     }
 
-    /// With another way to interpolate.
+    /// Sets the way to interpolate.
     #[must_use]
     pub const fn with_interpolation(self, interpolation: Interpolation) -> Self {
         Self { interpolation, ..self }
     }
 
-    /// With given near and far planes, in world units.
+    /// Sets the near and the far plane, in world units.
     #[must_use]
     pub const fn with_range(self, near: f64, far: f64) -> Self {
         Self { near: Some(near), far: Some(far), ..self }
     }
 
-    /// With other rules.
+    /// Sets the rules.
     #[must_use]
     pub const fn with_rules(self, rules: DepthRules) -> Self {
         Self { rules, ..self }
     }
 
-    /// Drawn in sections of this many rows, by this many threads.
+    /// Draws pictures in sections of `rows` rows, by `threads` threads.
     #[must_use]
     pub const fn with_sections(self, rows: u32, threads: usize) -> Self {
         Self { sections: Some(Sections { rows, threads }), ..self }

@@ -15,7 +15,8 @@ pub struct Stored {
 }
 
 impl DepthFormat {
-    /// The stored value in a perspective picture's buffer, for a depth between the near and the far plane.
+    /// Returns the stored value in a perspective picture's buffer, for a depth between the near and the far
+    /// plane.
     pub fn store(self, planes: [f64; 2], depth: f64) -> Stored {
         if self.is_float() {
             self.store_in::<f32>(planes, depth)
@@ -42,7 +43,8 @@ impl DepthFormat {
         Stored { value, depth }
     }
 
-    /// The largest difference between depths around this one, within `share` of it, and their stored values.
+    /// Returns the largest difference between depths around this one, within `share` of it, and their stored
+    /// values.
     pub fn largest_error(self, planes: [f64; 2], depth: f64, share: f64) -> f64 {
         // Samples at irregular distances, so that their pattern differs from the regular steps of the format.
         let golden = |i: u32| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
@@ -51,8 +53,8 @@ impl DepthFormat {
         (0..LOOKED_AT).map(error).fold(0.0, f64::max)
     }
 
-    /// The difference of two depths, near this one, whose stored numbers are a step apart, by the formula: a
-    /// step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
+    /// Returns the difference of two depths, near this one, whose stored numbers are a step apart, by the
+    /// formula: a step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
     ///
     /// The step of an `f32` depends on the power of two of the stored number.
     pub fn step(self, [near, far]: [f64; 2], depth: f64) -> f64 {

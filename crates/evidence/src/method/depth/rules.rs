@@ -57,19 +57,19 @@ impl DepthRules {
         writes: true,
     };
 
-    /// With another test.
+    /// Sets the test.
     #[must_use]
     pub const fn with_test(self, test: DepthTest) -> Self {
         Self { test, ..self }
     }
 
-    /// Cleared to another value.
+    /// Sets the clear value.
     #[must_use]
     pub const fn with_clear(self, clear: Clear) -> Self {
         Self { clear, ..self }
     }
 
-    /// With the larger number nearer, or the smaller.
+    /// Sets which of two numbers is nearer.
     #[must_use]
     pub const fn with_nearer(self, nearer: Nearer) -> Self {
         Self { nearer, ..self }

@@ -78,8 +78,8 @@ impl SetUp {
         self.unit * 2f64.powi(size.log2().floor() as i32)
     }
 
-    /// The number that is about to be stored for a face at a pixel's centre; `None` for a face that is not
-    /// seen.
+    /// Returns the number that is about to be stored for a face at a pixel's centre; `None` for a face that
+    /// is not seen.
     pub fn at(&self, face: u32, x: u32, y: u32) -> Option<Unstored> {
         let (origin, [along_x, along_y]) = self.planes[face as usize]?;
         let by_y = (f64::from(y) + 0.5 - origin.y) * along_y;
