@@ -120,7 +120,7 @@ impl Tree {
         whole.iter().copied().chain(stored.iter().map(|vertex| vertex.position))
     }
 
-    /// For each vertex of a fragment, its definition.
+    /// Returns the definition of each vertex of a fragment.
     pub fn vertex_ids(&self, fragment: u32) -> impl Iterator<Item = VertexId> {
         let stored = self.stored(fragment);
         let corners =

@@ -27,7 +27,7 @@ pub const EYE_OF_EIGHT: [f64; 2] = [8.0, 0.0];
 /// The order in which this eye's picture is painted, worked by hand.
 pub const EIGHT_ORDER: &str = "F C G A D₁ B D₂ E H";
 
-/// Eight walls, two units high: their letters, and their corners.
+/// Returns eight walls, two units high: their letters and their corners.
 pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
     EIGHT.into_iter().map(|(letter, [[x, y], [u, v]])| {
         let corners = [[x, y, 0.0], [u, v, 0.0], [u, v, 2.0], [x, y, 2.0]];

@@ -49,7 +49,7 @@ pub fn said(browser: &str, folder: &Path, page: &str, script: &str) -> String {
     said.to_owned()
 }
 
-/// Returns a number of a list, by the hash of Fowler, Noll and Vo over its words.
+/// Returns a hash of a list: the function of Fowler, Noll and Vo over its numbers.
 pub fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }

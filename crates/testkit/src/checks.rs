@@ -1,4 +1,4 @@
-//! Facts about prepared faces, in rationals.
+//! Checks of prepared faces, in rationals.
 
 use super::model::Face;
 use super::rational::{self, Point};

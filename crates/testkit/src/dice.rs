@@ -44,7 +44,7 @@ impl Dice {
         DVec3::from_array([0; 3].map(|_| self.around_zero(n)))
     }
 
-    /// A list in another order.
+    /// Shuffles a list.
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for i in (1..list.len()).rev() {
             list.swap(i, self.below(i + 1));

@@ -4,7 +4,7 @@ use binspace::glam::DVec3;
 use binspace::partition::{Extent, Partition};
 use binspace::{BspTree, BuildOptions, Error};
 
-/// A scene, divided.
+/// A scene divided into cells.
 pub struct Divided {
     pub polygons: Vec<Vec<DVec3>>,
     pub partition: Partition,
@@ -24,7 +24,7 @@ pub fn extent(polygons: &[Vec<DVec3>]) -> Extent {
 }
 
 impl Divided {
-    /// Samples are all corners.
+    /// Divides a scene into cells. All corners are samples.
     pub fn new(
         polygons: Vec<Vec<DVec3>>,
         options: BuildOptions,

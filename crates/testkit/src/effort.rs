@@ -29,7 +29,7 @@ pub fn seeds(count: u64) -> Range<u64> {
     0..count * effort() as u64
 }
 
-/// Options of a property: a number of cases, times the effort. Failing cases are kept in
+/// Returns the options of a property test: `count` cases, times the effort. Failing cases are kept in
 /// `tests/proptest-regressions`, in a file named after the source file, and are tried first.
 pub fn cases(count: usize, source: &'static str) -> Config {
     let path = Path::new(source);

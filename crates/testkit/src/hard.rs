@@ -39,7 +39,7 @@ impl HardScene {
         Self { tolerance, ..self }
     }
 
-    /// Options with its tolerance and a heuristic.
+    /// Returns options with the scene's tolerance and a heuristic.
     pub fn options(&self, by: Heuristic) -> BuildOptions {
         let mut options = BuildOptions::DEFAULT.with_heuristic(by);
         options.tolerance = self.tolerance().into();
@@ -54,7 +54,7 @@ impl HardScene {
         Faces::new(&self.polygons, self.tolerance()).expect("finite").0
     }
 
-    /// Its bounding box, if it has a corner.
+    /// Returns the scene's bounding box, if the scene has a corner.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         bounds(&self.polygons)
     }

@@ -1,5 +1,5 @@
-//! The hits of a ray, computed from the faces alone, exactly: in integers over one denominator, which are
-//! never reduced. Balls around runs of faces exclude most of them.
+//! Computes the hits of a ray exactly from the faces alone: in integers over one denominator, which are never
+//! reduced. Balls around runs of faces exclude most faces.
 
 use super::model;
 use super::rational::{self, Point, Rational};
@@ -51,7 +51,7 @@ struct Face {
     polygon: usize,
 }
 
-/// A number over another that is above 0.
+/// A fraction with a denominator above 0.
 #[derive(Clone, Debug)]
 struct Fraction {
     over: IBig,
@@ -134,7 +134,7 @@ impl Ord for Fraction {
     }
 }
 
-/// A number as a whole number times a power of two.
+/// A number as a whole number and the exponent of a power of two.
 fn parts(value: f64) -> (i64, i32) {
     let bits = value.abs().to_bits();
     let (exponent, digits) = ((bits >> 52) as i32, (bits & ((1 << 52) - 1)) as i64);
@@ -143,7 +143,7 @@ fn parts(value: f64) -> (i64, i32) {
     (if value < 0.0 { -digits } else { digits }, exponent)
 }
 
-/// The least exponent of some numbers; of zeros, a large one.
+/// The least exponent of some numbers. Zeros have a large exponent.
 fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     let exponent = |value: f64| {
         let (digits, exponent) = parts(value);
@@ -249,7 +249,7 @@ impl Line {
         })
     }
 
-    /// The ray's own parameter there.
+    /// The parameter of the ray at this point.
     fn parameter(&self, u: &Fraction) -> f64 {
         let bits = self.up.unsigned_abs() as usize;
         let t = match self.up >= 0 {
@@ -272,7 +272,7 @@ impl<'t> Oracle<'t> {
     }
 
     fn of(tree: &'t BspTree, overlay: Option<&'t Overlay>, faces: &'t Faces) -> Self {
-        /// The length of this many steps is a number, however small the scene is.
+        /// The length of 2^`MANY` steps fits an `f64`, however small the scene is.
         const MANY: i32 = 100;
         let all = || 0..faces.len() as u32;
         let rough: Vec<Rough> = all().map(|face| Rough::new(faces, face)).collect();
@@ -397,7 +397,7 @@ impl<'t> Oracle<'t> {
         chords
     }
 
-    /// One for each connected part of a polygon, the nearest first.
+    /// One hit for each connected part of a polygon, the nearest first.
     fn hits(&self, mut chords: Vec<Chord>) -> Vec<Chord> {
         let polygon = |chord: &Chord| self.faces[chord.face].polygon;
         chords.sort_by(|a, b| {
@@ -426,7 +426,7 @@ impl<'t> Oracle<'t> {
         Some(line.parameter(&first))
     }
 
-    /// Whether a ray has a point so far from the scene that it may meet nothing, see `Ray`.
+    /// Whether a point of the ray is so far from the scene that the ray may miss it; see `Ray`.
     fn may_miss(&self, ray: Ray) -> bool {
         let faces = self.given;
         let corners = (0..faces.len() as u32).flat_map(|face| faces.corners(face));
@@ -509,7 +509,7 @@ impl<'t> Oracle<'t> {
         let own = self.step - line.bits as i32;
         for (axis, found) in hit.point().to_array().into_iter().enumerate() {
             let ulp = found.abs().next_up() - found.abs();
-            // All in units of a power of two, times the parameter's denominator.
+            // All numbers are in units of a power of two, times the parameter's denominator.
             let unit = own.min(least([found, ulp]));
             let from = &line.from[axis] + whole(self.origin[axis], own);
             let place =

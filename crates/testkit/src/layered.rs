@@ -1,6 +1,6 @@
-//! Drawings of translucent polygons: the centre of each pixel must have the same polygons in the same order
-//! as the fragments of the tree, by separate integers. If some are opaque, only the nearest opaque one and
-//! those in front of it.
+//! Checks drawings of translucent polygons in separate integers: the centre of each pixel must have the same
+//! polygons in the same order as the fragments of the tree. If some polygons are opaque, only the nearest
+//! opaque polygon and the polygons in front of it count.
 
 use std::collections::{HashMap, HashSet};
 
@@ -23,7 +23,7 @@ pub struct Layers {
     /// Polygons that are drawn although no pixel shows them, and polygons that are not visible at all.
     pub small: usize,
     pub hidden: usize,
-    /// Paths of opaque polygons that are parts.
+    /// Paths that are parts of opaque polygons.
     pub clipped: usize,
     pub rays: usize,
     pub regions: usize,
@@ -61,7 +61,7 @@ pub fn check_mixed(
     let truth = truth(tree, camera)?;
     let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     let drawing = map.drawing().expect("memory");
-    // Outlines do not contain needles thinner than that.
+    // Outlines do not contain parts thinner than this.
     let mut by_cells = Picture::new(map.size());
     for cell in map.cells() {
         let corners: Vec<[f64; 2]> = cell.corners().collect();
@@ -84,7 +84,7 @@ pub fn check_mixed(
             }
         }
     }
-    // Visible polygons are drawn, and nothing else.
+    // Exactly the visible polygons are drawn.
     let shown: Vec<_> = map.polygons().collect();
     if shown.len() != paths.len() || shown.iter().any(|shown| !paths.contains_key(&shown.polygon)) {
         return Err(format!("shown {shown:?}, drawn {paths:?}"));
@@ -164,7 +164,7 @@ fn area(outline: &[[f64; 2]]) -> f64 {
     outline.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
-/// The visible ones of some layers, back to front: opaque ones hide all before.
+/// The visible layers of a list, back to front: an opaque layer hides all layers before it in the list.
 fn visible(layers: &[usize], opacity: &dyn Fn(usize) -> f64) -> Vec<usize> {
     let last = layers.iter().rposition(|&polygon| opacity(polygon) == 1.0);
     let rest = &layers[last.unwrap_or(0)..];

@@ -70,8 +70,8 @@ impl Face {
         self.corners.iter().zip(next).map(turn).min().expect("corners")
     }
 
-    /// Returns every answer that the rules of the library allow: one, except if a corner is as far from the
-    /// plane as the tolerance, up to the rounding of the tolerance.
+    /// Returns every answer that the rules of the library allow. There is one answer, unless the distance of
+    /// a corner from the plane equals the tolerance up to rounding.
     pub fn classify(
         &self,
         (faces, face): (&Faces, u32),
@@ -117,7 +117,7 @@ fn by_vertices(values: &[Rational]) -> Side {
     }
 }
 
-/// Returns the tolerance in the unit of a plane's value: rounded down to an integer, and not.
+/// Returns the tolerance in the unit of a plane's value: first rounded down to an integer, then not rounded.
 pub fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
     let square = rational::scalar(&plane.normal, &plane.normal);
     let length = square.to_f64().value().sqrt() * tolerance;
@@ -147,8 +147,8 @@ fn lattice(corner: [f64; 3]) -> Point {
     corner.map(|c| Rational::from(rational::integer(c)))
 }
 
-/// Returns the part of a convex piece in front of a plane, or behind it; `values` are the plane at the
-/// piece's vertices.
+/// Returns the part of a convex piece in front of a plane, or behind it; `values` are the plane's values at
+/// the piece's vertices.
 pub fn clip(piece: &[Vertex], values: &[Rational], plane: PlaneId, behind: bool) -> Vec<Vertex> {
     let inside = if behind { Ordering::Less } else { Ordering::Greater };
     let cut = EdgeLine::cut(plane, behind);

@@ -27,7 +27,7 @@ pub enum Page {
 }
 
 impl Page {
-    /// All of them.
+    /// All kinds of pages.
     pub const ALL: [Self; 4] = [Self::Carousel, Self::Stack, Self::Cubes, Self::Crossing];
 
     /// Returns the name in tables.
@@ -40,7 +40,7 @@ impl Page {
         }
     }
 
-    /// `count` layers, the same for the same seed.
+    /// Returns `count` layers, the same for the same seed.
     pub fn layers(self, count: usize, seed: u64) -> Vec<PageLayer> {
         let mut dice = Dice(seed);
         let camera = camera();
@@ -89,7 +89,7 @@ type Placed = ([f64; 2], DMat4);
 fn carousel(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let radius = 500.0;
     let step = TAU / count as f64;
-    // Half as wide again as in a ring whose cards just meet.
+    // Half as wide again as cards that only touch their neighbours in the ring.
     let half = 1.5 * radius * (step / 2.0).tan().min(0.6);
     let start = dice.range(0.0, step);
     let ring = DMat4::from_translation(dvec3(0.0, 0.0, -300.0))

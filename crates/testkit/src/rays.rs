@@ -18,8 +18,8 @@ use std::ops::Range;
 
 pub type Vector = vector::Vector<IBig>;
 
-/// If a ray has more hits than this, only neighbours in the order are compared: if all of them are right,
-/// so are the others, except for those that the tolerance excuses.
+/// If a ray has more hits than this, only neighbours in the order are compared. If all neighbours are right,
+/// all pairs are right, except pairs that the tolerance excuses.
 const MANY: usize = 48;
 
 type Plane = vector::Plane<IBig>;
@@ -80,7 +80,8 @@ impl Ray {
     }
 }
 
-/// The point where a ray passes through a fragment: at −start/slope of its face's plane, slope above 0.
+/// The point where a ray passes through a fragment. Its parameter is −start/slope of the plane of the
+/// fragment's face, with a slope above 0.
 pub struct Hit {
     pub fragment: u32,
     face: AtRay,
@@ -97,10 +98,11 @@ impl Hit {
     }
 }
 
-/// The numbers of the plane of a fragment's face, and of those that bound it, with the sign inside.
+/// The number of the plane of a fragment's face. Then the number of each plane that bounds the fragment, with
+/// the sign inside.
 type Outline = (usize, Vec<(usize, Ordering)>);
 
-/// A tree's fragments as bounded by planes.
+/// A tree's fragments, each bounded by planes.
 pub struct Rays<'t> {
     tree: &'t BspTree,
     planes: Vec<Plane>,
@@ -219,8 +221,9 @@ impl<'t> Rays<'t> {
         product(&g.normal, &h.normal).iter().all(Zero::is_zero)
     }
 
-    /// Whether the plane that separated two fragments has the nearer hit within the tolerance, and the
-    /// other hit or the eye as well; if both count as lying on it, they must come in input order.
+    /// Whether the tolerance excuses the order of two hits. Both hits, or the nearer hit and the eye, must be
+    /// within the tolerance of the plane that separates the two fragments. If both fragments lie on this
+    /// plane, they must come in input order.
     fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
         let ids = hits.map(|hit| hit.fragment);
         let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();
@@ -248,7 +251,7 @@ fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Orde
     let corners = faces.corners(face);
     let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));
     let axis = vector::main_axis(&plane.normal);
-    // The axis, the edge and the way inside run like the axes of a right-handed frame.
+    // The axis, the edge and the direction inwards are a right-handed frame.
     (Plane::new(product(&unit(axis), &difference(&b, &a)), &a), vector::sign(&plane.normal[axis]))
 }
 

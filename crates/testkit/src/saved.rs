@@ -40,8 +40,8 @@ const EYES: [Viewpoint; 4] = [
     Viewpoint::Direction(DVec3::Z),
 ];
 
-/// Calls every method of a tree, which may come from a forged file: its faces and planes may be any, but
-/// the tree is right.
+/// Calls every method of a tree, which may come from a forged file: its faces and planes may be arbitrary,
+/// but the tree is valid.
 pub fn use_all(tree: &BspTree) -> Verdict {
     tree.validate()?;
     // These results are not compared, but must not panic.
@@ -52,7 +52,7 @@ pub fn use_all(tree: &BspTree) -> Verdict {
         tree.same_order(viewpoint, EYES[0]);
     }
     use_fragments(tree)?;
-    // Without the rounded normals: a forged plane may have none.
+    // Rounded normals are left out, because a forged plane may have none.
     let places = |node: Node<'_>| (node.index(), node.depth(), node.on(), node.fragments());
     let nodes: Vec<_> = tree.nodes().map(places).collect();
     let mut backwards: Vec<_> = tree.nodes().rev().map(places).collect();
@@ -150,7 +150,7 @@ fn use_extend(tree: &BspTree) {
     let mut more = tree.clone();
     let places = places(tree);
     let polygons = [places.iter().copied().take(3).collect::<Vec<_>>(), places];
-    // It may be refused: a budget keeps it short.
+    // The extension may fail; a budget keeps it short.
     let options = BuildOptions::DEFAULT.with_max_fragments(4 * tree.len() + 100);
     if options.extend(&mut more, &polygons).is_ok() {
         assert_eq!(more.preparation().polygons, tree.preparation().polygons + 2);

@@ -41,7 +41,8 @@ pub fn triangles(dice: &mut Dice, count: usize, [low, high]: [f64; 2], edge: f64
     (0..count).map(triangle).collect()
 }
 
-/// Unit squares of a cubic lattice, most of the walls between its cells: rays meet many at once.
+/// Returns unit squares of a cubic lattice: most of the walls between its cells. Rays meet many squares at
+/// once.
 pub fn cells(n: usize, dice: &mut Dice) -> Vec<Corners> {
     let mut polygons = Vec::new();
     for at in 0..n * n * n {

@@ -92,7 +92,7 @@ pub fn cuboid(turn: DMat3, centre: DVec3, size: DVec3) -> Vec<Corners> {
     (0..3).flat_map(|axis| [side(axis, 1.0), side(axis, -1.0)]).collect()
 }
 
-/// Returns a convex polygon with integer corners in the plane z = 0. Its edges are the given ones, each pair
+/// Returns a convex polygon with integer corners in the plane z = 0. Its edges are the given vectors, each
 /// once forwards and once backwards, sorted by direction. Parallel edges are consecutive, so some corners are
 /// collinear.
 pub fn convex_on_grid(edges: &[[i32; 2]]) -> Vec<[i32; 2]> {
@@ -129,13 +129,15 @@ pub fn regular(n: usize, turn: DMat3, centre: DVec3) -> Corners {
     (0..n).map(|k| turn * DVec3::new(angle(k).cos(), angle(k).sin(), 0.0) + centre).collect()
 }
 
-/// Returns a triangle and two smaller ones that meet one of its edges in the edge's middle: a T-junction.
+/// Returns a triangle, and two smaller triangles on one of its edges that meet in the middle of this edge: a
+/// T-junction.
 pub fn t_junction([a, b, c]: [DVec3; 3], apex: DVec3) -> Vec<Corners> {
     let middle = (a + b) * 0.5;
     vec![vec![a, b, c], vec![middle, a, apex], vec![b, middle, apex]]
 }
 
-/// Returns a triangle with two corners on another one's plane: weights in eighths, and an apex.
+/// Returns a triangle with two corners on the plane of another triangle. `weights` are in eighths, and `apex`
+/// is the third corner.
 pub fn resting_on([a, b, c]: [DVec3; 3], weights: [[i32; 2]; 2], apex: DVec3) -> Corners {
     let on = |[s, t]: [i32; 2]| {
         let (s, t) = (f64::from(s) / 8.0, f64::from(t) / 8.0);

@@ -92,7 +92,7 @@ pub struct Plane<T> {
 }
 
 impl<T: Number> Plane<T> {
-    /// Perpendicular to a normal, with a point on it.
+    /// Creates the plane through a point, perpendicular to a normal.
     pub fn new(normal: Vector<T>, point: &Vector<T>) -> Self {
         let offset = scalar(&normal, point);
         Self { normal, offset }

@@ -66,7 +66,7 @@ impl View {
     }
 }
 
-/// A direction as integers, the largest from 2⁵² to 2⁵³: scaled by a power of two.
+/// A direction scaled by a power of two to integers. The largest is from 2⁵² to 2⁵³.
 fn whole_direction(direction: DVec3) -> DVec3 {
     let size = direction.abs().max_element();
     // The bits without the fraction.

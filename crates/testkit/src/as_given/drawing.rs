@@ -46,7 +46,8 @@ impl<'t> Drawing<'t> {
         Self { targets, outlines, off }
     }
 
-    /// Returns the fragments of a polygon that a point may be in; if it certainly is in one, only that.
+    /// Returns the fragments of a polygon that a point may be in. If the point is certainly in one fragment,
+    /// returns only this fragment.
     pub fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
         let at = flat(&self.targets.planes[polygon], DVec3::from(point));
         let within = |outline: &Outline| (outline.fragment, self.within(outline, at));
@@ -80,8 +81,8 @@ impl<'t> Drawing<'t> {
         within
     }
 
-    /// Checks that the fragments of every polygon have its area, lie on its plane and within it, on the
-    /// sides of the planes that are said to bound them, and on the edges.
+    /// Checks that the fragments of every polygon have its area, lie on its plane and within it, and on the
+    /// right sides of the planes and edges that are reported to bound them.
     pub fn check(&self, tree: &BspTree) -> Verdict {
         for (polygon, outlines) in self.outlines.iter().enumerate() {
             let plane = &self.targets.planes[polygon];

@@ -25,8 +25,8 @@ pub fn float(value: &IBig) -> f64 {
     value.to_f64().value()
 }
 
-/// A result in `f64` is certain beyond this share of the sum of magnitudes: a hundred times the error of a
-/// dozen operations.
+/// The sign of a result in `f64` is certain if the result exceeds this share of the sum of magnitudes: a
+/// hundred times the error of a dozen operations.
 const BELIEVED: f64 = 1e-13;
 
 /// Returns the sign of the determinant of three rows.
@@ -81,7 +81,7 @@ impl Plane {
         Self::new(normal, [at; 3])
     }
 
-    /// Returns whether it has a direction.
+    /// Returns whether the normal is not zero.
     pub fn is_proper(&self) -> bool {
         self.normal.iter().any(|c| !c.is_zero())
     }

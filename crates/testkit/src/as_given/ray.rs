@@ -158,7 +158,7 @@ impl Ray {
         sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
     }
 
-    /// Returns the distance from a plane at which it begins; `None` if it is endless.
+    /// Returns the distance of the ray's start from a plane; `None` if the ray is endless.
     pub fn start_from(&self, plane: &Plane) -> Option<f64> {
         let eye = Spot::new(big(self.origin), self.below.into());
         (!self.endless).then(|| plane.distance(&eye))

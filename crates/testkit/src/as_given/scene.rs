@@ -81,7 +81,7 @@ pub fn times(k: i64, p: Point) -> Point {
     p.map(|c| k * c)
 }
 
-/// Seven times a rotation away from all axes, in integers.
+/// Returns a rotated point, scaled by seven so that it has integer coordinates. The rotation moves all axes.
 pub fn tilt([x, y, z]: Point) -> Point {
     add(add(times(x, [2, 3, 6]), times(y, [3, -6, 2])), times(z, [6, 2, -3]))
 }

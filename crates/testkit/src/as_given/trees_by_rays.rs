@@ -1,5 +1,5 @@
-//! Trees compared with rays: far before near, input order if polygons are in one plane, and every polygon
-//! covered once.
+//! Compares trees with rays: fragments must come far before near, or in input order if they are in one plane,
+//! and must cover every polygon once.
 
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
@@ -22,12 +22,12 @@ pub struct Score {
     pub rays: usize,
     /// Pairs of polygons that a ray meets one behind the other, or in one plane.
     pub pairs: usize,
-    /// The pairs of these in one plane.
+    /// The number of these pairs that are in one plane.
     pub coplanar: usize,
     /// Points on the border of a fragment, whose cells were computed in big integers; with a tolerance,
     /// these hits are left out.
     pub borders: usize,
-    /// Pairs met on both borders by a ray that lies in the plane between: either may come first.
+    /// Pairs met on both borders by a ray that lies in the plane between them: either may come first.
     pub grazing: usize,
     /// Pairs in the wrong order within the tolerance.
     pub excused: usize,
@@ -110,7 +110,7 @@ impl<'t> Court<'t> {
         Self { targets, tree, drawing, cells, score }
     }
 
-    /// Returns all checks.
+    /// Runs all checks.
     pub fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
         self.input_has_not_moved()?;
         self.drawing.check(self.tree)?;
@@ -258,8 +258,9 @@ impl<'t> Court<'t> {
         self.excuse(ray, [a, b], &between)
     }
 
-    /// Within the tolerance of the plane between, parts may be exchanged: both must be as near to it, or
-    /// the nearer one and the eye; if both count as lying on it, they come in input order.
+    /// Checks that the tolerance excuses a wrong order. Both parts, or the nearer part and the eye, must be
+    /// within the tolerance of the plane between the parts. If both parts count as lying on this plane, they
+    /// must be in input order.
     fn excuse(&mut self, ray: &Ray, [a, b]: [&Found<'_>; 2], between: &Plane) -> Verdict {
         self.score.excused += 1;
         let tolerance = self.targets.scene.tolerance * (1.0 + 1e-9);
@@ -275,7 +276,8 @@ impl<'t> Court<'t> {
         })
     }
 
-    /// Two polygons that meet there: in input order, if they are in one plane.
+    /// Checks the order of two polygons that a ray meets at the same point: input order, if they are in one
+    /// plane.
     fn compare_at_one_place(&mut self, ray: &Ray, a: &Found<'_>, b: &Found<'_>) -> Verdict {
         let (p, q) = (a.hit.polygon, b.hit.polygon);
         let planes = [p, q].map(|polygon| &self.targets.planes[polygon]);
@@ -284,7 +286,7 @@ impl<'t> Court<'t> {
         }
         self.score.pairs += 1;
         self.score.coplanar += 1;
-        // Where borders meet, each is visible on its own side.
+        // Where only borders meet, both polygons are visible, each on its side.
         let apart = a.border == Border::On && b.border == Border::On;
         if apart || p.cmp(&q) == a.place.cmp(&b.place) {
             return Ok(());

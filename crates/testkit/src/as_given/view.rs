@@ -19,17 +19,17 @@ pub struct View {
     pub place: Place,
     /// The polygons that most rays aim at; all polygons if this is empty.
     about: Vec<usize>,
-    /// A point that the first ray aims at: numerators over a number.
+    /// A point that the first ray aims at: numerators and a denominator.
     target: Option<(Vector, i128)>,
 }
 
-/// The number of bits that a viewpoint may have beyond the scene's coordinates: together, the lattice and a
-/// rounded number have room for these.
+/// The number of bits that a viewpoint may have beyond the bits of the scene's coordinates, so that all bits
+/// together fit the lattice and an `f64`.
 fn spare_bits(scene: &Scene) -> u32 {
     50 - (scene.size() as u64).next_power_of_two().ilog2()
 }
 
-/// A hair is one unit over this.
+/// The least distance from a plane or a point is one unit divided by this number.
 fn hair(scene: &Scene) -> i128 {
     1 << spare_bits(scene).min(18)
 }
@@ -174,7 +174,8 @@ pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     View { target: Some((wide(a), 4)), ..view }
 }
 
-/// A direction near another: along the axis in which that is longest, a power of two.
+/// A direction near a given one. Its largest component is a power of two, along the axis in which the given
+/// direction is longest.
 fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     let axis = (0..3).max_by_key(|&i| near[i].abs()).unwrap_or(0);
     let mut rounded = wide(near);

@@ -12,8 +12,8 @@ use binspace::{BuildOptions, Viewpoint};
 /// The largest number of cells.
 const CELLS: usize = 9;
 
-/// Three of four times a judged scene; otherwise the file of a partition, changed or arbitrary, with a
-/// right checksum, which can be used if it is read.
+/// In three of four cases, builds a scene and judges it. Otherwise reads the file of a partition, changed or
+/// arbitrary, with a right checksum; a partition that is read must be usable.
 pub fn run(data: &[u8]) {
     let Some((kind, rest)) = data.split_first() else { return };
     // Too few bytes make no scene, and change nothing.
@@ -55,7 +55,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
         panic!("{what}: {options:?} {cells} cells {polygons:?}");
     }
     assert_eq!(Partition::read(&written(&scene.partition)[..]).unwrap(), scene.partition);
-    // The counts of the whole, for any cells.
+    // The counts are those of the whole scene, for any cells.
     let (whole, sum) = (options.build(&polygons), scene.partition.preparation(&polygons));
     let counts = |found: &binspace::Preparation| {
         [found.dropped, found.triangulated, found.crossing, found.flattened]
@@ -98,8 +98,8 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Reads a partition and uses it if it is valid: all cells are in the order and bounded, and each point is in
-/// one cell.
+/// Reads a partition, and uses it if it is valid: orders must contain all cells, bounds must not be NaN, and
+/// trees of cells must not panic. Returns whether it was valid.
 pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     let Ok(partition) = Partition::read(file) else { return false };
     assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);

@@ -15,7 +15,7 @@ struct Known {
     lines: usize,
 }
 
-/// Half the time a file with a known meaning, half the time the bytes themselves.
+/// Reads a file with a known meaning in half of the cases, and the bytes themselves in the other half.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {
@@ -27,7 +27,8 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// Any bytes: a scene that is read is finite, and reads the same when it is written.
+/// Reads any bytes. A scene that is read must be finite, and must be read back as the same scene after
+/// writing.
 fn read_any(bytes: &[u8]) {
     // A library that is the file itself: its lines are read as material lines too.
     let Ok((scene, report)) = Scene::from_obj("any", bytes, |_| Some(bytes.to_vec())) else {
@@ -119,7 +120,7 @@ impl Known {
         for _ in 0..bytes.int_in_range(0..=6u8)? {
             let count = self.corners.len();
             let number = bytes.int_in_range(0..=count + 1)?;
-            // 0 is not a valid number; one too many is, if another corner follows.
+            // 0 is not a valid number. A number one above the last vertex is valid if another vertex follows.
             let index = if number > 0 && number <= count && bytes.arbitrary()? {
                 number as i64 - count as i64 - 1
             } else {

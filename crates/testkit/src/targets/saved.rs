@@ -8,8 +8,8 @@ use binspace::{BspTree, BuildOptions, ErrorKind, FrameBuilder};
 /// The largest file, in bytes, in which places are changed.
 const MOST: usize = 20_000;
 
-/// Half the time a tree's file with some changes, half the time the bytes themselves; the checksum is
-/// right.
+/// Reads a tree's file with some changes in half of the cases, and the bytes themselves in the other half.
+/// The checksum is right.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {

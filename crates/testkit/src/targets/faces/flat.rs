@@ -32,7 +32,7 @@ pub(super) fn area_of(corners: &[[f64; 3]]) -> Area {
     parts.fold([0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
-/// The axis along which an area is largest, or several that are equal up to rounding.
+/// The axis along which an area is largest, or several axes with areas that are equal up to rounding.
 pub(super) fn main_axes(area: Area) -> Vec<usize> {
     let size = area.map(|component| component.unsigned_abs());
     let largest = size.into_iter().max().unwrap_or(0);

@@ -4,7 +4,7 @@ use super::super::super::dice::Dice;
 use super::outline::Corner;
 use std::collections::HashSet;
 
-/// The outline of a tree's cells on a grid, and of those between them: simple, with about `size` corners
+/// The outline of rooms and doors on a grid, which form a tree. It is simple, and has about `size` corners
 /// and only right angles.
 pub(super) fn outline(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let cells = cells(size.div_ceil(3).max(2), dice);
@@ -38,7 +38,7 @@ fn cells(rooms: usize, dice: &mut Dice) -> HashSet<Corner> {
     cells
 }
 
-/// Once around the cells, counter-clockwise, with a corner at each turn.
+/// The outline of the cells, counter-clockwise, with a corner at each turn.
 fn around(cells: &HashSet<Corner>) -> Vec<Corner> {
     let start = *cells.iter().min().expect("a cell");
     // Along the lower side of the leftmost, lowest cell; the inside is to the left.

@@ -18,10 +18,11 @@ use std::ops::ControlFlow;
 
 /// Other targets test trees that take longer.
 const MOST_FRAGMENTS: usize = 20_000;
-/// As above: a build reports its progress about once in 65 536 examined pieces.
+/// A build that reports its progress more often takes too long as well. It reports about once in 65 536
+/// examined pieces.
 const MOST_CALLS: usize = 60;
 
-/// One to three outlines, placed in space.
+/// Places one to three outlines in space, and checks their preparation.
 pub fn run(data: &[u8]) {
     // Too few bytes make no polygon.
     let _ = try_run(&mut Unstructured::new(data));
@@ -172,8 +173,8 @@ impl Made<'_> {
         self.given.corners.iter().map(|&corner| self.faces.lattice().snap(corner)).collect()
     }
 
-    /// Polygons are dropped if they have fewer than three different corners, or collinear ones; if they
-    /// touch themselves, also if they wind around nothing, like spikes.
+    /// Checks that polygons are dropped if they have fewer than three different corners, or only collinear
+    /// corners. Polygons that touch themselves may also be dropped if they wind around no point, like spikes.
     fn is_dropped_if_it_has_no_area(&self, dice: &mut Dice) -> Verdict {
         let corners = self.snapped();
         let first = corners[0];
