@@ -21,7 +21,8 @@ const BACKGROUND: [u8; 3] = [18, 20, 28];
 const CARDS: usize = 8;
 const RIBBON: [f64; 2] = [200.0, 34.0];
 
-/// The size of a card. Every second one is lower: where its plane cuts the higher ones, the cut is longer than it.
+/// The size of a card. Every second card is lower. Where its plane cuts a higher neighbour, the cut is longer
+/// than the low card is high.
 fn card_size(k: usize) -> [f64; 2] {
     [300.0, [260.0, 150.0][k % 2]]
 }
@@ -68,7 +69,7 @@ fn paint_piece(pixmap: &mut Pixmap, piece: LayerPiece<'_>, [red, green, blue]: [
         pixmap.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
     }
 
-    // One path for each run of edges between cuts, so that corners are joined.
+    // Each run of edges between cuts is one path, so that corners are joined.
     let first_cut = edges.iter().position(Option::is_none);
     let mut lines = PathBuilder::new();
     let mut is_drawing = false;

@@ -1,5 +1,5 @@
-//! Frames of a compositor: every frame builds, orders and reads every outline, on one thread, against
-//! `plane-split`, which WebRender uses for CSS 3D layers.
+//! Frames of a compositor, against `plane-split`, which WebRender uses for CSS 3D layers. Every frame builds,
+//! orders, and reads every outline, on one thread.
 
 use binspace::{BuildOptions, FrameBuilder, Viewpoint};
 use euclid::default::Point3D;
@@ -13,7 +13,8 @@ type Outline = [[f64; 3]; 4];
 const COUNTS: [usize; 4] = [12, 30, 100, 200];
 /// Points on the screen at which both orders are judged.
 const SAMPLES: [usize; 2] = [48, 27];
-/// Depths that differ by less, in pixels, are not judged; nor are points so near to an edge.
+/// Depths that differ by less than this, in pixels, are not judged. Points nearer to an edge than this are
+/// not judged either.
 const MARGIN: f64 = 1e-3;
 
 pub(crate) fn run() {

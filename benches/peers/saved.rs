@@ -1,4 +1,4 @@
-//! A tree read from a file, checks included, against building it.
+//! Reading a tree from a file, with all checks, against building the tree.
 
 use binspace::BspTree;
 use std::time::{Duration, Instant};

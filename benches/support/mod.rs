@@ -58,8 +58,8 @@ pub fn up(name: &str) -> DVec3 {
     }
 }
 
-/// Random triangles that shrink as their number grows, so that each meets about as many others: edges of 2 to
-/// 6 tenths of the mean distance between neighbours.
+/// Random triangles that shrink as their number grows, so that each meets about the same number of others.
+/// Edges are 0.2 to 0.6 of the mean distance between neighbours.
 pub fn small_triangles(count: u32) -> Scene {
     let shrink = 2.0 * f64::from(count).powf(-1.0 / 3.0);
     map(&random_triangles(count, SEED), format!("small triangles:{count}"), |[a, b, c]| {
@@ -73,7 +73,7 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
-/// Random turned boxes that cross each other.
+/// Random rotated boxes that cross each other.
 pub fn boxes(count: u32) -> Scene {
     let mut dice = Dice(SEED);
     let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
@@ -126,7 +126,7 @@ pub fn triangles_in_cubes(count: u32) -> Scene {
     scene
 }
 
-/// A scene's polygons as fans of triangles. Fans of polygons that are not convex lie over themselves.
+/// A scene's polygons as fans of triangles. Fans of polygons that are not convex overlap themselves.
 pub fn triangulated(scene: &Scene) -> Scene {
     let mut triangles = Scene::new(scene.name(), scene.up());
     for corners in scene.polygons() {
@@ -179,8 +179,8 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
     mapped
 }
 
-/// Work is repeated for at most this long, or this many times: more would give the same shortest
-/// time.
+/// Work is repeated for at most this time, and at most this many times. More repetitions would give the same
+/// shortest time.
 const ENOUGH: (Duration, u32) = (Duration::from_secs(1), 200);
 
 /// The shortest time of several, three at least, and the last result.
@@ -204,10 +204,10 @@ pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-/// The most exact decisions that are made to check a tree: some seconds.
+/// The largest number of exact decisions to check a tree, which take some seconds.
 const MOST_CHECKS: f64 = 3e8;
 
-/// A tree whose time is reported must be right: every face in it, and valid, if that can be checked
+/// Panics if a tree is wrong. Every face must be in the tree. The tree must be valid, if this can be checked
 /// in seconds.
 pub fn check(tree: &BspTree, scene: &Scene) {
     let stats = tree.stats();

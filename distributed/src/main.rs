@@ -31,8 +31,8 @@ use figures::{Figures, processor_time};
 use polygon::Given;
 use share::Share;
 
-/// The approximate number of samples that choose the planes between cells. Too large: time. Too small: cells
-/// differ in size.
+/// The approximate number of samples that choose the planes between cells. Too large: choosing takes longer.
+/// Too small: cells differ in size.
 const SAMPLES: u64 = 1 << 16;
 
 fn main() -> ExitCode {
@@ -52,7 +52,7 @@ fn main() -> ExitCode {
 /// The work of a rank. After an error on any rank, all of them return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let arguments = match Arguments::try_parse() {
-        // Requested output, such as help, is no error: rank 0 prints it.
+        // Requested output, such as help, is not an error: rank 0 prints it.
         Err(answer) if !answer.use_stderr() => {
             if rank(world) == 0 {
                 print!("{answer}");
@@ -61,7 +61,7 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
         }
         parsed => together(world, parsed.map_err(|error| plain(&error)))?,
     };
-    // Noticed before the work, not after it.
+    // The error is reported before the work, not after it.
     let is_writer = rank(world) == 0;
     together(world, if is_writer { picture::check(&arguments.output) } else { Ok(()) })?;
     let mut figures = Figures::default();
@@ -122,7 +122,7 @@ fn ranks(world: &SimpleCommunicator) -> usize {
     world.size() as usize
 }
 
-/// The cells, one a rank: made by rank 0 of samples, and sent to all.
+/// The cells, one for each rank. Rank 0 makes them from samples, and sends them to all ranks.
 fn divide(
     world: &SimpleCommunicator,
     options: &BuildOptions,
@@ -148,8 +148,8 @@ fn divide(
     together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
 }
 
-/// A hash of a number: for any pattern of numbers, about the same share of hashes are multiples of a given
-/// divisor.
+/// A hash of a number. For any pattern of numbers, the share of hashes that are multiples of a divisor is
+/// about the same.
 fn mixed(number: u64) -> u64 {
     let bits = (number ^ number >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
@@ -192,7 +192,7 @@ fn camera_and_rays(
     Ok((camera, rays))
 }
 
-/// The picture as the library paints it of one tree, without cells: to compare with. For one rank.
+/// The picture that the library paints from one tree without cells, for comparison. Only for one rank.
 fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Result<(), Failure> {
     let draw = || -> Result<(), String> {
         if ranks(world) > 1 {

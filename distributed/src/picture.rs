@@ -68,7 +68,7 @@ struct Painted {
     layers: Vec<Layer>,
     /// For each pixel, the place of the first layer that is not hidden.
     first: Vec<usize>,
-    /// The number of layers at which the hidden ones are removed.
+    /// The number of layers at which hidden layers are removed.
     sweep_at: usize,
 }
 
@@ -96,11 +96,12 @@ impl Painted {
     }
 }
 
-/// The way of a picture to its place.
+/// The way to write a picture to its place.
 enum Place {
-    /// It is written into a device or a pipe.
+    /// The picture is written into a device or a pipe.
     Into,
-    /// It is written beside this name, and replaces an existing file when it is complete.
+    /// The picture is written to a temporary file beside this one, and replaces this file when it is
+    /// complete.
     Beside(PathBuf),
 }
 
@@ -109,7 +110,8 @@ impl Place {
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if !found.is_file() => Ok(Self::Into),
-            // The target of a link is replaced, not the link. (A link without a target is replaced itself.)
+            // The target of a link is replaced, not the link. (If a link has no target, the link itself is
+            // replaced.)
             Ok(_) => fs::canonicalize(path).map(Self::Beside),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
@@ -128,11 +130,11 @@ fn unwritable(path: &Path, error: &io::Error) -> String {
     format!("{}: cannot be written: {error}", path.display())
 }
 
-/// An error if a picture cannot be written to a file, as far as this can be told before.
+/// Returns an error if it is already certain that a picture cannot be written to a file.
 pub(crate) fn check(path: &Path) -> Result<(), String> {
     let check = || match Place::of(path)? {
         Place::Into => Ok(()),
-        // It has no name, so nothing remains if the program ends at once.
+        // The temporary file has no name, so nothing remains if the program is killed.
         Place::Beside(path) => tempfile::tempfile_in(folder_of(&path)).map(drop),
     };
     check().map_err(|error| unwritable(path, &error))
@@ -147,7 +149,7 @@ pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), St
             }
             Place::Beside(target) => target,
         };
-        // The system's mask decides who can read it, as for other files.
+        // The system's mask decides who can read the file, as for other files.
         let file = tempfile::Builder::new()
             .permissions(Permissions::from_mode(0o666))
             .tempfile_in(folder_of(&target))?;
@@ -184,14 +186,14 @@ mod tests {
         write(&folder.path().join("link"), [2, 1], &[9; 6]).unwrap();
         assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
-        // The mask is unknown, but its owner can write it in any.
+        // The mask of the test is unknown, but under any mask the owner can write the file.
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o600, 0o600);
         write(Path::new("/dev/null"), [2, 1], &[9; 6]).unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 
     #[test]
-    fn what_cannot_be_written_is_known_before() {
+    fn unwritable_files_are_reported_before_the_work() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::write(path("file"), "kept").unwrap();

@@ -1,9 +1,9 @@
-//! Polygons on their way between ranks.
+//! Polygons as messages between ranks.
 
 use binspace::Polygon;
 use binspace::glam::DVec3;
 
-/// A polygon with its looks.
+/// A polygon with its colour and opacity.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
     /// Its number in the whole scene.
@@ -35,7 +35,7 @@ const HEAD: usize = 28;
 const CORNER: usize = 24;
 
 impl Given {
-    /// Appends it to some bytes.
+    /// Appends the polygon to some bytes.
     pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
         let [r, g, b] = self.colour;
         bytes.extend(self.number.to_le_bytes());

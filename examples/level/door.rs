@@ -15,7 +15,7 @@ pub(crate) struct Door {
 impl Door {
     /// The door of the doorway that is nearest to a point; `None` if the level has none.
     pub(crate) fn nearest(level: &[(Kind, Quad)], point: DVec3) -> Option<Self> {
-        // The piece of wall above a doorway, from its lower corners.
+        // A doorway is found by the lower corners of the piece of wall above it.
         let lintels = level.iter().filter_map(|&(kind, [a, b, ..])| {
             let height = a.z;
             let on_floor = |p: DVec3| p.with_z(0.0);

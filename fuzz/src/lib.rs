@@ -1,5 +1,4 @@
-//! The checks of the fuzz targets on their bytes: the library's own tests replay crash inputs with the same
-//! code.
+//! The checks of the fuzz targets on their bytes. The library's tests replay crash inputs with the same code.
 
 /// Cuts a face of a scene again and again, and compares with exact rationals.
 pub fn split(data: &[u8]) {

@@ -1,10 +1,11 @@
 //! `gl2ps`: triangles drawn by OpenGL as a vector picture, by a driver in C that is compiled here.
 //!
 //! It sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six digits
-//! of a coordinate. So its pixels are judged twice. The first count covers all pixels except those with one
-//! of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose eight neighbours all
-//! show the same polygon. Its time is the time of a page, from its beginning to the SVG file; ours is the time
-//! of the tree, the map, the paths and the SVG file. Both are times for which one thread ran.
+//! for each coordinate. So its pixels are judged twice. The first count covers all pixels except those with
+//! one of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose eight neighbours
+//! all show the same polygon. Its time is the time of a page, from the beginning of the page to the SVG file.
+//! Our time is the time of the tree, the map, the paths and the SVG file. Both are the running times of one
+//! thread.
 
 use super::fill::{Picture, Pixel};
 use super::{SIZE, camera, cpu_time, drawn};
@@ -120,7 +121,7 @@ impl Ours {
     }
 }
 
-/// The driver's colour of a triangle, about.
+/// The approximate colour that the driver gives a triangle.
 fn colour(number: usize) -> [u8; 3] {
     [14, 7, 0].map(|from| (number >> from & 127) as u8 * 2)
 }
@@ -235,8 +236,8 @@ fn filled_of(line: &str) -> Option<Filled> {
     Some((number, corners?))
 }
 
-/// The visible polygon of each pixel, where a depth buffer and the tree's order agree; these are independent
-/// of each other.
+/// The visible polygon of each pixel, where a depth buffer and the tree's order agree. The two are
+/// independent of each other.
 struct Truth {
     pixels: Vec<Option<Pixel>>,
 }

@@ -1,4 +1,4 @@
-//! Drawings in which nothing is hidden: pieces a polygon.
+//! Drawings in which nothing is hidden: the number of pieces for each polygon.
 
 use super::cpu_time;
 use super::fill::{Picture, Pixel};

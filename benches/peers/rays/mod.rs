@@ -50,7 +50,7 @@ impl Case {
         let scene = triangulated(&scene(name));
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         check(&tree, &scene);
-        // As in the tree, so that all libraries get the same triangles.
+        // Corners are rounded as in the tree, so that all libraries get the same triangles.
         let (faces, lattice) = (tree.faces(), tree.faces().lattice());
         let triangle = |face: u32| {
             let corners = faces.corners(face);
@@ -111,7 +111,7 @@ fn times(cases: &[Case]) {
     let table = Table::new("Rays", &columns);
     for case in cases {
         let mut points = Points::new(case.extent());
-        // From around the scene through it, and between points in it.
+        // Rays from outside through the scene, and between points in the scene.
         let rays: Vec<[DVec3; 2]> = (0..TIMED)
             .map(|_| {
                 let (from, to) = (points.next(2.0), points.next(1.0));
@@ -207,7 +207,7 @@ fn errors(cases: &[Case]) {
             let is_open =
                 if k % 4 < 2 { ends.contains(&bits(a)) } else { boundary.contains(&edge(a, b)) };
             let kind = usize::from(is_open);
-            // From a point around the scene, or straight along an axis.
+            // Rays from a point around the scene, or straight along an axis.
             let from =
                 if k % 3 == 0 { target.with_z(points.next(2.0).z) } else { points.next(2.0) };
             let ray = [from, target - from];
@@ -258,8 +258,8 @@ fn boundary(triangles: &[[DVec3; 3]]) -> HashSet<[Bits; 2]> {
     uses.into_iter().filter(|&(_, count)| count == 1).map(|(edge, _)| edge).collect()
 }
 
-/// Both hit nothing, or the same place within a tolerance far above rounding: the ray's length to the target
-/// is 1.
+/// Whether both hit nothing, or both hit the same place within a tolerance far above rounding. The ray's
+/// length to the target is 1.
 fn agree(expected: Option<f64>, found: Option<f64>) -> bool {
     match (expected, found) {
         (Some(expected), Some(found)) => (expected - found).abs() < 1e-4 * (1.0 + expected),
