@@ -94,14 +94,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_said_is_understood() {
+    fn arguments_are_parsed() {
         let found = parsed("cloud:9 -o a.png --size 20x10 --eye -1,2,3 --figures").unwrap();
         assert_eq!((found.size, found.eye), ([20, 10], Some(DVec3::new(-1.0, 2.0, 3.0))));
         assert!(found.figures && !found.alone && found.scene == "cloud:9");
     }
 
     #[test]
-    fn what_is_wrong_is_refused() {
+    fn wrong_arguments_are_refused() {
         for line in ["", "a.obj", "-o b", "a b -o c", "a -o", "a -o b --size 3", "a -o b --eye 1,2"]
         {
             assert!(parsed(line).is_err_and(|error| error.use_stderr()), "{line}");

@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_hidden_goes_and_the_rest_keeps_its_order() {
+    fn hidden_layers_are_removed_and_the_rest_keeps_its_order() {
         for sweep_at in [1, 2, 3, 100] {
             let mut painted = Painted { layers: vec![], first: vec![0; 4], sweep_at };
             let given =

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn written_data_are_read_again() {
         let given = |number: u64, corners: usize| Given {
             number,
             colour: [1, 200, number as u8],

@@ -160,7 +160,7 @@ fn preparations_count_each_polygon_once() {
 
 /// Extents of shares merge to the extent of the whole, in any order.
 #[test]
-fn extents_of_shares_are_that_of_the_whole() {
+fn merged_extents_of_shares_are_the_extent_of_the_whole() {
     let polygons = triangles(&mut Dice(31), 30, 9);
     let coarse = [[0.5_f32, 1.0, 2.0], [7.0, 3.0, 1.0], [3.0, 9.0, 0.0]];
     let mut whole = extent(&polygons);
@@ -282,7 +282,7 @@ fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
 }
 
 #[test]
-fn a_tree_is_of_its_own_cell_alone() {
+fn a_tree_belongs_to_one_cell_of_one_partition() {
     let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
     let squares: Vec<Corners> = (0..9).map(|x| square(f64::from(x))).collect();
     let whole = BspTree::build(&squares).unwrap();

@@ -18,7 +18,7 @@ fn divided(seed: u64, cells: usize) -> Divided {
 }
 
 #[test]
-fn what_is_written_is_read_again() {
+fn written_data_are_read_again() {
     for cells in 1..8 {
         let scene = divided(cells as u64, cells);
         let file = written(&scene.partition);

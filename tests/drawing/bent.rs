@@ -237,7 +237,7 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
 }
 
 #[test]
-fn crossings_along_bends_are_those_that_rays_meet() {
+fn crossings_along_bends_agree_with_rays() {
     let (mut dice, mut score) = (Dice(14), Score::default());
     let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
     for (count, rounds, options) in [

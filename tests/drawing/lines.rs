@@ -65,7 +65,7 @@ fn a_bar_hides_the_middle_of_an_edge() {
 
 /// Edges that follow one another on one line, of one polygon and of two side by side: each shows where it is.
 #[test]
-fn edges_on_one_line_have_runs_of_their_own() {
+fn edges_on_one_line_have_separate_runs() {
     let wall = [[-3.0, 0.0], [-2.0, 0.0], [0.0, 0.0], [0.0, 2.0], [-3.0, 2.0]];
     let beside = [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [1.0, 2.0], [0.0, 2.0]];
     let post = [[-1.5, -1.0], [-0.5, -1.0], [-0.5, 3.0], [-1.5, 3.0]];

@@ -133,7 +133,7 @@ fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
 }
 
 #[test]
-fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
+fn maps_and_drawings_report_progress_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
     let hear = |progress| listener.hear(progress);
     let heard = ViewOptions::DEFAULT.with_progress(&hear);

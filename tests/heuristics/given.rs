@@ -44,7 +44,7 @@ fn least(
 }
 
 /// Five built-in heuristics, written against the public interface.
-fn written_anew(by: Heuristic, set: &PieceSet<'_>) -> Option<SplitPlane> {
+fn rewritten(by: Heuristic, set: &PieceSet<'_>) -> Option<SplitPlane> {
     let weighted = |candidates, [splits, balance, axial]: [f64; 3]| {
         least(set, candidates, |piece, [cut, uneven]| {
             let [low, high] = set.bounds(piece);
@@ -80,7 +80,7 @@ fn built_in_heuristics_written_against_the_interface_build_the_same_trees() {
             let options = BuildOptions::DEFAULT.with_tolerance(0.0);
             // If the function declines, this would be visible.
             let options = options.with_heuristic(Heuristic::FreePlanes);
-            let own = options.with_chooser(move |set| written_anew(by, set));
+            let own = options.with_chooser(move |set| rewritten(by, set));
             let own = own.build(&scene).expect("a tree");
             let built_in = build(&scene, by);
             assert_eq!(Snapshot::of(&own), Snapshot::of(&built_in), "{by}, seed {seed}");

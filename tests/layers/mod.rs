@@ -88,7 +88,7 @@ fn wild(dice: &mut Dice) -> Given {
 }
 
 #[test]
-fn an_unchanged_frame_is_not_worked_on() {
+fn an_unchanged_frame_takes_no_work() {
     let given = layers_of(Page::Carousel, 12, 3);
     let layers: Vec<Layer> = given.iter().map(Given::layer).collect();
     let mut page = Layers::new(VIEWPORT);

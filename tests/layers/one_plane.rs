@@ -35,7 +35,7 @@ fn a_card_on_a_floor_that_reaches_behind_the_eye_does_not_cut_it() {
 
 /// Clipped, the floor still reaches a million sizes of the viewport into the depth.
 #[test]
-fn a_card_on_a_floor_that_all_but_passes_through_the_eye_is_not_painted_over_it() {
+fn a_floor_that_nearly_passes_through_the_eye_covers_a_card_listed_before_it() {
     let floor = DMat4::from_cols_array(&[
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.01, 0.0, 1.0,
     ]);

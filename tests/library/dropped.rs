@@ -246,7 +246,7 @@ fn exactly_polygons_without_area_are_dropped_and_exactly_others_cut_up() {
 }
 
 #[test]
-fn the_same_holds_in_hard_scenes() {
+fn dropped_polygons_of_hard_scenes_agree_with_brute_force() {
     let kinds = tally(file!(), 600, hard::scene(), |kinds: &mut Kinds, scene| {
         check(kinds, &scene.polygons)
     });
@@ -258,7 +258,7 @@ fn the_same_holds_in_hard_scenes() {
 /// In floats this polygon has no area between any two corners and its first. In integers one of them is off
 /// the line of the others, and spans a triangle of twice the area 1 with two of them.
 #[test]
-fn a_polygon_that_only_integers_see_an_area_of_is_kept() {
+fn a_polygon_whose_area_only_integers_find_is_kept() {
     const S: f64 = (1_u64 << 50) as f64;
     let [a, b] = [1_001_839_071_114_162.0, 862_809_303_082_285.0];
     let [c, d] = [361_461_402_778_337.0, 311_299_758_628_383.0];

@@ -119,7 +119,7 @@ proptest! {
     }
 
     #[test]
-    fn any_finite_input_is_taken(
+    fn any_finite_input_is_accepted(
         polygons in prop::collection::vec(
             prop::collection::vec(prop::array::uniform3(any_finite()), 0..8), 0..5),
         tolerance in prop::option::of(any_finite().prop_map(f64::abs)),

@@ -34,14 +34,14 @@ fn is_in_order(tree: &BspTree, x: f64) -> bool {
 
 /// The reduced case: from above, the third comes first.
 #[test]
-fn a_third_polygon_within_the_tolerance_of_the_overlap_may_take_the_input_order() {
+fn a_third_polygon_within_the_tolerance_of_the_overlap_may_change_the_input_order() {
     let exchanged =
         trees(&scene(1e-8, 0.1), 2e-9).iter().filter(|(_, tree)| !is_in_order(tree, 0.037)).count();
     assert!(exchanged > 0, "the documentation may promise more");
 }
 
 #[test]
-fn nothing_else_takes_the_input_order_from_polygons_in_one_plane() {
+fn nothing_else_changes_the_input_order_of_polygons_in_one_plane() {
     for (rise, overlap, tolerance) in [
         // Exact.
         (1e-8, 0.1, 0.0),

@@ -15,7 +15,7 @@ fn boxed() -> BspTree {
 }
 
 #[test]
-fn a_coordinate_that_is_not_a_number_is_that_of_the_middle() {
+fn a_nan_coordinate_counts_as_the_middle() {
     let tree = boxed();
     for z in [-9.0, 0.5, 1.5, 9.0] {
         let at = |x: f64| polygons(&tree, Viewpoint::eye([x, 5.0, z]));

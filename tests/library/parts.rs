@@ -144,7 +144,7 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
 /// The rest follows the faces of a finished tree. A mesh has the given corners, also those that were moved
 /// onto a plane.
 #[test]
-fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
+fn a_tree_extended_by_several_parts_equals_the_tree_of_all_polygons() {
     let polygons = scene(5000);
     let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
     let expected = options.build(&polygons).expect("finite");

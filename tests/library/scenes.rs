@@ -388,7 +388,7 @@ fn specs_are_read_and_written() {
 }
 
 #[test]
-fn bad_specs_say_what_would_do() {
+fn errors_of_bad_specs_list_the_valid_ones() {
     let error = |text: &str| match Builtin::parse(text) {
         Ok(read) => panic!("{text:?} was read as {read:?}"),
         Err(error) => error.to_string(),

@@ -98,7 +98,7 @@ fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
 
 /// Layers count as coplanar, and so come in input order from below, up to the effective tolerance.
 #[test]
-fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
+fn a_tolerance_is_limited_to_a_share_of_the_extent() {
     let wide = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let layer = |z: f64| wide.map(|[x, y]| [x, y, z]);
     let is_coplanar = |gap: f64, tolerance: f64| {

@@ -4,7 +4,7 @@ use super::{counted, most_bytes};
 use testkit::prelude::*;
 
 #[test]
-fn a_false_length_asks_for_little_memory() {
+fn a_false_length_allocates_little_memory() {
     let tree = BspTree::build(scene::city(2000, 1).polygons()).unwrap();
     let mut file = Vec::new();
     tree.write(&mut file).unwrap();

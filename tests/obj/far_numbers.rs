@@ -8,7 +8,7 @@ use binspace::scene::ObjStream;
 use super::file;
 
 #[test]
-fn a_vertex_number_beyond_the_file_asks_for_no_memory() {
+fn a_vertex_number_beyond_the_file_allocates_no_memory() {
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     // A bit for each vertex would be a gigabyte, a petabyte, more than any machine has.
     for number in ["8000000000", "9000000000000000", "9000000000000000000", "9223372036854775807"] {

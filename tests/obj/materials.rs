@@ -45,7 +45,7 @@ fn several_libraries_may_stand_in_one_line() {
 }
 
 #[test]
-fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
+fn libraries_outside_the_folder_are_never_read() {
     for (name, asked) in [
         ("../a.mtl", vec![]),
         ("sub/../../a.mtl", vec![]),

@@ -107,7 +107,7 @@ fn another_tree_is_refused() {
 }
 
 #[test]
-fn lines_and_points_to_blame_are_named() {
+fn faulty_lines_and_points_are_named() {
     let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);
     let inside = triangle(DVec3::ONE);

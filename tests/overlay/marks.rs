@@ -118,7 +118,7 @@ fn a_point_where_a_line_closes_comes_after_the_segments_there() {
 /// Thousands of points in one place, where thousands of segments meet: the callback counts the examined
 /// pieces, which is not each point for each segment.
 #[test]
-fn points_where_many_segments_meet_take_no_square_of_the_work() {
+fn the_work_at_points_where_many_segments_meet_is_not_quadratic() {
     let tree = tree_of_nothing();
     let mut overlay = Overlay::new(&tree);
     let many = 4000;

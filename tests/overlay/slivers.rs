@@ -5,7 +5,7 @@ use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;
 
 #[test]
-fn a_line_that_is_all_but_straight_does_not_make_lines_coplanar() {
+fn a_nearly_straight_line_does_not_make_lines_coplanar() {
     let bent = [
         dvec3(-1.0, -1.0, 0.0),
         dvec3(0.719_638_576_572_251_9, 0.75, 0.0),

@@ -164,7 +164,7 @@ fn parameters_follow_the_direction() {
 
 /// Like other iterators of the library.
 #[test]
-fn hits_can_be_copied_and_go_on_saying_none() {
+fn hits_can_be_copied_and_keep_returning_none() {
     let tree = BspTree::build((0..20).map(|k| square(f64::from(k)))).unwrap();
     let mut hits = tree.hits(Ray::new([1.0, 2.0, 30.0], [0.0, 0.0, -1.0]));
     assert_eq!(hits.next().map(|hit| hit.polygon()), Some(19));

@@ -19,7 +19,7 @@ struct Score {
     /// Pairs that do not meet, although the fragment is behind none of the planes.
     passed: usize,
     /// Pairs that culling keeps although they do not meet.
-    kept_in_vain: usize,
+    kept_needlessly: usize,
 }
 
 /// The part of a polygon in front of planes: of the closed sides, or of the open ones.
@@ -156,7 +156,7 @@ fn check(oracle: &Oracle<'_>, region: &Frustum, score: &mut Score) -> Result<(),
             |plane: &Plane| polygon.iter().all(|point| rational::sign(&plane.at(point)).is_lt());
         if part.is_empty() {
             score.passed += usize::from(!planes.iter().any(is_behind));
-            score.kept_in_vain += usize::from(order.contains(&fragment));
+            score.kept_needlessly += usize::from(order.contains(&fragment));
         } else {
             truth.push(fragment);
             let on = |plane: &Plane| {
@@ -214,7 +214,7 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
             check(&oracle, &region, &mut score).unwrap();
         }
     }
-    enough!(score.pairs > 10_000, score.met > 2000, score.kept_in_vain > 4; "{score:?}");
+    enough!(score.pairs > 10_000, score.met > 2000, score.kept_needlessly > 4; "{score:?}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ impl Bodies {
 }
 
 #[test]
-fn winding_numbers_are_those_of_rays_in_integers() {
+fn winding_numbers_agree_with_rays_in_integers() {
     let mut dice = Dice(29);
     let [mut boundary, mut inside, mut outside, mut overlaps, mut negative] = [0; 5];
     for round in 0..times(12) {

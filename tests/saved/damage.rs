@@ -111,7 +111,7 @@ fn another_version_is_named() {
 }
 
 #[test]
-fn other_files_are_told() {
+fn other_kinds_of_files_are_named() {
     assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("not a binspace file"));
     assert!(message(b"binspacescene").contains("truncated"));
     assert!(message(b"binspacescen\x01\0\0\0").contains("it contains a \"scen\""));

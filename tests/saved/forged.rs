@@ -47,7 +47,7 @@ fn every_node_but_the_first_has_a_parent() {
 
 /// The numbers of a node's fragments follow from those on its plane: no other is read.
 #[test]
-fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
+fn each_fragment_has_the_face_that_its_planes_determine() {
     let mut other = FLAT;
     other.iter_mut().for_each(|corner| corner[0] += 5.0);
     let (file, [_, fragments]) = file(&[FLAT, other, at_height(1.0)]);

@@ -122,7 +122,7 @@ fn triangles_are_checked() {
 /// A length one above its limit is refused for that, and the limit itself for another reason: the data are
 /// missing.
 #[test]
-fn limits_are_where_they_are_said_to_be() {
+fn documented_limits_are_exact() {
     let file = file();
     let (labels, fragments) = (1 << 28, (1 << 29) - 1);
     let lists = CORNERS + 8 * 24;

@@ -17,7 +17,7 @@ fn read(file: &File, threads: usize) -> Result<Vec<u8>, String> {
 }
 
 #[test]
-fn the_same_is_read_by_any_number_of_threads() {
+fn any_number_of_threads_reads_the_same_tree() {
     let tree = BspTree::build(scene::terrain(30_000, 3).polygons()).expect("a tree");
     let file = File::of(&tree);
     let faces = file.len(FACES - 8);

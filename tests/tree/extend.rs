@@ -12,7 +12,7 @@ fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
 }
 
 #[test]
-fn an_extended_tree_is_that_of_all_polygons() {
+fn an_extended_tree_equals_the_tree_of_all_polygons() {
     for scene in [scene::random_triangles(120, 3), scene::city(400, 2), scene::crossing(9)] {
         let all = polygons(&scene);
         for &by in Heuristic::ALL {

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_do_not_change_and_what_is_left_owns_a_pixel() {
+    fn pictures_do_not_change_and_remaining_polygons_own_a_pixel() {
         let tree = BspTree::build(scene::city(3000, 1).polygons()).unwrap();
         let mut random = SplitMix64::new(3);
         let mut sums = [0; 4];

@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_knows_no_distance_at_which_it_begins() {
+    fn the_tree_fights_at_no_distance() {
         for gap in [6e-4, 2.4e-6, 1e-9] {
             let sheets = Sheets::new(gap, SIZE);
             let tree = Bsp::exact(BuildOptions::DEFAULT.with_tolerance(0.0));

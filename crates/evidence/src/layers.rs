@@ -107,7 +107,7 @@ mod tests {
     use binspace::view;
 
     #[test]
-    fn the_first_layer_is_that_of_the_depth_buffer() {
+    fn the_first_layer_matches_the_depth_buffer() {
         let mut pixels = 0;
         for scene in [scene::random_triangles(80, 3), scene::crossing(7), scene::newell_bars()] {
             let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();

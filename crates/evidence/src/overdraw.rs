@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_those_by_hand() {
+    fn counts_match_hand_computation() {
         // 10 by 10 pixels each, the highest last.
         let stack = [square(1.0, 0.0), square(1.0, 1.0), square(1.0, 2.0)];
         assert_eq!(sums(&stack), [[300, 300], [100, 100], [300, 300], [300, 100]]);

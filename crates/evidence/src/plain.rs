@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_those_of_the_plane() {
+    fn values_are_linear_on_the_plane() {
         let view = PlainView::new([4, 4]);
         // In the plane x + z = -2 units of 256, x is the value itself.
         let triangle = [[0, -900, -512], [512, -900, -1024], [128, 700, -640]];

@@ -105,7 +105,7 @@ fn layers_are_cut_and_put_in_order() {
 
 #[cfg(feature = "drawing")]
 #[test]
-fn drawings_have_a_path_for_each_polygon_that_shows() {
+fn drawings_have_a_path_for_each_visible_polygon() {
     use binspace::{drawing::ViewOptions, view};
 
     let tree = BspTree::build(squares(3)).unwrap();

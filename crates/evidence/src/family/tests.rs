@@ -116,7 +116,7 @@ fn the_scale_is_a_factor() {
 }
 
 #[test]
-fn counts_are_what_was_asked_for() {
+fn scenes_have_the_requested_counts() {
     each_step(Family::Nesting, |count, scene| {
         assert_eq!(scene.len(), count as usize + 1);
         let large = scene.polygons().max_by(|p, q| {
@@ -145,7 +145,7 @@ fn a_lattice_is_made_of_integers() {
 }
 
 #[test]
-fn boxes_touch_but_for_rounding() {
+fn boxes_touch_except_for_rounding() {
     each_step(Family::Boxes, |side, scene| {
         let corners: Vec<DVec3> = scene.polygons().flatten().copied().collect();
         let (mut same, mut close) = (0, 0);

@@ -91,7 +91,7 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
 }
 
 #[test]
-fn who_hides_whom_is_what_single_rays_say() {
+fn hiding_agrees_with_single_rays() {
     let mut checked = 0;
     for seed in 1..4 {
         checked += check_by_witnesses(
@@ -233,7 +233,7 @@ fn neither_newell_nor_the_tree_cuts_fewer_than_needed() {
 
 /// Also for a city, where many polygons have the same depth, or no depth.
 #[test]
-fn overlaps_in_depth_are_those_of_all_pairs() {
+fn overlaps_in_depth_match_a_count_over_all_pairs() {
     for (scene, least_ties) in [(scene::random_triangles(60, 2), 0), (scene::city(60, 2), 50)] {
         let faces = faces(&scene);
         let forward = DVec3::new(0.0, 0.0, 1.0);

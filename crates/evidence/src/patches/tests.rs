@@ -23,7 +23,7 @@ fn factors(quads: &[[DVec3; 4]], length: f64, side: u32) -> (Vec<Patch>, FormFac
 }
 
 #[test]
-fn form_factors_of_a_cube_are_those_of_the_closed_formulas() {
+fn form_factors_of_a_cube_match_the_closed_formulas() {
     let (patches, found) = factors(&room(false), 1.0, 6);
     for quad in 0..6 {
         let wall = |to: usize| {
@@ -74,7 +74,7 @@ fn factor(quads: &[[DVec3; 4]], side: u32) -> f64 {
 }
 
 #[test]
-fn rectangles_of_other_shapes_are_those_of_the_closed_formulas() {
+fn rectangles_of_other_shapes_match_the_closed_formulas() {
     let floor = level([0.0, 2.0], [0.0, 3.0], 0.0, false);
     let over = level([0.0, 2.0], [0.0, 3.0], 1.5, true);
     let wall = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0), (0.0, 4.0)].map(|(y, z)| dvec3(0.0, y, z));

@@ -74,7 +74,7 @@ fn no_piece_of_the_eight_walls_hides_a_later_one() {
 }
 
 #[test]
-fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
+fn a_grid_of_six_by_six_matches_hand_computation() {
     let both = six_by_six();
     let camera = six_by_six_camera().unwrap();
     let (faces, _) = Faces::new(both, Some(0.0)).unwrap();

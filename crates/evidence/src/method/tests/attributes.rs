@@ -9,7 +9,7 @@ use testkit::prelude::*;
 const CORNERS: [[i64; 3]; 4] = [[0, 0, 10], [8, 0, 200], [8, 8, 250], [0, 8, 60]];
 
 #[test]
-fn attributes_are_those_of_the_polygon_through_all_cuts() {
+fn attributes_match_the_polygon_after_all_cuts() {
     let view = PlainView::new([96, 72]);
     let camera = view.camera();
     let (mut compared, mut cut, mut squares) = (0, 0, [0; 2]);

@@ -137,7 +137,7 @@ fn rounded_sums_are_seldom_wrong() {
 }
 
 #[test]
-fn wrong_pixels_are_those_of_near_depths_alone() {
+fn only_pixels_with_near_depths_are_wrong() {
     let polygons = polygons_of(&scene::random_triangles(80, 6));
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [80, 60], 6) {

@@ -39,7 +39,7 @@ fn in_line(polygons: &Polygons, size: [u32; 2]) -> Vec<(bool, Camera)> {
 }
 
 #[test]
-fn views_in_line_with_much_are_no_worse() {
+fn views_in_line_with_many_planes_are_no_worse() {
     let scenes = [
         disjoint(3, 2),
         cycle_that_no_plane_cuts(),

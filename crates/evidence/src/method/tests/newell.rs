@@ -37,7 +37,7 @@ fn square(half: f64, place: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
 }
 
 #[test]
-fn disjoint_triangles_come_out_as_brute_force_has_them() {
+fn disjoint_triangles_agree_with_brute_force() {
     for seed in 0..3 {
         let polygons = disjoint(5, seed);
         assert_right("disjoint", &polygons, &cameras(&polygons, [48, 36], seed));
@@ -45,7 +45,7 @@ fn disjoint_triangles_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
+fn crossing_and_cyclic_scenes_agree_with_brute_force() {
     let scenes = [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)];
     for scene in scenes {
         let polygons = polygons_of(&scene);
@@ -56,7 +56,7 @@ fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn thin_layers_come_out_as_brute_force_has_them() {
+fn thin_layers_agree_with_brute_force() {
     // Tilted by more than their distance, in alternating directions, in no order of depth.
     let layer = |i: u32| {
         let height = 1e-3 * f64::from(i * 7 % 20);
@@ -73,7 +73,7 @@ fn thin_layers_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn what_lies_just_behind_the_nearest_corner_is_not_forgotten() {
+fn polygons_just_behind_the_nearest_corner_are_compared() {
     // A slope that reaches far down, and a small square just below its upper end.
     let slope = square(1.0, |x, y| DVec3::new(x, y, x));
     let square = [(0.994, -0.01), (1.005, -0.01), (1.005, 0.01), (0.994, 0.01)];
@@ -146,7 +146,7 @@ fn any_turn(random: &mut SplitMix64) -> DQuat {
 }
 
 #[test]
-fn random_cycles_come_out_as_brute_force_has_them() {
+fn random_cycles_agree_with_brute_force() {
     let mut random = SplitMix64::new(17);
     for number in 0..24 {
         let ring = random_ring(&mut random);
@@ -168,7 +168,7 @@ fn random_cycles_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
+fn random_cycles_in_each_other_agree_with_brute_force() {
     let mut random = SplitMix64::new(23);
     for number in 0..8 {
         let mut polygons = Polygons::new();
@@ -184,7 +184,7 @@ fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn two_that_cross_are_three_pieces() {
+fn two_crossing_polygons_become_three_pieces() {
     let tilted = |tilt: f64| square(1.0, |x, y| DVec3::new(x, y, tilt * x));
     for camera in from_above(2.5, [40, 40]) {
         assert_eq!(assert_right("a cross", &vec![tilted(0.5), tilted(-0.4)], &[camera]), 3);
@@ -213,7 +213,7 @@ fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
 }
 
 #[test]
-fn what_has_an_order_is_not_cut() {
+fn scenes_with_an_order_are_not_cut() {
     let polygons = polygons_of(&scene::layers(40, 0.01));
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [32, 24], 2) {
@@ -222,7 +222,7 @@ fn what_has_an_order_is_not_cut() {
 }
 
 #[test]
-fn budgets_run_out_with_a_figure() {
+fn errors_of_budgets_name_the_limit() {
     let polygons = polygons_of(&scene::random_triangles(60, 5));
     let faces = faces(&polygons, None);
     let camera = cameras(&polygons, [32, 24], 2)[0];
@@ -295,7 +295,7 @@ fn each_test_decides_the_pair_that_it_is_for() {
 }
 
 #[test]
-fn all_that_is_compared_is_decided_moved_cut_or_passed() {
+fn every_compared_pair_is_decided_moved_cut_or_passed() {
     let mut compared = 0;
     for scene in [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)] {
         let polygons = polygons_of(&scene);
