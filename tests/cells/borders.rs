@@ -86,12 +86,12 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
     enough!(total[0] > 1000, total[1] > 100; "{total:?}");
 }
 
-/// A mesh: faces on both sides of an edge have the vertex in which a plane cuts it.
+/// In a mesh, the faces on both sides of an edge have the same vertex where a plane cuts the edge.
 #[test]
 fn faces_that_share_an_edge_have_the_same_vertices() {
     let mesh = scene::sphere(900);
     let odd = |p: &DVec3| DVec3::new(p.x + 0.1 * p.y, p.y * 0.7 - p.z, p.z + p.x / 3.0);
-    // Triangles, because corners that are moved onto a plane have separate vertices.
+    // Only triangles, because corners that are moved onto a plane have separate vertices.
     let polygons: Vec<Corners> = mesh
         .polygons()
         .flat_map(|quad| {

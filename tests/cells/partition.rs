@@ -15,8 +15,8 @@ fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec
     tree.fragments().map(|f| (number(f.polygon()), f.vertices().collect())).collect()
 }
 
-/// Polygons that are not listed for a cell have no part in it. Few are listed unnecessarily, although these
-/// are large for their cells.
+/// Polygons that are not listed for a cell have no part in the cell. Few polygons are listed unnecessarily,
+/// although the polygons are large compared with the cells.
 #[test]
 fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
     let (mut listed, mut had) = (0, 0);
@@ -66,7 +66,7 @@ fn the_order_of_samples_and_the_number_of_threads_do_not_count() {
     assert_eq!(Snapshot::of(&build(1)), Snapshot::of(&build(4)));
 }
 
-/// Samples in each cell, for a scene without clusters.
+/// Checks the number of samples in each cell, for a scene without clusters.
 #[test]
 fn cells_have_about_as_many_samples() {
     let mut dice = Dice(1);
@@ -190,7 +190,7 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     wrong.include(&[[0.0, f64::NAN, 0.0]]);
     assert!(wrong.low.y.is_nan() && wrong.high.y.is_nan());
     assert!(options.partition(&wrong, none, 2).is_err());
-    // In any order, merged or not.
+    // The polygons in any order, and their extents merged or not.
     let mut wrong_too = Extent::default();
     wrong_too.merge(&wrong);
     wrong_too.merge(&all);
@@ -208,7 +208,7 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     assert!(reached.is_empty());
 }
 
-/// A tree of a cell remains one when polygons are added.
+/// The tree of a cell remains the tree of this cell when polygons are added.
 #[test]
 fn added_polygons_are_cut_to_the_cell() {
     let options = BuildOptions::DEFAULT;
@@ -300,7 +300,7 @@ fn a_tree_belongs_to_one_cell_of_one_partition() {
     }
 }
 
-/// It must not be treated as the last one.
+/// The number of a missing cell must not be treated as the last cell.
 #[test]
 fn a_cell_behind_the_last_is_refused() {
     let square = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
@@ -326,7 +326,7 @@ fn a_cell_behind_the_last_is_refused() {
     }
 }
 
-/// Two squares far apart in a corner of the extent: bounds that contain more.
+/// Two squares in a corner of much larger bounds.
 #[test]
 fn bounds_of_the_options_are_held_too() {
     let square = |z: f64| -> Corners { sheet(2, z, 1.0).map(DVec3::from).to_vec() };

@@ -49,7 +49,7 @@ fn damaged_partitions_are_errors() {
     }
 }
 
-/// Forged bytes with a right checksum: a partition that is read can be used.
+/// Forged bytes with a right checksum: if a partition is read, it can be used.
 #[test]
 fn forged_partitions_are_errors_or_partitions() {
     let scene = divided(4, 4);

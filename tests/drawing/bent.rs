@@ -10,7 +10,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::rational::Point;
 
-/// A quad that is bent along its shorter diagonal, which a wall goes through.
+/// A wall goes through the shorter diagonal of a quad, along which the quad is bent.
 #[test]
 fn a_wall_through_the_bend_of_a_quad_crosses_it() {
     let roof = [[-3.0, 0.0, -1.0], [0.0, -2.0, 0.0], [3.0, 0.0, -1.0], [0.0, 2.0, 0.0]];
@@ -76,10 +76,11 @@ fn vector(dice: &mut Dice, most: f64) -> DVec3 {
 fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons = vec![];
     for i in 0..count {
-        // Quarters and eighths of it are numbers of few bits.
+        // Quarters and eighths of `along` are numbers of few bits.
         let (from, along) = (vector(dice, 1.0), vector(dice, 0.25) * 2.0);
         let at = |share: f64| from + along * share;
-        // On either side of the line, further apart than it is long: it is the shorter diagonal.
+        // Corners on both sides of the line, whose distance is larger than the length of the line. So the
+        // line is the shorter diagonal.
         let mut sides = || {
             let away = vector(dice, 0.5);
             let away = away + away.signum() * 0.25;
@@ -88,12 +89,12 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
         let ([a, b], [c, d]) = (sides(), sides());
         polygons.push(vec![at(0.0), a, at(1.0), b]);
         let other = match i % 4 {
-            // Through the line, beyond its ends or not.
+            // The other polygon goes through the line, to beyond its ends or not.
             0 => vec![at(-0.25) + c - d, at(1.25) + c - d, at(1.25) - c + d, at(-0.25) - c + d],
             1 => vec![at(0.25) + c - d, at(0.75) + c - d, at(0.5) - c + d],
-            // As far as the line.
+            // The other polygon ends at the line.
             2 => vec![at(0.0), at(0.75), c],
-            // Also bent along it.
+            // The other polygon is also bent along the line.
             _ => vec![at(0.125), c, at(1.0), d],
         };
         polygons.push(other);
@@ -131,7 +132,7 @@ pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Poi
 
 /// A direction in two coordinates, as seen along a line.
 fn flat(along: &Point, way: &Point) -> [Rational; 2] {
-    // Any direction that is not the line's spans the plane across it.
+    // Any direction that is not parallel to the line spans the plane perpendicular to it.
     let axis = (0..3).find(|&i| !along[i].is_zero()).unwrap();
     let mut other = [(); 3].map(|()| Rational::zero());
     other[(axis + 1) % 3] = Rational::from(1);
@@ -147,7 +148,7 @@ fn by_angle(a: &[Rational; 2], b: &[Rational; 2]) -> Ordering {
     is_upper(b).cmp(&is_upper(a)).then(Rational::zero().cmp(&turn))
 }
 
-/// Whether two polygons go through one another at a line; `None` if one lies on the other there.
+/// Whether two polygons go through each other at a line; `None` if one polygon lies on the other there.
 pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> {
     if a.len() < 2 || b.len() < 2 {
         return Some(false);
@@ -298,8 +299,8 @@ fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     enough!(compared > 300; "{compared}");
 }
 
-/// Neighbours have their common edges in the picture at the given corners, so nothing is visible between
-/// them, although the tree moved corners onto the planes of their quads.
+/// In the picture, neighbours have their common edges at the given corners, although the tree moved corners
+/// onto the planes of their quads. So nothing is visible between neighbours.
 #[test]
 fn a_closed_globe_of_bent_quads_has_no_gaps() {
     let scene = Builtin::Sphere.build(Some(2_000), 1);

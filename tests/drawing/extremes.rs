@@ -32,7 +32,7 @@ fn ten_of_a_million_polygons_show() {
     let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
     assert_eq!(map.drawing().unwrap().paths().len(), 10);
-    // Nothing is visible through the wall either if the squares behind are translucent.
+    // If the squares behind are translucent, still nothing is visible through the wall.
     let glass = |polygon: usize| if polygon < 10 { 1.0 } else { 0.5 };
     let map = map_with(&tree, &camera, glass);
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
@@ -89,8 +89,9 @@ fn opacities_are_numbers_from_0_to_1() {
     }
 }
 
-/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing. The number of
-/// visible polygons is stated for two panes in front of walls, and for walls alone, which hide more.
+/// An eye on a polygon sees the polygon edge-on, so nothing of it. An eye behind everything sees nothing. The
+/// number of visible polygons is stated for two panes in front of walls, and for walls alone, which hide
+/// more.
 #[test]
 fn eyes_on_polygons_and_away_from_all() {
     let polygons = [
@@ -131,7 +132,7 @@ fn eyes_on_polygons_and_away_from_all() {
     assert!(map.regions().unwrap().is_empty() && map.drawing().unwrap().paths().len() == 0);
 }
 
-/// Without hidden runs, visible ones are as they were; polygons of which little is visible have no paths.
+/// Without hidden runs, the visible runs do not change. Polygons of which little is visible have no paths.
 #[test]
 fn hidden_runs_and_small_polygons_are_left_out_on_request() {
     let scene = Builtin::Random.build(Some(60), 4);

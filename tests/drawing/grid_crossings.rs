@@ -56,7 +56,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         Origin::Along(way) => rational::scalar(&face.plane.normal, way).is_zero(),
     };
     let world = |point: &Point| lattice.to_world(point.each_ref().map(|c| c.to_f64().value()));
-    // Lines along which polygons cross, or may cross.
+    // The lines along which polygons cross, or may cross.
     let mut lines: Vec<([usize; 2], [DVec3; 2])> = vec![];
     for (i, (p, a)) in sightlines.faces.iter().enumerate() {
         for (q, b) in &sightlines.faces[i + 1..] {
@@ -104,7 +104,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         }
     }
     score.runs += all.len();
-    // Nothing but crossings: the line of sight through the middle of a run meets one.
+    // All runs are crossings: the line of sight through the middle of a run meets a crossing.
     for run in &all {
         let middle = [0, 1].map(|i: usize| 0.5 * (run.ends[0][i] + run.ends[1][i]));
         let Ray::Endless { from, direction } = ray(camera, middle) else { panic!("no end") };

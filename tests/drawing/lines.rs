@@ -27,7 +27,7 @@ fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
         let silhouette: Vec<_> =
             visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
         assert_eq!(silhouette.len(), 6);
-        // It is closed: each end belongs to two runs.
+        // The silhouette is closed: each end belongs to two runs.
         for end in silhouette.iter().flat_map(|run| run.ends) {
             let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);
             let ends = silhouette.iter().flat_map(|run| run.ends);
@@ -63,7 +63,7 @@ fn a_bar_hides_the_middle_of_an_edge() {
     assert_eq!(runs.iter().filter(|run| run.polygon == 1 && run.is_visible).count(), 4);
 }
 
-/// Edges that follow one another on one line, of one polygon and of two side by side: each shows where it is.
+/// Consecutive edges on one line, of one polygon and of two polygons side by side. Each edge has its own run.
 #[test]
 fn edges_on_one_line_have_separate_runs() {
     let wall = [[-3.0, 0.0], [-2.0, 0.0], [0.0, 0.0], [0.0, 2.0], [-3.0, 2.0]];

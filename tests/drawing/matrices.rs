@@ -10,12 +10,13 @@ use testkit::scenes::triangles;
 
 const SIZE: [u32; 2] = [90, 60];
 
-/// Pixels are not compared if a triangle's edge or another depth is nearer than this share.
+/// Pixels are not compared if the distance to a triangle's edge, or to another depth, is a smaller share than
+/// this.
 const NEAR: f64 = 1e-6;
 
-/// A triangle as a matrix shows it. The vector (x, y, 1) to a place of the picture, in homogeneous coordinates, is a sum
-/// of those to the corners. Its weights are the products with these vectors, and positive inside of the triangle (Olano
-/// & Greer 1997).
+/// A triangle as a matrix shows it. In homogeneous coordinates, the vector (x, y, 1) of a place of the
+/// picture is a weighted sum of the vectors of the corners. The weights are products of this vector with the
+/// three stored vectors, and are positive inside the triangle (Olano & Greer 1997).
 struct Shown {
     weights: [DVec3; 3],
     depths: [f64; 3],
@@ -31,8 +32,8 @@ impl Shown {
     }
 }
 
-/// The triangle in a place of the picture, or `u32::MAX`; `None` if that is unsure. From an eye, w grows with the
-/// distance; along a direction, z does.
+/// The triangle in a place of the picture, or `u32::MAX`; `None` if this is uncertain. From an eye, w grows
+/// with the distance; along a direction, z does.
 fn shown(triangles: &[Shown], is_parallel: bool, at: DVec3) -> Option<u32> {
     let mut met: Vec<(f64, u32)> = Vec::new();
     for (number, Shown { weights, depths }) in triangles.iter().enumerate() {

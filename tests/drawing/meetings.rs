@@ -1,5 +1,5 @@
-//! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide everything
-//! behind, until a part is missing.
+//! Walls whose parts meet in hard ways: fans of hundreds of triangles at a corner, and T-junctions. They hide
+//! everything behind them, until a part is missing.
 
 use super::map_with;
 use testkit::fill::{Score, check};
@@ -11,7 +11,8 @@ fn camera() -> Camera {
     Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [96, 72]).unwrap()
 }
 
-/// The polygons that show of a wall before a square, and whether the square does; cells cover the picture.
+/// Whether a square is visible behind a wall. Checks the visible polygons of the wall, and that cells cover
+/// the picture.
 fn square_shows(wall: &[Vec<DVec3>]) -> bool {
     let square = [[-40.0, -40.0], [40.0, -40.0], [40.0, 40.0], [-40.0, 40.0]]
         .map(|[x, y]| DVec3::new(x, y, -500.0));
@@ -50,7 +51,7 @@ fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
         let apex = DVec3::new(7.0, -3.0, depth);
         let rim = |k: usize| {
             let angle = std::f64::consts::TAU * (k % COUNT) as f64 / COUNT as f64;
-            // Whole numbers, and not all in a plane.
+            // The corners are whole numbers, and not all in one plane.
             let z = if k.is_multiple_of(2) { 0.0 } else { 11.0 };
             DVec3::new((600.0 * angle.cos()).round(), (600.0 * angle.sin()).round(), z)
         };

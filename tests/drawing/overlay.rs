@@ -17,12 +17,12 @@ struct Score {
     pictures: usize,
     visible: usize,
     hidden: usize,
-    /// Hidden by more than one.
+    /// Points hidden by more than one polygon.
     deeper: usize,
     runs: usize,
     shown_points: usize,
     hidden_points: usize,
-    /// Too near to the end of a run.
+    /// Points too near to the end of a run.
     unsure: usize,
 }
 
@@ -91,7 +91,7 @@ fn check(
     Ok(())
 }
 
-/// Runs of a segment begin where those before them end, visible and hidden by turns.
+/// Each run of a segment begins where the previous run ends, and visible and hidden runs alternate.
 fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
     for pair in runs.windows(2) {
         let [before, run] = [pair[0], pair[1]];
@@ -111,7 +111,7 @@ pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
     std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
 }
 
-/// Whether a point is well inside of a run; `None` if it is not in it at all.
+/// Whether a point is well inside a run; `None` if it is outside the run.
 pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     let way = [0, 1].map(|i: usize| ends[1][i] - ends[0][i]);
     let arm = [0, 1].map(|i: usize| at[i] - ends[0][i]);
@@ -121,8 +121,8 @@ pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     (inside > -NEAR).then_some(inside > NEAR)
 }
 
-/// The runs of one line over polygons, as seen from above, ten pixels a unit: how far each goes along x,
-/// and whether it shows.
+/// The runs of one line over polygons, seen from above with ten pixels per unit: the length of each run along
+/// x, and whether it is visible.
 fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
     let tree = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
     let tree = tree.with_tolerance(0.0).build(polygons).unwrap();
@@ -141,19 +141,19 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
 fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     let wall = rectangle([-1.0, -1.0], [1.0, 1.0], 0.0);
     let one = |line: &[[f64; 3]]| from_above(std::slice::from_ref(&wall), line);
-    // On it, above it, below it.
+    // A line on the wall, above the wall, and below the wall.
     assert_eq!(one(&[[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 0.0, 1.0], [2.0, 0.0, 1.0]]), [(4.0, true)]);
     let behind = [(1.0, true), (2.0, false), (1.0, true)];
     assert_eq!(one(&[[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]]), behind);
-    // Through it, and up to it from either side.
+    // A line through the wall, and lines that end on the wall from either side.
     assert_eq!(
         one(&[[-2.0, 0.0, -2.0], [2.0, 0.0, 2.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]
     );
     assert_eq!(one(&[[-2.0, 0.0, -2.0], [0.0, 0.0, 0.0]]), [(1.0, true), (1.0, false)]);
     assert_eq!(one(&[[-2.0, 0.0, 2.0], [0.0, 0.0, 0.0]]), [(2.0, true)]);
-    // Along its edge: on it, and below it, where the edge hides it; and through a corner.
+    // A line on an edge of the wall, a line below the edge, which the edge hides, and a line below a corner.
     assert_eq!(one(&[[-2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, -1.0]]), behind);
     assert_eq!(one(&[[0.0, 2.0, -1.0], [2.0, 0.0, -1.0]]), [(2.0, true)]);
@@ -162,7 +162,7 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
         one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, 1.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]
     );
-    // Two segments of one line, and one that is seen end-on.
+    // A line with a vertical segment, and a line that is seen end-on.
     let bent = [[-2.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [3.0, 0.0, -1.0]];
     assert_eq!(one(&bent), [(2.0, true), (1.0, false), (2.0, true)]);
     assert_eq!(one(&[[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]]), []);
@@ -197,7 +197,7 @@ fn lines_in_cracks_and_corners() {
     }
 }
 
-/// A line from far behind the eye, close by it, to far ahead is straight where it shows.
+/// A line from far behind the eye, close past the eye, to far ahead is straight where it is visible.
 #[test]
 fn lines_across_the_eye_end_with_the_picture() {
     let wall = rectangle([-9.0, -9.0], [9.0, 9.0], -90.0);
@@ -243,8 +243,8 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
     assert_eq!(map.markers(&overlay).unwrap_err(), error);
 }
 
-/// Lines and points that a scene and an eye make hard: along edges and through them, through corners, in
-/// planes, and in line with the eye.
+/// Lines and points that are hard to decide: along and through edges, through corners, in planes, and in line
+/// with the eye.
 pub(crate) fn hard_shapes(
     polygons: &[Vec<DVec3>],
     eye: DVec3,

@@ -98,7 +98,7 @@ const MAKINGS: [Making; 4] = [
     }),
 ];
 
-/// Checks all calls of an operation: they never go back, and only the last one reports completion.
+/// Checks all calls of an operation: progress never decreases, and only the last call reports completion.
 fn check_calls(name: &str, heard: &[Progress]) {
     enough!(heard.len() > 3; "{name}: {heard:?}");
     let done = heard.iter().map(|progress| progress.done);
@@ -145,7 +145,7 @@ fn maps_and_drawings_report_progress_and_can_be_cancelled() {
     });
 }
 
-/// A map keeps its callback; after it was cancelled, it still answers.
+/// A map keeps its callback. After a cancelled query, the map can still be queried.
 #[test]
 fn queries_of_a_map_report_progress_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
@@ -207,8 +207,8 @@ fn discs(corners: u32) -> View {
     View { tree, camera, overlay }
 }
 
-/// A cell that a face of many corners cuts is work for each corner that it has so far: this work is
-/// reported and can be cancelled.
+/// If a face of many corners cuts a cell, the work is proportional to the corners of the cell so far. This
+/// work is reported and can be cancelled.
 #[test]
 fn work_at_many_corners_polls_for_cancellation() {
     let calls = [512, 1024].map(|corners| {

@@ -1,4 +1,4 @@
-//! Scenes large enough for every part: tiles, threads, cycles.
+//! Scenes large enough to reach every part of the code: tiles, threads, cycles.
 
 use super::map_of;
 use binspace::view::views;

@@ -97,7 +97,7 @@ fn a_clipped_path_has_no_seam_along_a_cut_on_an_edge() {
     assert_eq!(fault(&tree, &from_the_south(), &[1.0; 4]), None);
 }
 
-/// A corner lies half a step of a fine grid from both of its places.
+/// A corner lies half a step of a fine grid from each of the two places to which it may be rounded.
 #[test]
 fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     let polygons = vec![
@@ -155,15 +155,15 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
     for round in 0..1500 {
         let sheets: Vec<Sheet> = (0..2 + dice.below(6)).map(|_| Sheet::new(&mut dice)).collect();
         let tree = tree_of(&sheets.iter().map(Sheet::corners).collect::<Vec<_>>());
-        // With borders of pixels on the grid, on halves of squares, and on neither; with borders of the picture
-        // around the scene and in it.
+        // Borders of pixels are on the grid, on halves of squares, or on neither. Borders of the picture are
+        // around the scene or within it.
         let [height, side] = [[8.0, 64.0], [16.0, 37.0], [8.0, 1.0], [9.75, 50.0]][round % 4];
         let camera = from_above(height, [side as u32; 2]);
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
         let map = map_with(&tree, &camera, opacity);
         let opaque = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
-        // The polygons visible over each half of a square, front to back. (In one plane the last one comes
-        // first.)
+        // The polygons visible over each half of a square, front to back. (Of several polygons in one plane,
+        // the last one comes first.)
         let mut stacks: BTreeMap<Vec<usize>, Area> = BTreeMap::new();
         let mut shown: BTreeMap<usize, Area> = BTreeMap::new();
         for at in (0..16).flat_map(|x| (0..16).map(move |y| [x, y])) {

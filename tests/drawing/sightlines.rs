@@ -9,7 +9,7 @@ use testkit::rational::Point;
 /// The origin of rays, on the lattice of a scene.
 pub(crate) enum Origin {
     Eye(Point),
-    /// They have this direction, and no beginning.
+    /// Rays along this direction, without a start.
     Along(Point),
 }
 
@@ -18,7 +18,7 @@ pub(crate) enum Origin {
 pub(crate) enum Cover {
     None,
     Hidden,
-    /// The border of a face, or the point is on a face of another polygon.
+    /// The line of sight meets the border of a face, or the point is on a face of another polygon.
     Unsure,
 }
 
@@ -35,7 +35,7 @@ pub(crate) struct Sightlines {
 }
 
 impl Sightlines {
-    /// The rays of a camera; `None` if the eye is no point of the lattice.
+    /// The rays of a camera; `None` if the eye is not a point of the lattice.
     pub(crate) fn of(tree: &BspTree, camera: &Camera) -> Option<Self> {
         let faces = tree.faces();
         let origin = match camera.viewpoint() {
@@ -128,8 +128,8 @@ impl Sightlines {
         self.before(face, point).is_some_and(Ordering::is_ge)
     }
 
-    /// Whether the line of sight of a point goes through a face before the point, and whether with its inside
-    /// or with its border.
+    /// Whether the line of sight of a point goes through a face before the point: through its inside or its
+    /// border.
     fn before(&self, face: &Face, point: &Point) -> Option<Ordering> {
         let at = face.plane.at(point);
         let (from, share) = match &self.origin {

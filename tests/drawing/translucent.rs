@@ -1,5 +1,4 @@
-//! Drawings of scenes in which nothing is hidden, and of those in which some polygons are translucent and
-//! some are not.
+//! Drawings of scenes in which nothing is hidden, and of scenes in which only some polygons are translucent.
 
 use super::map_with;
 use super::scenes::cameras;
@@ -54,8 +53,8 @@ fn layers_of_whole_scenes_agree_with_the_tree() {
     assert!(mixed.paths * 10 < mixed.polygons * 11, "{mixed:?}");
 }
 
-/// Polygons that cross, small ones, large ones, and few that are larger still: opaque ones are clipped,
-/// translucent ones in parts.
+/// Small, large and a few very large polygons that cross: opaque polygons are clipped, and translucent
+/// polygons are divided into parts.
 #[test]
 fn layers_of_crossing_triangles_agree_with_the_tree() {
     let (mut dice, mut scores) = (Dice(1), Scores::default());
@@ -68,7 +67,7 @@ fn layers_of_crossing_triangles_agree_with_the_tree() {
     assert!(mixed.clipped > 50 && mixed.paths > mixed.polygons, "{mixed:?}");
 }
 
-/// Two panes that go through one another: the line is there once, for any opacities.
+/// Two panes that cross: the crossing is reported once, for any opacities.
 #[test]
 fn panes_cross_in_one_line() {
     let upright = [[0.3, -1.0, -1.0], [0.3, 1.0, -1.0], [0.3, 1.0, 1.0], [0.3, -1.0, 1.0]];

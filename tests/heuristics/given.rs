@@ -164,7 +164,7 @@ fn an_adversary_gets_the_same_tree_on_any_number_of_threads() {
     }
 }
 
-/// In general position, so that no plane has all pieces on one side except those beyond all corners.
+/// The scene is in general position, so only planes beyond all corners have all pieces on one side.
 #[test]
 fn an_invalid_or_useless_plane_counts_as_none() {
     let scene = scene::random_triangles(150, 3);
@@ -191,7 +191,7 @@ fn an_invalid_or_useless_plane_counts_as_none() {
             assert!(Snapshot::of(&tree) == expected, "{by}, {answer:?}");
             assert!(calls.load(Relaxed) > 100, "{by}, {answer:?}");
         }
-        // The beginning of a set leaves all on one side, except a piece that ends there.
+        // A plane at the least x of a set has all pieces on one side, except a piece in the plane.
         let options = options.with_chooser(|set| {
             axis(0, (0..set.piece_count()).map(|i| set.bounds(i)[0].x).fold(f64::MAX, f64::min))
         });
@@ -221,7 +221,7 @@ fn side(values: impl Iterator<Item = i128>) -> Side {
     }
 }
 
-/// At the root of scenes on a grid of quarters, where integers give the right contents of a set.
+/// Tests sets at the root, for scenes on a grid of quarters, where integers give the right contents of a set.
 #[test]
 fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     let mut found = [0; 4];
@@ -333,7 +333,7 @@ fn a_function_that_panics_ends_its_own_build_alone() {
             let build = || with_threads(threads, || options.build(scene.polygons()));
             let panic = catch_unwind(AssertUnwindSafe(build)).expect_err("the function's panic");
             assert_eq!(*panic.downcast_ref::<&str>().expect("a message"), "the caller's fault");
-            // The panic is printed before other threads are stopped, and they call the function meanwhile.
+            // The panic is printed before other threads are stopped, so they may call the function meanwhile.
             let after = calls.load(Relaxed);
             assert!(threads > 1 || after == at + 1, "{after} calls, panicked at {at}");
             // Later calls do not panic.

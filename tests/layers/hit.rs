@@ -59,7 +59,7 @@ fn another_viewport_makes_another_page() {
     }
 }
 
-/// A row through two corners of a diamond, and one through its lowest.
+/// A row through two corners of a diamond, and a row through its lowest corner.
 #[test]
 fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
     let mut diamond = DMat4::IDENTITY;

@@ -7,7 +7,7 @@ use testkit::pages::Page;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Twenty steps of `f64`, times the sum of the terms of a coordinate.
+/// The allowed error: twenty steps of `f64`, times the sum of the terms of a coordinate.
 const STEPS: f64 = 20.0 * f64::EPSILON;
 /// The box that layers are clipped to.
 const REACH: f64 = 1920.0 * (1u64 << 20) as f64;
@@ -45,18 +45,19 @@ fn visible_parts_agree_with_the_exact_clip() {
         for vertex in &vertices {
             let local = vertex.local.to_array().map(exact);
             assert!(truth.inside(&local) >= 0.0);
-            // It appears at its stated position.
+            // The vertex appears at its stated position.
             let [x, y, z, w] = truth.homogeneous(&local);
             assert!((number(&w) - vertex.w).abs() <= bound(&given, vertex) * vertex.w);
             let off = DVec3::new(number(&(x / &w)), number(&(y / &w)), number(&(z / &w)))
                 - vertex.position;
             assert!(off.abs().max_element() <= bound(&given, vertex), "{off} {vertex:?}");
-            // And inside the box.
+            // The vertex is inside the box.
             let [low, high] = VIEWPORT.map(binspace::glam::DVec2::from);
             let on_screen = vertex.position.truncate();
             assert_eq!(on_screen.clamp(low, high), on_screen);
         }
-        // In the rectangle, in the box, convex, and of the right area: so it is the visible part.
+        // The piece is in the rectangle and in the box, is convex, and has the right area. So it is the
+        // visible part.
         let outline: Vec<Point2> = vertices.iter().map(|v| v.local.to_array().map(exact)).collect();
         let found = number(&area(&outline)).abs();
         assert!((found - expected).abs() <= 1e-9 * expected + 1e-9, "{found} {expected}");
@@ -95,8 +96,8 @@ fn edges_of_the_rectangle_are_told_from_clips() {
     enough!(own > 500, clips > 200; "{own} {clips}");
 }
 
-/// At random points of random pieces, the interpolation of a GPU agrees with the exact inverse of the
-/// matrix. Interpolating u and v alone does not.
+/// At random points of random pieces, the interpolation of a GPU agrees with the exact inverse of the matrix.
+/// Interpolating only u and v does not agree.
 #[test]
 fn places_in_a_layer_are_right_after_the_division() {
     let mut dice = Dice(13);

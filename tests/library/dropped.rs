@@ -42,13 +42,13 @@ fn plane(corners: &[Vector]) -> Option<Vector> {
     pairs.into_iter().find(|normal| !is_zero(normal))
 }
 
-/// Whether every part of the outline runs as often backwards as forwards: then it has no area, although its
-/// corners may not be collinear.
+/// Whether every part of the outline is passed as often backwards as forwards. Then the outline has no area,
+/// although its corners may not be collinear.
 fn is_run_through_both_ways(corners: &[Vector]) -> bool {
     let mut runs: HashMap<[&Vector; 2], i32> = HashMap::new();
     for (i, a) in corners.iter().enumerate() {
         let b = &corners[(i + 1) % corners.len()];
-        // Divided where other corners lie on it.
+        // Edges are divided where other corners lie on them.
         let arm = difference(b, a);
         let mut along: Vec<(IBig, &Vector)> = corners
             .iter()
@@ -95,7 +95,7 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     if sign.is_zero() || around.into_iter().any(|t| t.is_zero() || t.sign() != sign.sign()) {
         return false;
     }
-    // The number of times that they pass the first arm.
+    // The number of times that the corners pass the first arm.
     let is_ahead = |arm: &Vector| {
         let across = turn(&arms[0], arm);
         if across.is_zero() {
@@ -157,8 +157,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
             corners.iter().map(|c| square(&difference(c, &corners[0]))).max().expect("corners");
         kinds.thin += usize::from(square(&area) << 80 < &size * &size && !is_zero(&area));
         if is_zero(&area) {
-            // Running out and back, it has no area; otherwise its parts face both ways and cancel, and ear
-            // clipping gives its covered area.
+            // If the outline only runs out and back, it has no area. Otherwise its parts face both ways and
+            // cancel, and ear clipping gives the covered area.
             let is_fold = is_run_through_both_ways(corners);
             kinds.folded += usize::from(is_fold && is_dropped);
             kinds.cancelled += usize::from(!is_fold || !is_dropped);
@@ -201,7 +201,7 @@ fn thin(seed: u64, count: usize) -> Vec<Corners> {
         let mut polygon: Corners = match dice.below(6) {
             0 => (0..corners).map(|_| a + (b - a) * share(&mut dice)).collect(),
             1 => {
-                // Out and back over some corners.
+                // The outline runs out and back over some corners.
                 let way: Corners = (0..corners).map(|_| point(&mut dice)).collect();
                 let back = way[1..corners - 1].iter().rev();
                 way.iter().chain(back).copied().collect()
@@ -255,8 +255,8 @@ fn dropped_polygons_of_hard_scenes_agree_with_brute_force() {
     assert!(least > Some(10), "{kinds:?}");
 }
 
-/// In floats this polygon has no area between any two corners and its first. In integers one of them is off
-/// the line of the others, and spans a triangle of twice the area 1 with two of them.
+/// In floats, no two corners of this polygon span an area with its first corner. In integers, one corner is
+/// off the line of the others, and spans a triangle with two of them. Twice the area of this triangle is 1.
 #[test]
 fn a_polygon_whose_area_only_integers_find_is_kept() {
     const S: f64 = (1_u64 << 50) as f64;

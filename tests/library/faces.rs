@@ -10,7 +10,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::shapes;
 
-/// Corners moved onto a plane moved by little, the others not at all.
+/// Corners that are moved onto a plane move by little. The other corners do not move.
 fn assert_corners_are_the_input_s(
     faces: &Faces,
     face: u32,
@@ -55,7 +55,7 @@ fn any_finite() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Every decision about the faces of a scene.
+/// Makes every decision about the faces of a scene.
 fn decide_all(faces: &Faces) {
     for face in 0..faces.len() as u32 {
         let corners = 0..faces.corners(face).len() as u32;

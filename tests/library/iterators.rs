@@ -43,8 +43,8 @@ fn reversed<T>(iterator: impl Iterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// Compares an iterator with a list: from the front, from the back, and from both ends in a random pattern;
-/// and copies of it made on the way.
+/// Compares an iterator with a list: from the front, from the back, and from both ends in a random pattern.
+/// Copies that are made in between are compared too.
 fn check_ends<I>(iterator: I, expected: &[I::Item], dice: &mut Dice)
 where
     I: DoubleEndedIterator<Item: PartialEq + Debug> + ExactSizeIterator + FusedIterator + Clone,
@@ -132,7 +132,7 @@ fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     assert!(tree.len() > 5);
 }
 
-/// It once listed all faces of the tree.
+/// In an earlier version, it listed all faces of the tree.
 #[test]
 fn debug_output_is_about_the_fragment_alone() {
     let tree = BspTree::build([sheet(2, 0.0, 4.0), sheet(2, 1.0, 4.0)]).unwrap();

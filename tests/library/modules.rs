@@ -43,7 +43,7 @@ fn modules_import_one_way() {
         left.insert(name, named.collect());
     }
     assert!(left.values().map(BTreeSet::len).sum::<usize>() > 20, "too few imports are found");
-    // Modules that import none of the others are removed, until none are left.
+    // Modules that import no other module are removed repeatedly, until no module is left.
     while let Some(name) = left.iter().find(|(_, of)| of.is_empty()).map(|(&name, _)| name) {
         left.remove(name);
         left.values_mut().for_each(|of| _ = of.remove(name));

@@ -30,7 +30,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     for [x, y] in [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1]] {
         let [start, way] = rays.ray(x, y).map(rational);
         let found = if is_parallel(camera) {
-            // Minus the value at the opposite corner: twice the value at the middle.
+            // The difference of two opposite corners is twice the value at the middle.
             let opposite = rational(rays.ray(width - 1 - x, height - 1 - y)[0]);
             let arm = std::array::from_fn(|i| (&start[i] - &opposite[i]) / exact(2.0));
             let pixel = exact(faces.lattice().length_to_lattice(camera.pixel_size()[1]));

@@ -20,8 +20,8 @@ fn heap() -> Polygons {
     polygons(&scene::random_triangles(1500, 1))
 }
 
-/// Small blocks of free memory, into which no longer list fits: small unchecked allocations succeed, so
-/// that only the lists meet the limit.
+/// Small blocks of free memory, too small for the lists. Small unchecked allocations succeed, so only the
+/// lists meet the limit.
 fn keep_small_change() -> Vec<Box<[u8]>> {
     let (change, kept): (Vec<_>, Vec<_>) = (0..200)
         .map(|_| (vec![1_u8; 40_000].into_boxed_slice(), vec![1_u8; 64].into_boxed_slice()))
@@ -50,7 +50,8 @@ fn run(case: &str) -> bool {
         "sampled" => BuildOptions::DEFAULT.with_heuristic("sampled(16)".parse().expect("a name")),
         _ => BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0)),
     };
-    // The input of the case is made before: the limits that the parent sets are above its memory.
+    // The input of the case is made before this. The limits that the parent sets are above the memory of the
+    // input.
     match case {
         "extend" => {
             let mut tree = options.build(&polygons[..700]).expect("room");
@@ -105,7 +106,7 @@ fn process(case: &str, kilobytes: Option<usize>) -> Output {
     Command::new("sh")
         .args(["-c", &format!("ulimit -v {limit}; exec \"$0\" library::out_of_memory::one_case --exact --ignored --nocapture")])
         .arg(program)
-        // One arena, grown on demand: a limit then meets the lists that grow.
+        // One arena that grows on demand, so that the limit meets the lists that grow.
         .envs([("MALLOC_ARENA_MAX", "1"), ("MALLOC_TOP_PAD_", "0"), ("RAYON_NUM_THREADS", "2")])
         .env("RUST_TEST_THREADS", "1")
         .env("MALLOC_MMAP_THRESHOLD_", "65536")

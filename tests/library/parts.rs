@@ -3,19 +3,19 @@
 use binspace::Preparation;
 use testkit::prelude::*;
 
-/// More than are prepared at once: sixteen parts of 1024 polygons.
+/// More than the sixteen parts of 1024 polygons that are prepared at once.
 const COUNT: usize = 20_000;
 /// The polygons stand on a square grid with this many cells a side.
 const ACROSS: usize = 150;
 
 const TOLERANCE: f64 = 1e-3;
 
-/// One of several kinds of polygons, in a separate cell. The number of kinds and that of a part's polygons
-/// are coprime, so that every part begins and ends with another kind; but two parts have only triangles.
+/// One of several kinds of polygons, in a separate cell. The number of kinds and the number of polygons in a
+/// part are coprime, so that parts begin and end with different kinds. Two parts have only triangles.
 fn polygon(i: usize) -> Corners {
     let kind = if [3, 17].contains(&(i / 1024)) { 0 } else { i % 7 };
     let flat: &[[f64; 3]] = match kind {
-        // Its corners count up from 0, like those of all polygons that stay whole.
+        // Its corner numbers count up from 0, like in all polygons that stay whole.
         0 => &[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 1.0]],
         // A corner given twice.
         1 => &[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 3.0, 0.0], [0.0, 3.0, 0.0]],
@@ -131,7 +131,7 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
             outline[fragment.polygon()] += ends[0].distance(ends[1]);
         }
     }
-    // All edges of each polygon are there, once.
+    // Each edge of each polygon occurs once.
     let dropped: Vec<usize> = tree.dropped().collect();
     for (i, corners) in polygons.iter().enumerate() {
         let next = corners.iter().cycle().skip(1);
@@ -141,8 +141,8 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
     }
 }
 
-/// The rest follows the faces of a finished tree. A mesh has the given corners, also those that were moved
-/// onto a plane.
+/// Some polygons are built, and the rest extends the finished tree. A mesh has the given corners, also where
+/// corners were moved onto a plane.
 #[test]
 fn a_tree_extended_by_several_parts_equals_the_tree_of_all_polygons() {
     let polygons = scene(5000);

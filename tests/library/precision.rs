@@ -48,8 +48,8 @@ fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
     enough!(cut_without > 12; "only {cut_without} of the scenes tell one tolerance from another");
 }
 
-/// The planes of small cards have the largest rounding errors, and differ by more than the tolerance
-/// further away.
+/// The planes of small cards have the largest rounding errors. Further away from the cards, they differ by
+/// more than the tolerance.
 #[test]
 fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     for size in [0.4, 0.1, 0.01] {
@@ -81,7 +81,8 @@ fn a_page_and_a_small_card_keep_their_order() {
     }
 }
 
-/// Most cards are far smaller than the page, the first one too: the plane of any of these would cut others.
+/// Most cards are far smaller than the page, also the first one. The plane of any small card would cut other
+/// cards.
 #[test]
 fn a_page_of_cards_of_every_size_is_not_cut() {
     let mut dice = Dice(2);
@@ -102,8 +103,8 @@ fn a_page_of_cards_of_every_size_is_not_cut() {
     }
 }
 
-/// Builds a page of cards, none of them thin, half of them upon the one before, and returns the pairs of
-/// overlapping cards found in input order.
+/// Builds a page of cards that are not thin. Half of them lie on the card before. Returns the number of pairs
+/// of overlapping cards in input order.
 fn pairs_in_order(number: u64, size: f64) -> usize {
     let (turn, mut dice) = (turn(number), Dice(number));
     let mut low = Vec3::ZERO;
@@ -145,7 +146,7 @@ fn pairs_in_order(number: u64, size: f64) -> usize {
 
 #[test]
 fn layers_some_steps_of_f32_apart_keep_their_order() {
-    // Twice the default tolerance, and the rounding of both layers.
+    // Twice the default tolerance, plus the rounding of both layers.
     let gap = 12.0 * f32::EPSILON;
     for number in 0..TURNS {
         let turn = turn(number);

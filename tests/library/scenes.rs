@@ -114,8 +114,8 @@ fn newell_bars_cover_one_another_in_a_cycle() {
         })
         .collect();
     let inside = |(low, high): (DVec3, DVec3), p: DVec3| p.cmpgt(low).all() && p.cmplt(high).all();
-    // Points inside the bars along x, y, z. Two steps of (1, 1, 1) from each,
-    // towards the viewer, lies the inside of the next bar.
+    // Points inside the bars along x, y, z. From each point, two steps of (1, 1, 1) towards the viewer lead
+    // into the next bar.
     let starts =
         [DVec3::new(-3.0, 1.0, -1.0), DVec3::new(-1.0, -3.0, 1.0), DVec3::new(1.0, -1.0, -3.0)];
     for bar in 0..3 {
@@ -317,8 +317,8 @@ fn the_seed_alone_decides() {
     }
 }
 
-/// FNV-1a over the view, all coordinates, and all colours: the scenes must not depend on machine or
-/// compiler, or change by accident. A scene that is changed on purpose gets a new number.
+/// The hash FNV-1a of the view, all coordinates and all colours. Scenes must not depend on machine or
+/// compiler, and must not change by accident. A scene that is changed on purpose gets a new number.
 #[test]
 fn scenes_are_the_same_everywhere() {
     let hash = |scene: Scene| {

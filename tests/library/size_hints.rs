@@ -24,7 +24,8 @@ const HINTS: [Hint; 13] = [
     (9, Some(2)),
 ];
 
-/// Convex polygons of 3 to 70 corners, one above the other and each turned, and one that cuts some.
+/// Convex polygons of 3 to 70 corners, one above the other, each rotated; and a polygon that cuts some of
+/// them.
 fn outlines() -> Vec<Vec<DVec3>> {
     let ring = |(k, count): (u32, u32)| {
         let at = move |i: u32| {

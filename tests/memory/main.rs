@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
 
-/// Counts while `work` runs and nothing else of this program does.
+/// Runs `work` while no other test of this program runs, and counts.
 fn counted(work: impl FnOnce()) {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);

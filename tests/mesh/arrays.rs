@@ -118,7 +118,7 @@ fn weights_give_the_vertices_back_from_the_given_corners() {
     enough!(counts[0] > 2000, counts[1] > 500, counts[2] > 20; "{counts:?}");
 }
 
-/// A square, cut in two by the plane of an upright one: drawn by hand.
+/// A hand-drawn case: a square that is cut in two by the plane of an upright square.
 #[test]
 fn a_square_cut_in_two() {
     let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];

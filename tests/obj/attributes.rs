@@ -47,7 +47,7 @@ fn malformed_and_missing_parts_are_left_out_and_counted() {
     let uv: Vec<_> = (0..4).map(|k| scene.uv(0, k)).collect();
     assert_eq!(uv, [None, Some(DVec2::ONE), None, None]);
     assert_eq!(scene.normal(0, 0), None);
-    // A later one in the file exists.
+    // The referenced element comes later in the file.
     let (scene, report) = read(with_corners("f 1/1 2/1 3/1\nvt 0.5 0.5")).unwrap();
     assert!(report.is_clean(), "{report}");
     assert_eq!(scene.uv(0, 2), Some(DVec2::splat(0.5)));

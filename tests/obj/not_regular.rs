@@ -58,7 +58,7 @@ fn folders_and_devices_are_refused() {
     for (device, says) in [("/dev/zero", "zero byte"), ("/dev/null", "no faces")] {
         let [whole, streamed] = refused(Path::new(device));
         assert!(whole.contains(says), "{device}: {whole}");
-        // It would be read twice.
+        // A pipe would have to be read twice.
         assert!(streamed.contains("regular"), "{device}: {streamed}");
     }
 }
@@ -103,7 +103,7 @@ fn a_material_library_that_is_no_file_is_missing() {
     assert_eq!(report.missing_libraries, ["m.mtl"]);
 }
 
-/// Between one reading and the next.
+/// The file becomes a pipe between the two readings.
 #[test]
 fn a_file_that_becomes_a_pipe_is_refused() {
     let folder = folder("becomes_pipe");

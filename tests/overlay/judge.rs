@@ -1,5 +1,5 @@
-//! Judges an overlay's order: the painter's picture of both parts against an exact depth buffer of
-//! all faces.
+//! Judges an overlay's order: compares the painter's picture of both parts with an exact depth buffer of all
+//! faces.
 
 use std::collections::HashMap;
 use testkit::prelude::*;
@@ -23,7 +23,7 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    /// Looks at both from a camera that may not fit the grid.
+    /// Judges both parts from a camera that may not fit the grid.
     pub(crate) fn look(&mut self, tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Verdict {
         self.look_at_polygons(tree, overlay, overlay.faces(), camera)
     }
@@ -76,8 +76,8 @@ impl Judged {
         Ok(())
     }
 
-    /// At least this many pictures, pixels, and pixels that show moving polygons; a tenth contested at
-    /// most.
+    /// Asserts at least this many pictures, pixels, and pixels that show moving polygons. At most a tenth may
+    /// be contested.
     pub(crate) fn assert_floor(&self, pictures: usize, covered: usize, moving: usize) {
         let is_enough = self.pictures >= pictures && self.covered >= covered;
         assert!(

@@ -31,7 +31,7 @@ fn polygon(dice: &mut Dice) -> Corners {
         0 => vec![at, at + u, at + v],
         1 => vec![at, at + u, at + u + v, at + v],
         _ => {
-            // Perpendicular to an axis, where others lie as well.
+            // Perpendicular to an axis, in a plane that contains other polygons as well.
             let axis = dice.below(3);
             let [u, v] =
                 [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]].map(|a| 8.0 * a);
@@ -40,17 +40,17 @@ fn polygon(dice: &mut Dice) -> Corners {
     }
 }
 
-/// A line that has something to do with a polygon or another line.
+/// A line that touches or crosses a polygon or another line.
 fn line(scene: &Scene, dice: &mut Dice) -> Corners {
     let of = &scene.polygons[dice.below(scene.polygons.len())];
     let n = of.len();
     let k = dice.below(n);
     let (a, b, c) = (of[k], of[(k + 1) % n], of[(k + 2) % n]);
     match dice.below(8) {
-        // Along an edge, and on.
+        // Along an edge, and beyond the edge.
         0 => vec![a, b],
         1 => vec![a - (b - a), b + (b - a), whole(dice)],
-        // Across, in its plane.
+        // Across the polygon, in its plane.
         2 => vec![(a + b) / 2.0, c, (b + c) / 2.0],
         // Through a corner, or through the middle of an edge.
         3 => {
@@ -61,7 +61,7 @@ fn line(scene: &Scene, dice: &mut Dice) -> Corners {
             let (step, middle) = (whole(dice), (a + b) / 2.0);
             vec![middle + step, middle - step]
         }
-        // A part of another, or across it.
+        // A part of another line, or across another line.
         5 if !scene.lines.is_empty() => {
             let other = &scene.lines[dice.below(scene.lines.len())];
             vec![(other[0] + other[1]) / 2.0, other[1], other[0]]
@@ -99,7 +99,7 @@ fn scene(dice: &mut Dice) -> Scene {
     scene
 }
 
-/// Viewpoints anywhere, and in line with a point and something else; whole numbers.
+/// Viewpoints in whole numbers: anywhere, or in line with a point and another place.
 fn eyes(scene: &Scene, dice: &mut Dice) -> Vec<DVec3> {
     let mut eyes: Vec<DVec3> = (0..4).map(|_| whole(dice) * 2.0 + dvec3(1.0, 2.0, -1.0)).collect();
     eyes.push(whole(dice));
@@ -122,7 +122,7 @@ fn judge(scene: &Scene, by: Heuristic, eyes: &[DVec3], counts: &mut Counts) {
     let still = scene.polygons.iter().skip(1).step_by(2);
     let tree = options.with_bounds(-bounds, bounds).build(still).expect("a tree");
     let mut overlay = Overlay::new(&tree);
-    // Other contents before, so that remains of them would be visible.
+    // Other contents come first, so that remains of them would be visible.
     let before = Shapes::NONE.with_lines(&scene.lines);
     let before = before.with_points(scene.lines[0].iter().copied());
     overlay.replace_with(&tree, before).expect("on the grid");

@@ -43,15 +43,15 @@ pub(crate) fn crossing(
     ratio.is_positive().then_some(([of_a, of_b], ratio))
 }
 
-/// Whether the ends of a segment are on different sides of the plane through the eye and another, if floats
-/// decide: only to save time.
+/// Whether the ends of a segment may be on different sides of the plane through the eye and another segment.
+/// Floats decide, to save time.
 pub(crate) fn may_cross(eye: DVec3, of: [DVec3; 2], by: [DVec3; 2]) -> bool {
     let normal = (by[0] - eye).cross(by[1] - eye);
     let [from, to] = of.map(|end| normal.dot((end - eye).normalize_or_zero()) / GRID / GRID);
     (from < 1e-6 || to < 1e-6) && (from > -1e-6 || to > -1e-6)
 }
 
-/// The same for the ray from an eye through a point, and the inside of a face.
+/// Whether the ray from an eye through a point may meet the inside of a face. Floats decide, to save time.
 pub(crate) fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
     let ray = (through - eye).normalize_or_zero();
     let n = corners.len();
