@@ -113,7 +113,7 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
     tree.validate()
 }
 
-/// Whether the normal of a face's triangle, computed in floats, has another length.
+/// Whether floats give the normal of a face's triangle a wrong length.
 fn is_lost(tree: &BspTree, plane: binspace::internals::PlaneId, square: &Rational) -> bool {
     let binspace::internals::PlaneKind::Face(face) = plane.kind() else { return false };
     let triangle = tree.faces().reference_triangle(face);

@@ -122,7 +122,7 @@ fn an_empty_overlay_culls_as_its_tree_does() {
     assert!(own == both && !own.is_empty() && own.len() < tree.len(), "{}", own.len());
 }
 
-/// Only pieces that are seen edge-on are kept, or they are left out.
+/// Pieces that are seen edge-on are kept only by `Facing::EdgeOn`.
 #[test]
 fn pieces_seen_edge_on_are_of_neither_side() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];

@@ -58,8 +58,8 @@ fn a_checksum_shows_every_changed_byte() {
     }
 }
 
-/// Every byte changed, in one way or with more effort in several, and the checksum corrected: refused, or
-/// as usable as any tree.
+/// Every byte is changed, in one way or with more effort in several, and the checksum is corrected. The file
+/// must be refused, or its tree must be usable.
 #[test]
 fn a_forged_file_is_refused_or_usable() {
     let (mut usable, mut refused) = (0, 0);
@@ -77,7 +77,7 @@ fn a_forged_file_is_refused_or_usable() {
             }
         }
     }
-    // Corners may be slightly moved, and counts be false.
+    // Corners may be slightly moved, and counts may be wrong.
     enough!(usable > 200, refused > 200; "{usable} {refused}");
 }
 

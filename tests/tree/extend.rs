@@ -72,8 +72,8 @@ fn a_failed_extension_does_not_change_the_tree() {
     assert_eq!(tree.preparation().polygons, scene.len() + 1);
 }
 
-/// Among the new polygons and of old ones; whole ones and triangulated ones, from any corner and in
-/// either direction, with corners repeated, and moved by the tolerance.
+/// New polygons are duplicates of each other or of old polygons. They are whole or triangulated, start at any
+/// corner, run in either direction, have repeated corners, or have corners that the tolerance moves.
 #[test]
 fn duplicates_of_old_and_new_polygons_are_counted() {
     let mut dice = Dice(3);

@@ -1,4 +1,4 @@
-//! Input with little or no content, and degenerate viewpoints: stated results, no panics.
+//! Input with little or no content, and degenerate viewpoints: results are as documented, and nothing panics.
 
 use binspace::ErrorKind;
 use testkit::orders;
@@ -74,7 +74,7 @@ fn polygons_without_area_are_dropped_and_counted() {
     ];
     let square = SQUARE.map(DVec3::from_array).to_vec();
     for polygon in &degenerate {
-        // Alone, and beside one that has an area.
+        // Alone, and beside a polygon with area.
         let tree = BspTree::build([polygon]).unwrap();
         let found = tree.preparation();
         assert!(tree.is_empty() && tree.faces().is_empty(), "{polygon:?}");

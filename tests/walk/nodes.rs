@@ -53,7 +53,7 @@ fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
     enough!(deep > 20; "{deep}");
 }
 
-/// Planes compared with the polygons as given, in rationals: no lattice, no library.
+/// Compares planes with the given polygons in rationals, without the lattice and without code of the library.
 #[test]
 fn planes_belong_to_the_polygons_that_they_name() {
     let [mut named, mut free] = [0; 2];
@@ -77,9 +77,9 @@ fn planes_belong_to_the_polygons_that_they_name() {
                     free += 1;
                     continue;
                 };
-                // All corners are on it, up to the grid and the tolerance.
+                // All corners are on the plane, up to the grid and the tolerance.
                 let slack = step * 4.0 + tree.stats().tolerance;
-                // For a bent polygon, the corners of one of its triangles.
+                // The plane of a bent polygon contains the corners of one of its triangles.
                 let is_on = |p: &&DVec3| (normal.dot(**p) - offset).abs() <= slack;
                 let on = scene[polygon].iter().filter(is_on).count();
                 enough!(on >= 3; "{node:?} of {polygon}");
@@ -101,7 +101,7 @@ fn planes_belong_to_the_polygons_that_they_name() {
     enough!(named > 300, free > 100; "{named} {free}");
 }
 
-/// Fragments have the planes of their faces, however they were cut, in rationals of the grid.
+/// Fragments have the planes of their faces, for any cuts. Compared in rationals on the grid.
 #[test]
 fn fragments_tell_the_planes_of_their_faces() {
     let (mut fragments, mut on_nodes) = (0, 0);
