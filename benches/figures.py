@@ -21,8 +21,8 @@ DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted
 BENCHES = ["peers", "memory", "heuristics", "ablation"]
 UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0}
 
-# Work, peer, its table, the column of its time ÷ ours or the columns of both, perhaps the value of another column, our
-# errors, its errors.
+# Each row: the work, the peer, the table, the column of the peer's time ÷ ours or the columns of both, a column and a
+# value that select rows (or None), the column of our errors, the column of the peer's errors.
 PEERS = [
     ("order of a frame", "`radsort`: one depth a polygon", "Order of a frame", "sort ÷ order", None,
      "wrong", "wrong by sort"),
@@ -33,13 +33,13 @@ PEERS = [
      "our wrong", "its wrong"),
     ("build", "`plane-split` 0.18", "Build against plane-split", "its build ÷ ours", None, None, None),
 ]
-# The same columns, for peers that compute no order or are not tuned.
+# The same for peers that compute no order or are not tuned.
 OTHERS = [
     ("build", "textbook tree, `f64` and epsilon; not tuned", "Exact against epsilon", "epsilon ÷ exact", None, None, None),
     ("build", "`bvh`, no order", "Build", "bvh ÷ ours", None, None, None),
     ("memory", "`bvh`, no order", "Memory", ("bvh, a polygon", "bytes a polygon"), None, None, None),
 ]
-# Work, its table, the column of its time, and the pattern of the rows.
+# Each row: the work, the table, the column of the time, the pattern of the scenes, and the unit.
 SPEEDS = [
     ("order of a frame, a fragment", "Order of a frame", "ns a fragment", ".*", " ns"),
     ("tree of 100 000 polygons, two threads", "Build", "two threads", ".*:100000", ""),
@@ -57,7 +57,7 @@ def cells(line):
 
 
 def read_tables(text):
-    """The tables of figures.md by title: lists of rows, the names of the columns first."""
+    """Returns the tables of figures.md by title: lists of rows, of which the first has the names of the columns."""
     tables = {}
     for title, body in re.findall(r"^## (.+)\n\n((?:\|.*\n)+)", text, re.MULTILINE):
         head, _, *rows = body.splitlines()
@@ -88,7 +88,7 @@ def value(cell):
 
 
 def span(found, unit=""):
-    """The least and the greatest of some cells."""
+    """Returns the least and the greatest of some cells."""
     least, greatest = min(found, key=value), max(found, key=value)
     if least == greatest:
         return least + unit
@@ -126,7 +126,7 @@ def rendered(tables, title, columns):
 
 
 def filled(tables, text):
-    """A document with the tables of figures.md behind its comments."""
+    """Returns a document in which each comment is followed by its table of figures.md."""
     return re.sub(r"(<!-- figures: (.+?)(?: \| (.+?))? -->)\n*(?:\|.*\n)*\n*",
                   lambda m: f"{m[1]}\n\n{rendered(tables, m[2], m[3])}\n", text).rstrip("\n") + "\n"
 
