@@ -1,5 +1,5 @@
-//! Changes one tuning constant at a time (off, halved, doubled), and measures fragments and build time over all
-//! scenes. Prints the table of ABLATION.md.
+//! Changes one tuning constant at a time (off, halved, doubled), and measures fragments and build time over
+//! all scenes. Prints the table of ABLATION.md.
 //!
 //! ```sh
 //! cargo bench -p binspace-benches --bench ablation
@@ -36,7 +36,8 @@ const TURNED: [&str; 6] =
 const FILES: [&str; 6] =
     ["bunny.obj", "spider.obj", "person.obj", "dragon.obj", "level.obj", "level_large.obj"];
 
-/// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`] times.
+/// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`]
+/// times.
 const ENOUGH: Duration = Duration::from_millis(12);
 const MOST_BUILDS: usize = 9;
 

@@ -19,7 +19,8 @@ use binspace::{BspTree, BuildOptions, Error, Fragment, Heuristic, Viewpoint};
 use canvas::{Canvas, Colour};
 
 const SIZE: [usize; 2] = [960, 540];
-/// The direction towards the eye. In a parallel projection, linear functions in space are linear in the picture.
+/// The direction towards the eye. In a parallel projection, linear functions in space are linear in the
+/// picture.
 const TOWARDS_EYE: DVec3 = dvec3(0.45, -0.75, 0.5);
 const CHECKS: f64 = 8.0;
 /// Texture coordinates of each sheet's four corners.

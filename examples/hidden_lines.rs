@@ -4,9 +4,9 @@
 //! cargo run --release --example hidden_lines -- docs/hidden_lines.svg
 //! ```
 //!
-//! The visibility map returns each edge as visible and hidden runs, with the kind of the edge: a silhouette, or a
-//! crease between two polygons. Edges inside round parts, where polygons meet at a small angle, are left out. Runs
-//! of the same style are joined into polylines.
+//! The visibility map returns each edge as visible and hidden runs, with the kind of the edge: a silhouette,
+//! or a crease between two polygons. Edges inside round parts, where polygons meet at a small angle, are left
+//! out. Runs of the same style are joined into polylines.
 //!
 //! ![A nut with a flange, with its hidden edges dashed](../docs/hidden_lines.svg)
 

@@ -10,8 +10,8 @@
 //! it goes through a surface, so that the part behind the surface is painted before it, and the part in front
 //! after it. A label is a point; its text is written when the order reaches it.
 //!
-//! The SVG (`plot/svg.rs`) has one path for each visible quad. Hidden parts of lines are dashed; the visibility
-//! map returns them.
+//! The SVG (`plot/svg.rs`) has one path for each visible quad. Hidden parts of lines are dashed; the
+//! visibility map returns them.
 //!
 //! ![Two surfaces that cross, axes, a curve, markers and labels](../docs/plot.png)
 

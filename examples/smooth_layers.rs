@@ -5,8 +5,9 @@
 //! cargo run --release --example smooth_layers -- page.png
 //! ```
 //!
-//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam shows. So each
-//! piece is filled without antialiasing. Then only the edges of its layer are stroked with antialiasing.
+//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam shows.
+//! So each piece is filled without antialiasing. Then only the edges of its layer are stroked with
+//! antialiasing.
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -117,8 +118,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Compares the colour of each pixel at which two pieces of one layer meet with the colour of that layer. Pixels near
-/// strokes and near borders of visible parts are skipped. Returns the number of compared pixels.
+/// Compares the colour of each pixel at which two pieces of one layer meet with the colour of that layer.
+/// Pixels near strokes and near borders of visible parts are skipped. Returns the number of compared pixels.
 #[cfg(test)]
 fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
     use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! The cost of exactness: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
-//! candidates by `f64` and an epsilon. The textbook tree is not tuned: a ratio above 1 does not mean that exact
-//! decisions take no time.
+//! candidates by `f64` and an epsilon. The textbook tree is not tuned: a ratio above 1 does not mean that
+//! exact decisions take no time.
 
 use binspace::internals::Faces;
 use binspace::{BuildOptions, Heuristic, Tolerance};

@@ -1,5 +1,5 @@
-//! Crossings of polygons whose corners are on a small grid, so that nearly everything coincides somewhere: edges on
-//! planes, corners on edges, polygons in one plane, eyes in planes; against rationals.
+//! Crossings of polygons whose corners are on a small grid, so that nearly everything coincides somewhere:
+//! edges on planes, corners on edges, polygons in one plane, eyes in planes; against rationals.
 
 use super::bent::{at, do_cross, sides_at};
 use super::overlay::between;

@@ -175,7 +175,8 @@ fn lines_in_cracks_and_corners() {
         [rectangle([-1.0, -1.0], [1.0, 0.0], 0.0), rectangle([-1.0, 0.0], [1.0, 1.0], 0.0)];
     let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
     assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
-    // A valley, all of it further back than its upper edges, in every order of its sides and a wall through it.
+    // A valley, all of it further back than its upper edges, in every order of its sides and a wall through
+    // it.
     let [left, right] = [-1.0, 1.0].map(|y| {
         let side = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, y, 1.0], [-1.0, y, 1.0]];
         side.map(DVec3::from).to_vec()

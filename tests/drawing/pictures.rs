@@ -1,4 +1,5 @@
-//! Vector pictures, as a viewer shows them (resvg): seams, the order of paths, places, names, and odd numbers.
+//! Vector pictures, as a viewer shows them (resvg): seams, the order of paths, places, names, and odd
+//! numbers.
 
 use super::map_of;
 use binspace::drawing::{Paint, Path, Polyline, Stroke, VectorPicture, polylines};

@@ -110,8 +110,8 @@ fn check_calls(name: &str, heard: &[Progress]) {
     assert!(done.filter(|&done| 0 < done && done < total).count() > 1, "{name}: {heard:?}");
 }
 
-/// Checks all calls of an operation, and cancels it at the first, at some in between, and at the last: there is
-/// no further call.
+/// Checks all calls of an operation, and cancels it at the first, at some in between, and at the last: there
+/// is no further call.
 fn check(name: &str, listener: &Listener, operation: impl Fn() -> Result<String, Error>) -> String {
     listener.cancel_at(usize::MAX);
     let found = operation().unwrap();

@@ -1,5 +1,6 @@
-//! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in these scenes
-//! lies on a grid, so that cuts coincide with edges of others, and edges with borders of the picture's tiles.
+//! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in
+//! these scenes lies on a grid, so that cuts coincide with edges of others, and edges with borders of the
+//! picture's tiles.
 
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
 use super::{map_of, map_with};

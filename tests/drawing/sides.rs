@@ -44,7 +44,8 @@ fn check(path: Path<'_>, corners: &[DVec3], camera: &Camera, score: &mut Score) 
             // Another polygon's edge may run along an edge of this polygon, and a short side may be near any
             // edge.
             let is_on = |k: usize| [a, b].iter().all(|&end| distance(end, edge(k)) < 1e-7);
-            // Where an edge of a bent polygon is seen end-on, a diagonal lies on the next edge in the picture.
+            // Where an edge of a bent polygon is seen end-on, a diagonal lies on the next edge in the
+            // picture.
             let is_end_on = |k: usize| edge(k)[0].distance(edge(k)[1]) < 1e-6;
             let all = 0..projected.len();
             let size = camera.size().map(f64::from);

@@ -20,8 +20,8 @@ fn area(triangles: &[u32], position: impl Fn(u32) -> DVec3) -> DVec3 {
     triangles.chunks(3).map(of).sum()
 }
 
-/// One buffer of both meshes: each fragment and piece of the order has triangles of its polygon, which face and
-/// fill as it does.
+/// One buffer of both meshes: each fragment and piece of the order has triangles of its polygon, which face
+/// and fill as it does.
 #[test]
 fn one_list_of_indices_draws_the_order_of_both() {
     let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());

@@ -1,8 +1,8 @@
 //! Rays: the nearest hit, and whether a line of sight is blocked, against the ray casts of `parry3d` (in
 //! `f64` and in `f32`) and of `bvh` (in `f64`), on the same triangles with the same rays, one thread. A
-//! second table has rays through corners and edges, and the number of wrong answers. At the boundary of an open
-//! mesh rounding decides between a hit and a miss; such rays are counted apart from rays that pass through a
-//! closed surface.
+//! second table has rays through corners and edges, and the number of wrong answers. At the boundary of an
+//! open mesh rounding decides between a hit and a miss; such rays are counted apart from rays that pass
+//! through a closed surface.
 
 mod peers;
 

@@ -83,8 +83,8 @@ pub fn supersampled(
         .collect())
 }
 
-/// Paints the fragments of a tree back to front. The opacity of a fragment in a pixel is the share of the pixel
-/// that it covers.
+/// Paints the fragments of a tree back to front. The opacity of a fragment in a pixel is the share of the
+/// pixel that it covers.
 ///
 /// Painting programs do this. The result is wrong along common edges of fragments: the opacity says how much
 /// of a pixel is covered, but not which part (T. Porter and T. Duff, "Compositing digital images", 1984,

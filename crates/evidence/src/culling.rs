@@ -135,7 +135,8 @@ mod tests {
     use binspace::raster::NONE;
     use binspace::scene;
 
-    /// Compares every step with the exact picture of all polygons, and the last step with the owners of pixels.
+    /// Compares every step with the exact picture of all polygons, and the last step with the owners of
+    /// pixels.
     fn check(tree: &BspTree, camera: &Camera) -> Vec<usize> {
         let rays = Rays::new(camera, tree.faces()).unwrap();
         let truth = zbuffer(&rays, tree.faces());

@@ -83,8 +83,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
     pub(crate) falls: bool,
-    /// Whether values may be 0. Zeros are drawn in a separate lane below the axis, side by side, so that all are
-    /// visible.
+    /// Whether values may be 0. Zeros are drawn in a separate lane below the axis, side by side, so that all
+    /// are visible.
     pub(crate) zero: bool,
     pub(crate) series: Vec<Series>,
 }

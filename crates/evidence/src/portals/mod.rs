@@ -11,9 +11,9 @@
 //!
 //! It works in floats, and its errors are conservative. The planes that bound a view are moved outwards by
 //! 10⁻⁷ of the scene, more than all roundings can move them (`SLACK` in `sight` has the sum). An opening so
-//! near that roundings would count for more does not narrow the view at all. Two things can be left out: polygons seen
-//! only through openings thinner than 10⁻⁹ of the scene, which count as closed, and parts of polygons that
-//! are thinner than that.
+//! near that roundings would count for more does not narrow the view at all. Two things can be left out:
+//! polygons seen only through openings thinner than 10⁻⁹ of the scene, which count as closed, and parts of
+//! polygons that are thinner than that.
 
 mod cells;
 mod outline;

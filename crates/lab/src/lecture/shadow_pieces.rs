@@ -10,8 +10,8 @@ use super::chapter::{Chapter, Picture, failure, percent};
 use super::shadows::{SIZE, colour};
 use binspace_cli::failure::Failure;
 
-/// Writes the part of the chapter on pieces. `by_lines` contains the zones of the pixels, found by sight lines
-/// to the corners of the lamp.
+/// Writes the part of the chapter on pieces. `by_lines` contains the zones of the pixels, found by sight
+/// lines to the corners of the lamp.
 pub(super) fn fill(
     chapter: &mut Chapter,
     tree: &BspTree,

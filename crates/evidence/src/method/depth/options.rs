@@ -15,12 +15,12 @@ use super::rules::DepthRules;
 /// `f64`. After this, every operation is rounded: to `f32` for the floating-point formats, and to `f64` for
 /// the integer formats. R stands for one such rounding. The operations are:
 ///
-/// 1. the place, to x, y and the depth w: one R each;
+/// 1. the place: x, y and the depth w, one R each;
 /// 2. the position on the picture: x / (w · pixel) + half the width, y likewise;
-/// 3. the interpolated value. Perspective: (a · w + b) / w with a and b from near and far as graphics
-///    libraries have them, and for w-buffers 1 / w. Parallel: (w − near) / (far − near);
-/// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points: of
-///    a face of more corners, the first and two neighbours that span the most;
+/// 3. the interpolated value. Perspective: (a · w + b) / w with a and b from near and far, as in graphics
+///    libraries. For w-buffers: 1 / w. Parallel: (w − near) / (far − near);
+/// 4. the slopes −A/C and −B/C of the plane Ax + By + Cz + D = 0 through three of these points. If a face has
+///    more corners, the first corner and the two neighbours that span the largest triangle with it;
 /// 5. the value in a pixel, as [`Interpolation`] describes;
 /// 6. the stored number: see [`DepthFormat`].
 ///
