@@ -9,7 +9,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The numbers of faces in front of a plane, behind, on it, across.
+/// The numbers of faces in front of a plane, behind the plane, on the plane, and across it.
 fn count(sides: impl Iterator<Item = Side>) -> [usize; 4] {
     let mut counts = [0; 4];
     sides.for_each(|side| counts[side as usize] += 1);

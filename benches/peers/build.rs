@@ -61,7 +61,7 @@ pub(crate) fn run() {
     }
 }
 
-/// The same statistics, and the same fragments bit for bit in the same places.
+/// Asserts that two trees have the same statistics and, bit for bit, the same fragments in the same places.
 fn assert_same(a: &BspTree, b: &BspTree) {
     assert_eq!(a.stats(), b.stats());
     for (a, b) in a.fragments().zip(b.fragments()) {

@@ -125,8 +125,8 @@ fn their_pieces(outlines: &[Outline]) -> Vec<Painted> {
 }
 
 /// Paints at points of a grid, given the depths of the layers there. Returns the number of points that at
-/// least two layers cover, and the number of those at which the layers' order differs from the order of their
-/// depths.
+/// least two layers cover. Also returns at how many of these points the order of the layers differs from the
+/// order of their depths.
 pub(crate) fn judge(
     depths: impl Fn([f64; 2]) -> Vec<Option<f64>>,
     pieces: &[Painted],

@@ -71,7 +71,8 @@ pub(crate) fn run() {
     }
 }
 
-/// The number of frames that keep the order of an earlier one, and the times of the test and of the order.
+/// The number of frames that keep the order of an earlier frame, the time of the test, and the time of an
+/// order.
 fn walk(tree: &BspTree, eye: impl Fn(usize) -> Viewpoint) -> (usize, Duration, Duration) {
     let (mut order, mut other) = (Vec::new(), Vec::new());
     let (mut asking, mut ordering) = (Duration::ZERO, Duration::ZERO);

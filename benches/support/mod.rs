@@ -97,8 +97,8 @@ pub fn boxes(count: u32) -> Scene {
     scene
 }
 
-/// Strips along both families of lines of z = x y: many planes hold one line, and many lines meet in one
-/// point. `strips`: a multiple of 4.
+/// Strips along both families of lines of z = x y: many planes contain one line, and many lines meet in one
+/// point. `strips` must be a multiple of 4.
 pub fn rulings(strips: i32) -> Scene {
     let half = strips / 4;
     let mut scene = Scene::new(format!("rulings:{strips}"), DVec3::Z);

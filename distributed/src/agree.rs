@@ -27,7 +27,7 @@ pub(crate) fn together<T>(
     }
 }
 
-/// From now on, a panic on one rank ends all of them: the others would wait for it.
+/// From now on, a panic on one rank ends all ranks. Without this, the other ranks would wait for it.
 pub(crate) fn abort_on_panic() {
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {

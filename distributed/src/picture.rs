@@ -18,7 +18,7 @@ pub(crate) const BACKGROUND: [u8; 3] = [255; 3];
 /// The contribution of one polygon to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layer {
-    /// Its number, row by row from the top left.
+    /// The number of the pixel, row by row from the top left.
     pub(crate) pixel: u32,
     pub(crate) colour: [u8; 3],
     /// From 0 to 1.

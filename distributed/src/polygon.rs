@@ -6,14 +6,14 @@ use binspace::glam::DVec3;
 /// A polygon with its colour and opacity.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
-    /// Its number in the whole scene.
+    /// The polygon's number in the whole scene.
     pub(crate) number: u64,
     pub(crate) colour: [u8; 3],
     /// From 0 to 1.
     pub(crate) opacity: f32,
     /// See [`Polygon::precision`].
     pub(crate) precision: f64,
-    /// At least one.
+    /// The corners; at least one.
     pub(crate) corners: Vec<DVec3>,
 }
 

@@ -24,7 +24,8 @@ struct Generated {
     is_lump: bool,
 }
 
-/// The bits of a number that hold the place in a file; the bits above hold the number of the file.
+/// The number of low bits of a polygon's number that contain the place in a file. The bits above contain the
+/// number of the file.
 const IN_FILE: u32 = 32;
 
 /// The prefixes of the names of generated scenes, and whether they are lumps.

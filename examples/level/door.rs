@@ -29,7 +29,7 @@ impl Door {
         lintels.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Its leaf, opened by an angle in radians: with 0 it closes the doorway.
+    /// The leaf of the door, opened by an angle in radians. At 0, it closes the doorway.
     pub(crate) fn leaf(&self, angle: f64) -> Quad {
         let (sin, cos) = angle.sin_cos();
         let end = self.hinge + self.across * cos + DVec3::Z.cross(self.across) * sin;

@@ -56,14 +56,15 @@ fn places(scene: &Divided) -> BTreeMap<Name, Vec<([u64; 3], usize)>> {
     places
 }
 
-/// Returns the number of vertices shared by two cells or more.
+/// Checks that every vertex made by planes of cells has the same place in all its cells. Returns the number
+/// of these vertices on edges, and inside polygons.
 fn check(polygons: Vec<Corners>, cells: usize) -> [usize; 2] {
     let options = BuildOptions::DEFAULT.with_tolerance(0.0);
     let scene = Divided::new(polygons, options, cells).unwrap();
     let mut common = [0; 2];
     for (name, found) in places(&scene) {
         assert!(found.iter().all(|(place, _)| *place == found[0].0), "{name:?}: {found:?}");
-        // A polygon that meets a plane is on both sides of it.
+        // A polygon that meets a plane is on both sides of the plane.
         let in_several = found.iter().any(|(_, cell)| *cell != found[0].1);
         assert!(in_several, "{name:?} is in one cell alone");
         common[usize::from(matches!(name, Name::Inside(..)))] += 1;

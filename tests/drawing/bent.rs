@@ -102,8 +102,8 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     polygons
 }
 
-/// The directions in which a polygon leaves a line at a point of it: two, or fewer if the polygon ends there
-/// or does not contain the point.
+/// The directions in which a polygon leaves a line at a point of the line. There are two, or fewer if the
+/// polygon ends there or does not contain the point.
 pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
     let mut sides = vec![];
     for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {

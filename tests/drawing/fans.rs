@@ -41,7 +41,7 @@ fn cells_of_fans_and_cones_grow_with_their_triangles() {
     }
 }
 
-/// A globe whose poles are vertices of as many triangles as it has slices.
+/// A globe. Each pole is a vertex of one triangle per slice.
 #[test]
 fn cells_of_poles_grow_with_their_triangles() {
     for slices in [100, 400, 2_000] {

@@ -34,7 +34,7 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     layered
 }
 
-/// Squares one before another, each smaller: behind k of them there are k layers.
+/// Squares one before another, each smaller. Behind k squares there are k layers.
 #[test]
 fn squares_before_one_another_are_counted() {
     let side = |k: u32| f64::from(5 - k);

@@ -33,7 +33,7 @@ fn square_shows(wall: &[Vec<DVec3>]) -> bool {
     is_shown(&map)
 }
 
-/// Removes some parts, one at a time; those in the middle hide a part of the square.
+/// Removes some parts, one at a time. Parts in the middle hide a part of the square.
 fn check_parts(wall: &[Vec<DVec3>], missing: impl Iterator<Item = usize>) {
     assert!(!square_shows(wall));
     for part in missing {

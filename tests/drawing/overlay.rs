@@ -175,7 +175,7 @@ fn lines_in_cracks_and_corners() {
         [rectangle([-1.0, -1.0], [1.0, 0.0], 0.0), rectangle([-1.0, 0.0], [1.0, 1.0], 0.0)];
     let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
     assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
-    // A valley, all of it further back than its upper edges, in every order of its sides and a wall through
+    // A valley whose upper edges are nearest to the eye, in every input order of its sides and a wall through
     // it.
     let [left, right] = [-1.0, 1.0].map(|y| {
         let side = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, y, 1.0], [-1.0, y, 1.0]];
@@ -285,7 +285,7 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
         let options = options.with_bounds(middle - reach, middle + reach);
         let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
         for _ in 0..3 {
-            // On planes of the scene as well, and in the middle of it.
+            // Also on planes of the scene, and in the middle of the scene.
             let off = [(); 3].map(|()| dice.around_zero(3));
             let eye = middle + DVec3::from(off) * size * 0.5;
             let eye = on_grid(&tree, eye);
@@ -306,8 +306,8 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
     enough!(score.shown_points > 2000, score.hidden_points > 600; "{score:?}");
 }
 
-/// Calls a function with trees of random triangles, a camera before and one among these, and lines and
-/// points, half of them hard ones.
+/// Calls a function with trees of random triangles, a camera before the triangles and a camera among them,
+/// and lines and points. Half of the lines and points are hard to decide.
 pub(crate) fn for_each_crowd(
     seed: u64,
     mut check: impl FnMut(&BspTree, &Camera, &[Vec<DVec3>], &[DVec3], &mut Dice),

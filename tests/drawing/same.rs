@@ -1,4 +1,4 @@
-//! The same results on any number of threads, and for pictures of every size.
+//! Results are the same on any number of threads, and for pictures of every size.
 
 use super::map_with;
 use super::scenes::cameras;

@@ -1,6 +1,6 @@
-//! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in
-//! these scenes lies on a grid, so that cuts coincide with edges of others, and edges with borders of the
-//! picture's tiles.
+//! Outlines of regions and paths go around areas, and never along a line within an area. Nearly everything in
+//! these scenes lies on a grid. So cuts coincide with edges of other polygons, and edges coincide with
+//! borders of the picture's tiles.
 
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
 use super::{map_of, map_with};
@@ -193,7 +193,7 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
     assert!(regions > 8_000 && clipped > 300, "{regions} {clipped}");
 }
 
-/// The same sheets, and walls, from all around.
+/// The sheets of the test above, and walls, seen from all around.
 #[test]
 fn outlines_over_a_grid_have_no_seams() {
     let mut dice = Dice(7);

@@ -14,7 +14,7 @@ const MIXES: [fn(usize) -> f64; 3] = [
     |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
 ];
 
-/// The counts of comparisons of fully translucent drawings, and of mixed ones.
+/// The counts of comparisons of fully translucent drawings, and of mixed drawings.
 #[derive(Default)]
 struct Scores {
     all: Layers,

@@ -1,4 +1,4 @@
-//! Planes that a function of the caller chooses: good ones, bad ones, and panics.
+//! Planes that a function of the caller chooses: good planes, bad planes, and panics.
 
 use super::{build, scene};
 use binspace::choose::{PieceSet, Side, SplitPlane};

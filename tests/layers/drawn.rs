@@ -108,7 +108,7 @@ fn a_floor_that_reaches_behind_the_eye_is_clipped() {
     let page = page(&[Layer::new(floor, camera() * lying)]);
     let piece = page.back_to_front().next().unwrap();
     let ys: Vec<f64> = piece.vertices().map(|v| v.position.y).collect();
-    // Its far edge is 10 000 behind the screen: 500 · 1200/11 200 below the middle.
+    // The floor's far edge is 10 000 behind the screen, so it appears 500 · 1200/11 200 below the middle.
     let top = ys.iter().copied().fold(f64::INFINITY, f64::min);
     assert!((top - 540.0 - 500.0 * 1200.0 / 11_200.0).abs() < 1e-3, "{top}");
     assert!((ys.iter().copied().fold(0.0, f64::max) - 1080.0).abs() < 1e-9);

@@ -67,7 +67,7 @@ fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
     let page =
         page_on(VIEWPORT, true, [Layer::new([[-50.0, -50.0], [50.0, 50.0]], middle * diamond)]);
-    // Its corners are 100 to the right, below, to the left and above.
+    // The corners of the diamond are 100 to the right, below, to the left and above.
     for x in [-99.0, -50.0, 0.0, 50.0, 99.0] {
         assert!(page.hit([960.0 + x, 540.0]).is_some(), "{x}");
     }

@@ -4,7 +4,7 @@ use super::{VIEWPORT, page_on, wild};
 use binspace::layers::Layer;
 use testkit::prelude::*;
 
-/// The edge runs up in one of them and down in the other.
+/// The edge runs up in one layer and down in the other.
 #[test]
 fn two_layers_are_clipped_at_the_same_point_of_an_edge_that_they_share() {
     let mut dice = Dice(91);

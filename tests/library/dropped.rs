@@ -12,7 +12,7 @@ use testkit::vector::{difference, is_zero, product, scalar};
 
 type Vector = [IBig; 3];
 
-/// The corners on the lattice, without those equal to the one before.
+/// The corners on the lattice, without repetitions of the corner before.
 fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     let mut corners: Vec<Vector> =
         polygon.iter().map(|&p| lattice.snap(p).map(|c| IBig::from(c as i64))).collect();

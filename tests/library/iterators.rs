@@ -104,7 +104,7 @@ fn fragments_and_nodes_are_read_from_both_ends() {
         check_ends(tree.fragments().map(|f| f.index()), &numbers, &mut dice);
         assert_eq!(tree.fragments().nth(2).map(|f| f.index()), numbers.get(2).copied());
         let stats = tree.stats();
-        // As many fragments as faces: nothing was cut.
+        // The numbers of fragments and faces are equal, so nothing was cut.
         assert_eq!(tree.face_count(), stats.faces);
         assert_eq!(tree.len() == tree.face_count(), stats.splits == 0);
         let nodes: Vec<_> = tree.nodes().collect();

@@ -201,8 +201,8 @@ fn rays_of_another_grid_are_refused() {
     panic_of(|| ignore(zbuffer(&rays.rows(3..9).with_front_faces_only(), faces)));
 }
 
-/// A fragment of another frame, or a piece of an overlay, covers the pixels of its own picture, not those
-/// of a face of the mask's tree with the same number.
+/// A fragment of another frame, or a piece of an overlay, covers its own pixels, not the pixels of a face
+/// with the same number in the mask's tree.
 #[test]
 fn a_mask_covers_the_pixels_of_a_fragment_of_another_frame() {
     let build = |sizes: [f64; 2]| {

@@ -11,7 +11,7 @@ fn bits(p: DVec3) -> Bits {
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// The area vector, of twice the area's length.
+/// The area vector: a normal whose length is twice the area.
 fn normal(polygon: &[DVec3]) -> DVec3 {
     let from_first = |i: usize| polygon[i % polygon.len()] - polygon[0];
     (0..polygon.len()).map(|i| from_first(i).cross(from_first(i + 1))).sum()

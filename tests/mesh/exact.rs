@@ -186,7 +186,8 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
     }
     for (face, fragments) in by_face {
         let open = open_edges(mesh, mesh.triangles(), &fragments);
-        // The open edges are one closed path: each point has as many outgoing as incoming edges.
+        // The open edges are closed paths: at each point, the numbers of outgoing and incoming edges are
+        // equal.
         let mut balance: HashMap<u32, i32> = HashMap::new();
         for (&[a, b], &count) in &open {
             *balance.entry(a).or_default() += count;

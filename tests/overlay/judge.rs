@@ -16,7 +16,7 @@ use testkit::rational::Point;
 #[derive(Debug, Default)]
 pub(crate) struct Judged {
     pub(crate) pictures: usize,
-    /// Pixels that show a polygon, and pixels that show a moving one.
+    /// Pixels that show a polygon, and pixels that show a moving polygon.
     pub(crate) covered: usize,
     pub(crate) moving: usize,
     pub(crate) contested: usize,
@@ -28,7 +28,8 @@ impl Judged {
         self.look_at_polygons(tree, overlay, overlay.faces(), camera)
     }
 
-    /// The same check, with the faces of the tree and of the overlay's polygons, without lines and points.
+    /// Runs the check of `look` with given faces of the tree and of the overlay's polygons, without lines and
+    /// points.
     pub(crate) fn look_at_polygons(
         &mut self,
         tree: &BspTree,

@@ -86,7 +86,8 @@ impl Painted {
         painted
     }
 
-    /// The piece of a segment around a share of it, if none ends near.
+    /// The piece of a segment around a point, given as a share of the segment; `None` if a piece ends near
+    /// the point.
     fn piece_at(&self, segment: usize, share: f64) -> Option<&SegmentPiece> {
         let mut pieces = self.segments.iter().filter(|piece| piece.segment == segment);
         pieces.find(|piece| piece.shares[0] + NEAR < share && share < piece.shares[1] - NEAR)

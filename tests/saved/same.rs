@@ -15,7 +15,7 @@ fn again(tree: &BspTree) -> BspTree {
     again
 }
 
-/// The same fragments, statistics, weights and orders.
+/// Asserts that two trees have the same fragments, statistics, weights and orders.
 fn assert_same(tree: &BspTree, eyes: &[Viewpoint]) {
     let again = again(tree);
     assert_eq!(Snapshot::of(&again), Snapshot::of(tree));

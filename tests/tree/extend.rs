@@ -91,7 +91,7 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
                     };
                     around[..count].iter().copied().map(lift).collect()
                 }
-                // Flat ones, moved by less than the tolerance.
+                // Flat polygons, moved by less than the tolerance.
                 1 => {
                     let at = dice.whole_point(3);
                     let lift = DVec3::Z * dice.share() * 5e-7;

@@ -412,7 +412,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
     enough!(kept > 960, inexact > 300; "{inexact} of {kept}");
 }
 
-/// Among many coplanar polygons, whose boxes are tested by the block, only those in the region.
+/// Of many coplanar polygons, whose boxes are tested in blocks, only the polygons in the region are drawn.
 #[test]
 fn blocks_that_a_plane_goes_through_are_looked_into() {
     let square = |k: u32| {
@@ -443,7 +443,8 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
     enough!(compared > 4000; "{compared}");
 }
 
-/// Among coplanar polygons that face either way and do not fill the last block, only those of one side.
+/// Of coplanar polygons that face either way and do not fill the last block, only the polygons of one side
+/// are drawn.
 #[test]
 fn one_side_of_a_plane_of_both_is_drawn() {
     for count in (1..70).chain([255, 257, 1000]) {

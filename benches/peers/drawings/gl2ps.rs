@@ -1,11 +1,11 @@
 //! `gl2ps`: triangles drawn by OpenGL as a vector picture, by a driver in C that is compiled here.
 //!
-//! It sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six digits
-//! for each coordinate. So its pixels are judged twice. The first count covers all pixels except those with
-//! one of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose eight neighbours
-//! all show the same polygon. Its time is the time of a page, from the beginning of the page to the SVG file.
-//! Our time is the time of the tree, the map, the paths and the SVG file. Both are the running times of one
-//! thread.
+//! `gl2ps` sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six
+//! digits for each coordinate. So the pixels of `gl2ps` are judged twice. The first count covers all pixels
+//! except those with one of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose
+//! eight neighbours all show the same polygon. Its time is the time of a page, from the beginning of the page
+//! to the SVG file. Our time is the time of the tree, the map, the paths and the SVG file. Both are the
+//! running times of one thread.
 
 use super::fill::{Picture, Pixel};
 use super::{SIZE, camera, cpu_time, drawn};

@@ -154,7 +154,7 @@ fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, name: &str) -> [String
     ]
 }
 
-/// The same paths, bit for bit.
+/// Asserts that two drawings have the same paths, bit for bit.
 fn assert_same(a: &Drawing, b: &Drawing) {
     assert_eq!(a.paths().len(), b.paths().len());
     for (a, b) in a.paths().zip(b.paths()) {

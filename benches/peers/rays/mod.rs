@@ -1,8 +1,8 @@
 //! Rays: the nearest hit, and whether a line of sight is blocked, against the ray casts of `parry3d` (in
 //! `f64` and in `f32`) and of `bvh` (in `f64`), on the same triangles with the same rays, one thread. A
 //! second table has rays through corners and edges, and the number of wrong answers. At the boundary of an
-//! open mesh rounding decides between a hit and a miss; such rays are counted apart from rays that pass
-//! through a closed surface.
+//! open mesh, rounding decides between a hit and a miss. Such rays are counted separately from rays through a
+//! closed surface.
 
 mod peers;
 
@@ -38,7 +38,7 @@ pub(crate) fn run() {
     errors(&scenes);
 }
 
-/// A scene as triangles, and a tree of them.
+/// A scene as triangles, and the tree of the triangles.
 struct Case {
     name: String,
     tree: BspTree,
@@ -171,7 +171,7 @@ fn measure(
             *shortest = shortest.min(each);
         }
     }
-    // Their answers agree, except for a few rays.
+    // The answers of the peers agree with ours, except for a few rays.
     let off = yes[1..].iter().map(|&other| other.abs_diff(yes[0])).max().unwrap_or(0);
     assert!(off * 100 <= questions.len(), "{yes:?}");
     shortest

@@ -61,7 +61,7 @@ pub struct Left {
     pub polygons: usize,
     /// The time for this step and the steps before it together.
     pub time: Duration,
-    /// The number of pixels drawn to paint them.
+    /// The number of pixels drawn to paint the remaining polygons.
     pub drawn: u64,
     /// The number of wrong pixels of this picture.
     pub wrong: usize,

@@ -85,7 +85,7 @@ impl Sheets {
     pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
         let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
         let image = painted.image;
-        // Both sheets are two triangles each: the other triangle of the same sheet is not wrong.
+        // Each sheet consists of two triangles. It is not wrong to show the other triangle of the same sheet.
         let mut wrong: Vec<f64> = Vec::new();
         for (i, (&shown, &nearest)) in image.faces().iter().zip(self.truth.faces()).enumerate() {
             if shown / 2 != nearest / 2 {
@@ -162,8 +162,8 @@ impl Sheets {
     }
 }
 
-/// The distance of the further sheet's number beyond the nearer one's, in steps, and the largest effect of
-/// roundings on each of them.
+/// How far the number of the further sheet is beyond the number of the nearer sheet, in steps; and the
+/// largest effect of roundings on each number.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     steps: f64,
@@ -233,8 +233,8 @@ mod tests {
             let sheets = Sheets::new(gap, SIZE);
             let (fight, predicted) = (sheets.in_format(format).unwrap(), sheets.predicted(format));
             let ([first, last], [begin, end]) = (fight.seen.unwrap(), predicted.begin.unwrap());
-            // It is certain that nothing is wrong where the sheets are a step apart. It is likely that
-            // something is wrong soon after.
+            // Where the sheets are a step apart, no pixel may be wrong. Soon after this depth, some pixel
+            // should be wrong.
             assert!(first >= begin * (1.0 - 1e-9) && last <= end * (1.0 + 1e-9), "{format} {gap}");
             assert!(first <= begin * 1.05 && last >= end * 0.95, "{format} {gap}: {first} {begin}");
             let share = fight.wrong as f64 / predicted.wrong;

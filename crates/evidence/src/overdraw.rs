@@ -175,7 +175,7 @@ mod tests {
         // 10 by 10 pixels each, the highest last.
         let stack = [square(1.0, 0.0), square(1.0, 1.0), square(1.0, 2.0)];
         assert_eq!(sums(&stack), [[300, 300], [100, 100], [300, 300], [300, 100]]);
-        // 5 by 5 of them on 10 by 10: the mask hides no part of the larger.
+        // 5 by 5 pixels on 10 by 10: the mask hides no part of the larger square.
         let step = [square(1.0, 0.0), square(0.5, 1.0)];
         assert_eq!(sums(&step), [[125, 125], [125, 100], [125, 125], [125, 100]]);
         // The middle one comes first, then the lowest, then the highest.

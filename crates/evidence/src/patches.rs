@@ -46,7 +46,7 @@ impl Patch {
         self.corners.iter().any(|&p| normal.dot(p - other.corners[0]) > 0.0)
     }
 
-    /// Its area.
+    /// Returns the area of the patch.
     pub fn area(&self) -> f64 {
         self.area_vector().length()
     }

@@ -59,7 +59,7 @@ impl Plane {
         Self { normal: [minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3)], offset: minor(0, 1, 2) }
     }
 
-    /// The same points with the other side in front.
+    /// The same plane with the opposite front.
     pub(crate) fn flipped(&self) -> Self {
         Self { normal: self.normal.each_ref().map(|c| -c), offset: -&self.offset }
     }

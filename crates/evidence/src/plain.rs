@@ -125,8 +125,8 @@ impl PlainView {
         (!tied).then_some(met)
     }
 
-    /// Returns the visible polygons in a pixel where some are opaque and the others translucent, the furthest
-    /// first: the nearest opaque one, and all translucent ones before it. `None` as for
+    /// Returns the visible polygons in a pixel, the furthest first, if some polygons are opaque and the
+    /// others translucent: the nearest opaque polygon, and all translucent polygons before it. `None` as for
     /// [`layers`](Self::layers).
     pub fn shown(
         &self,

@@ -33,7 +33,7 @@ impl Residue {
         Self(((product >> 61) as u64 + (product as u64 & PRIME)) % PRIME)
     }
 
-    /// Its inverse, by Fermat; `None` for 0.
+    /// The inverse by Fermat's little theorem; `None` for 0.
     fn inverse(self) -> Option<Self> {
         if self == Self::ZERO {
             return None;

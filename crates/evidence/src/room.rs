@@ -73,8 +73,8 @@ impl Room {
         Ok(Self { patches, factors, reflected, light, closing })
     }
 
-    /// Returns the number of patches, the first ones, that are surfaces of the scene; the rest closes the
-    /// room.
+    /// Returns the number of patches that are surfaces of the scene. These patches come first; the others
+    /// close the room.
     pub fn surfaces(&self) -> usize {
         self.closing.start
     }

@@ -18,11 +18,11 @@ use binspace::{BspTree, Ray};
 /// The part of a lamp that a point sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zone {
-    /// It sees all tested points of the lamp.
+    /// The point sees all tested points of the lamp.
     Lit,
-    /// It sees some of them.
+    /// The point sees some of the tested points.
     Penumbra,
-    /// It sees none of the tested points.
+    /// The point sees none of the tested points.
     Umbra,
 }
 

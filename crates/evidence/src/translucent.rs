@@ -156,7 +156,7 @@ impl Weight {
 ///
 /// # Panics
 ///
-/// If the camera is a parallel one.
+/// If the camera is parallel.
 pub fn by_weights(
     faces: &Faces,
     layers: &Layers,

@@ -26,7 +26,7 @@ pub struct Tree {
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) plane: PlaneId,
-    /// The number of nodes on the path to it, itself included.
+    /// The number of nodes on the path from the root to this node, including this node.
     pub(crate) depth: usize,
     /// Whether it is in front of its parent.
     pub(crate) is_front: bool,
@@ -45,7 +45,8 @@ pub(crate) enum Side {
     Node(usize),
 }
 
-/// A fragment. Its vertices end where the next fragment's begin; a whole face has none.
+/// A fragment. Its vertices end where the vertices of the next fragment begin. A whole face has no vertices
+/// here.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     pub(crate) face: u32,
@@ -130,7 +131,8 @@ impl Tree {
             .chain(stored.iter().map(|vertex| vertex.vertex_id))
     }
 
-    /// Returns the partition planes, depth first, each with the fragments on it, and all in front and behind.
+    /// Returns the partition planes, depth first. Each has the ranges of the fragments on the plane, in front
+    /// of it, and behind it.
     pub fn partitions(&self) -> impl Iterator<Item = (PlaneId, [Range<u32>; 3])> {
         let all = |side: &Side| match side {
             Side::Leaf(fragments) => fragments.clone(),

@@ -1,4 +1,4 @@
-//! Decodes bytes into scenes whose corners coincide, or nearly so, with earlier ones.
+//! Decodes bytes into scenes in which many corners coincide, or almost coincide, with earlier corners.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;

@@ -1,4 +1,4 @@
-//! The effort of tests: the only place that decides it.
+//! The effort of tests, which only this module decides.
 //!
 //! `BINSPACE_EFFORT=10 cargo test` tries ten times as many scenes, rays and cases.
 

@@ -441,7 +441,7 @@ impl<'t> Oracle<'t> {
         points.iter().any(|&point| (low - point).max(point - high).max_element() > far)
     }
 
-    /// Compares the tree's answers for a ray with the right ones.
+    /// Compares the tree's answers for a ray with the right answers.
     pub fn check(&self, ray: Ray, score: &mut Score) -> Result<(), String> {
         let line = self.line(ray);
         let chords = self.chords(&line);

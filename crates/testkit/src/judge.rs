@@ -1,7 +1,7 @@
 //! Checks a tree's fragments in exact rationals.
 //!
-//! A fragment's vertices are computed from the lines that bound it, not from the library's definition of
-//! them, and every decision is made again.
+//! A fragment's vertices are computed from the lines that bound it, not from the library's definitions of
+//! vertices, and every decision is made again.
 
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
@@ -96,8 +96,8 @@ impl<'t> Judge<'t> {
         self.tree.fragments().zip(&self.pieces).map(move |(f, piece)| (f, face(&f), piece))
     }
 
-    /// Checks that every fragment is a convex piece with area, and that its rounded vertices are at the
-    /// exact ones.
+    /// Checks that every fragment is a convex piece with area, and that its rounded vertices are close to the
+    /// exact vertices.
     fn outlines(&self) -> Verdict {
         for (fragment, face, piece) in self.with_pieces() {
             let n = piece.points.len();
@@ -212,7 +212,7 @@ impl<'t> Judge<'t> {
         for (fragment, _, _) in self.with_pieces() {
             let corners = &polygons[fragment.polygon()];
             let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
-            // Near 0 the least step of `f64` is more than all of these.
+            // Near 0, the least step of `f64` is larger than all these errors.
             let least = f64::from_bits(1);
             let allowed = 8.0 * (moved + step + size * f64::EPSILON + least);
             for (vertex, weights) in fragment.vertices().zip(fragment.weights()) {
@@ -243,7 +243,7 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon on the lattice, from its corner to the next different one.
+/// An edge of a polygon on the lattice, from its corner to the next different corner.
 fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
     let snapped = |corner: &DVec3| DVec3::from_array(lattice.snap(*corner));
     let a = snapped(&corners[edge]);

@@ -55,7 +55,7 @@ pub fn area(outline: &[Point]) -> Point {
     })
 }
 
-/// Returns the largest difference between the coordinates of an exact point and a rounded one.
+/// Returns the largest difference between the coordinates of an exact point and of a rounded point.
 pub fn distance_to_rounded(exact_point: &Point, rounded: [f64; 3]) -> f64 {
     let offsets = (0..3).map(|i| (&exact_point[i] - exact(rounded[i])).abs());
     offsets.map(|offset| offset.to_f64().value()).fold(0.0, f64::max)

@@ -64,7 +64,7 @@ impl Ray {
         is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
     }
 
-    /// Returns the rounded place of a hit, and the ray's beginning, if it has one.
+    /// Returns the rounded place of a hit, and the start of the ray, if the ray has a start.
     pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
         let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().value()));
         let at = |i: usize| {

@@ -25,7 +25,7 @@ pub fn checksum(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, next)
 }
 
-/// Makes the last four bytes the checksum of those before.
+/// Replaces the last four bytes by the checksum of all bytes before them.
 pub fn seal(bytes: &mut [u8]) {
     if let Some(body) = bytes.len().checked_sub(4) {
         let sum = checksum(&bytes[..body]);
@@ -236,7 +236,7 @@ fn use_pictures(tree: &BspTree) {
     }
 }
 
-/// The visibility map and its drawings; a forged tree may have none.
+/// Makes the visibility map and its drawings. This may fail for a forged tree.
 fn use_drawing(tree: &BspTree, camera: &view::Camera) {
     let Ok(map) = tree.visibility(camera, &ViewOptions::DEFAULT) else { return };
     let corners: usize = map.cells().map(|cell| cell.corners().len()).sum();

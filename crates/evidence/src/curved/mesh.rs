@@ -22,8 +22,8 @@ type Vertex = ([f64; 2], DVec3);
 /// Divides patches into triangles whose error is at most `tolerance` pixels; returns a list for each patch.
 ///
 /// Each patch has its own grid. An edge has as many points as the finer of its two patches needs. These
-/// points depend on the edge's curve alone, in either direction, so patches fit together. A strip joins a
-/// patch's grid to its edges.
+/// points depend only on the curve of the edge, and not on its direction, so patches fit together. A strip
+/// joins a patch's grid to its edges.
 pub fn mesh(patches: &[Patch], view: &PlainView, tolerance: f64) -> Vec<Vec<Triangle>> {
     let mut counts = Counts::new();
     for patch in patches {

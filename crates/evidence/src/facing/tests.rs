@@ -96,7 +96,8 @@ fn seen(polygons: &[[DVec3; 4]], camera: &Camera) -> (Facing, usize) {
 fn a_box_shows_one_two_or_three_faces() {
     let cube = cuboid(DVec3::ZERO, DVec3::ONE);
     let facing = |front, back, edge_on| Facing { front, back, edge_on };
-    // Along an axis, C = 0 for four faces; along two, for two; otherwise for none.
+    // If the direction is along one axis, C = 0 for four faces. If it is in the plane of two axes, C = 0 for
+    // two faces. Otherwise C = 0 for no face.
     for (direction, expected) in [
         (DVec3::NEG_Z, facing(1, 1, 4)),
         (DVec3::new(-1.0, 0.0, -1.0), facing(2, 2, 2)),

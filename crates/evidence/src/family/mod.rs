@@ -83,7 +83,7 @@ impl Family {
         Self::DepthRange,
     ];
 
-    /// The coplanar tolerance for the families: none.
+    /// The coplanar tolerance for the families.
     pub const TOLERANCE: f64 = 0.0;
 
     /// Returns the family's name on the command line.
@@ -137,8 +137,8 @@ impl Family {
         }
     }
 
-    /// Returns the difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the
-    /// smallest to the largest); a few of them if `quick`.
+    /// Returns the difficulties, from the easiest to the hardest. For [`Scale`](Self::Scale), returns the
+    /// factors from the smallest to the largest. If `quick`, returns only a few difficulties.
     pub fn sweep(self, quick: bool) -> &'static [f64] {
         const DECADES: &[f64] =
             &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];

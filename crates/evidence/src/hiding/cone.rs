@@ -49,7 +49,7 @@ impl Seen {
         Some(Self { corners, plane, sides })
     }
 
-    /// Whether this face hides a part of another, and whether the other hides a part of this one.
+    /// Whether this face hides a part of another face, and whether the other face hides a part of this face.
     pub(super) fn against(&self, other: &Self) -> [bool; 2] {
         let part = self.within(other);
         let sides = || part.iter().map(|vertex| product(&other.plane, vertex));

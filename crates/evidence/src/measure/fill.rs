@@ -42,8 +42,8 @@ impl Filled {
         Self { size, pixels: vec![Pixel::Nothing; size[0] * size[1]] }
     }
 
-    /// Fills outlines by the nonzero rule. Corners are in pixels, x to the right and y down, from the corner
-    /// of the first one.
+    /// Fills outlines by the nonzero rule. Corners are in pixels from the corner of the first pixel, with x
+    /// to the right and y down.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();

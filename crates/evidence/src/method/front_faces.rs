@@ -64,7 +64,7 @@ impl Prepared for Ready<'_> {
     }
 }
 
-/// The faces that a method has to process: all faces; or front faces only, for rays that meet only fronts.
+/// Whether a method has to process a face: every face, or only front faces if the rays meet only fronts.
 pub(super) fn shown<'a>(rays: &Rays, faces: &'a Faces) -> impl Fn(u32) -> bool + use<'a> {
     let eye = rays.is_front_only().then(|| Eye::new(rays.viewpoint(), faces.lattice()));
     move |face| eye.is_none_or(|eye| faces.eye_side(PlaneId::face(face), &eye) == Ordering::Greater)

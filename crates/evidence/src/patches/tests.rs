@@ -48,7 +48,7 @@ fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
     let off = [1, 3, 9].map(|side| {
         let (patches, found) = factors(&room(true), 1.0, side);
         let n = patches.len();
-        // The same light in both directions.
+        // The light is the same in both directions.
         let light = |i: usize, j: usize| found.factor(i, j) * patches[i].area();
         let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let off = all.map(|(i, j)| (light(i, j) - light(j, i)).abs()).sum::<f64>();

@@ -18,7 +18,7 @@ impl Plane {
         Self { normal, offset: normal.dot(point) }
     }
 
-    /// The distance of a point in front of it.
+    /// The distance of a point in front of the plane; negative behind it.
     pub(super) fn at(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
@@ -78,7 +78,7 @@ pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2]
     [part(high, plane), part(-low, &plane.flipped())]
 }
 
-/// The planes through the edges of a polygon on a plane, perpendicular to it, each with the polygon
+/// The planes through the edges of a polygon, perpendicular to the polygon's plane, each with the polygon
 /// behind it.
 fn side_planes(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
     let middle = outline.iter().sum::<DVec3>() / outline.len() as f64;

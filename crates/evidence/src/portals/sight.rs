@@ -55,7 +55,8 @@ impl Cells {
         self.seen_with(SLACK, NEAREST, eye, frustum)
     }
 
-    /// The same search with other bounds of roundings, so that tests can show their purpose.
+    /// Runs the search of `seen_from` with other bounds of roundings, so that tests can show the purpose of
+    /// the bounds.
     pub(super) fn seen_with(
         &self,
         slack: f64,
@@ -156,7 +157,8 @@ impl<'a> Sight<'a> {
             }
             let part = within(outline, planes);
             let (known, growths) = &mut self.parts[number][side];
-            // The whole portal contains every part of it, although rounding may deny this for a thin part.
+            // The whole portal contains every part of the portal, although rounding may deny this for a thin
+            // part.
             let is_whole = *growths > GROWTHS;
             if part.is_empty() || is_whole || holds(known, plane, &part, noise) {
                 continue;

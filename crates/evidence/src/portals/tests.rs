@@ -191,8 +191,8 @@ fn outlines_by_hand() {
     assert!((area(&clip(&square(0.0, 2.0), &slope)) - 3.5).abs() < 1e-12);
     let [front, back] = split(&square(0.0, 2.0), &slope, 1e-9);
     assert!((area(&front) - 3.5).abs() < 1e-12 && (area(&back) - 0.5).abs() < 1e-12);
-    // A window in a wall leaves four pieces; a wall in a window leaves none; a window beside it leaves all of
-    // it.
+    // A wall without a window in it is four pieces. A wall without a larger window is nothing. A wall without
+    // a window beside it is the whole wall.
     let left = without(square(0.0, 4.0), &square(1.0, 2.0), &ground, 1e-9);
     assert_eq!(left.len(), 4);
     assert!((left.iter().map(|piece| area(piece)).sum::<f64>() - 15.0).abs() < 1e-12);

@@ -37,7 +37,7 @@ struct Corner {
 }
 
 impl Piece {
-    /// Its zone, by the tested points of the lamp.
+    /// Returns the zone of the piece, by the tested points of the lamp.
     pub fn zone(&self) -> Zone {
         match self.sees.iter().filter(|&&sees| sees).count() {
             0 => Zone::Umbra,
@@ -56,7 +56,7 @@ impl Piece {
         self.corners.iter().map(|corner| faces.lattice().to_world(corner.place.rounded()))
     }
 
-    /// The parts behind a plane and in front of it, where they have an area.
+    /// The parts behind a plane and in front of it; `None` for a part without area.
     fn split(self, face: &Plane, by: &Rc<Plane>) -> [Option<Self>; 2] {
         let sides: Vec<Ordering> = self.corners.iter().map(|c| side(by, &c.place)).collect();
         if !sides.contains(&Ordering::Greater) {
@@ -145,8 +145,8 @@ pub(super) fn pieces_by(
     found
 }
 
-/// The pieces of one face. `shades` holds, for each point of the lamp, the shade of each face; `casters`
-/// holds the faces that may cast a shadow on this one.
+/// The pieces of one face. `shades` contains the shade of each face for each point of the lamp. `casters`
+/// contains the faces that may cast a shadow on this face.
 fn pieces_of(
     faces: &Faces,
     whole: Piece,
@@ -166,7 +166,8 @@ fn pieces_of(
             pieces = cut(pieces, &plane, &shade.planes, |piece| piece.sees[number], dim);
         }
     }
-    // A face that hides all of the lamp hides each point of it, except the points that the face sees edge-on.
+    // A face that hides the whole lamp hides each point of the lamp, except the points that see the face
+    // edge-on.
     let asked = (0..shades.len()).filter(|&number| shades[number][face as usize].is_some());
     let lists: Vec<&Vec<u32>> = asked.map(|number| &casters[number]).collect();
     let Some((first, others)) = lists.split_first() else { return pieces };

@@ -131,8 +131,8 @@ fn the_exact_tree_misplaces_and_tears_nothing_in_any_family() {
 fn crossing_triangles_within_the_epsilon_are_put_on_wrong_planes() {
     let scene = Family::Angle.scene(1e-9, 1);
     let found = accuracy_with(1e-6, &scene);
-    // Six triangles on one plane: all corners of all triangles except the plane's own, without the corners
-    // that happen to be on it.
+    // Six triangles are put on one plane. All corners of the other triangles are misplaced, except corners
+    // that happen to be on the plane.
     assert!((10..=15).contains(&found.misplaced), "{found:?}");
     assert_eq!((found.vertices, found.torn), (18, 0), "{found:?}");
 }

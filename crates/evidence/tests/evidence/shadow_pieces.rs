@@ -21,8 +21,8 @@ fn side(plane: &Plane<IBig>, [point @ .., factor]: &[IBig; 4]) -> Ordering {
     (scalar(&plane.normal, point) - &plane.offset * factor).cmp(&IBig::ZERO)
 }
 
-/// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
-/// the lamp and its edges.
+/// A face, as seen from a point of the lamp: the face's plane, the side on which the lamp is, and the planes
+/// through the lamp and the face's edges.
 struct Screen {
     plane: Plane<IBig>,
     lamp: Ordering,
@@ -86,7 +86,7 @@ fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [us
         let number = (dice.roll() % pieces.len() as u64) as usize;
         let (piece, point) = (&pieces[number], within(&corners[number], &mut dice));
         for (judge, sees) in judges.iter().zip(&piece.sees) {
-            // A point in the plane of the lamp sees nothing of it.
+            // A point in the plane of the lamp does not see the lamp.
             if judge.is_edge_on(piece.face) {
                 assert!(!sees);
                 continue;

@@ -139,7 +139,7 @@ fn depth_maps(chapter: &mut Chapter, room: &Room) {
         .pictures([map(Bright::Far, "lighter is further"), map(Bright::Near, "lighter is nearer")]);
 }
 
-/// Translucent polygons over opaque ones.
+/// Translucent polygons over opaque polygons.
 fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let mut sorted = Vec::new();
     room.tree.back_to_front_into(room.camera.viewpoint(), &mut sorted);

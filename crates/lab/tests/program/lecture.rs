@@ -49,7 +49,7 @@ fn all_chapters_are_on_one_page() {
     }
     // No backticks around a command are left.
     assert!(!page.contains(">`") && !page.contains(" `"));
-    // Without the pictures, whose letters may be anything.
+    // Pictures are left out, because their encoded data may contain any letters.
     let texts =
         page.split("base64,").map(|part| part.split_once('"').map_or(part, |(_, text)| text));
     for text in texts {

@@ -7,8 +7,8 @@ use crate::judge::{Verdict, ensure};
 use crate::prelude::*;
 use binspace::Fragment;
 
-/// The largest allowed error of a vertex, as a share of the scene's size: each rounding of a vertex is 2⁻⁵²
-/// of it.
+/// The largest allowed error of a vertex, as a share of the scene's size. Each rounding of a vertex has an
+/// error of 2⁻⁵² of this size.
 const OFF: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// Whether a point is in a fragment, as far as rounded vertices can decide.

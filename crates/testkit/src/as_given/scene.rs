@@ -5,7 +5,7 @@ use binspace::Error;
 
 pub type Point = [i64; 3];
 
-/// Convex, planar polygons with whole corners, so that the lattice moves none of them.
+/// Convex, planar polygons with integer corners, so that rounding to the lattice moves no corner.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,

@@ -1,4 +1,4 @@
-//! Exactly known viewpoints, most of them where sides are hard to decide.
+//! Exactly known viewpoints, most of them at places where sides are hard to decide.
 
 use super::exact::{Vector, wide};
 use super::ray::Ray;
@@ -82,7 +82,7 @@ impl View {
         self.ray_to(target, total)
     }
 
-    /// Returns the ray to the view's target, if it has one.
+    /// Returns the ray to the view's target, if the view has a target.
     pub fn first_ray(&self) -> Option<Ray> {
         self.target.and_then(|(target, total)| self.ray_to(target, total))
     }
@@ -182,7 +182,7 @@ fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     let longest = rounded[axis];
     let power = (longest.unsigned_abs().max(1)).next_power_of_two() as i128;
     if power != longest.abs() && dice.below(2) == 0 {
-        // Next to it, except for rounding.
+        // Next to the given direction, up to rounding.
         let unit = (size as u64).next_power_of_two() as i128;
         rounded = rounded.map(|c| c * unit / longest.abs().max(1));
         rounded[axis] = unit * if longest < 0 { -1 } else { 1 };

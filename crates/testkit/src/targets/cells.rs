@@ -55,7 +55,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
         panic!("{what}: {options:?} {cells} cells {polygons:?}");
     }
     assert_eq!(Partition::read(&written(&scene.partition)[..]).unwrap(), scene.partition);
-    // The counts are those of the whole scene, for any cells.
+    // The counts equal the counts of the whole scene, for any cells.
     let (whole, sum) = (options.build(&polygons), scene.partition.preparation(&polygons));
     let counts = |found: &binspace::Preparation| {
         [found.dropped, found.triangulated, found.crossing, found.flattened]

@@ -8,7 +8,7 @@ use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
-/// Builds a tree, and draws it from as many views as there are bytes for.
+/// Builds a tree, and draws views of it until the bytes end.
 pub fn run(data: &[u8]) {
     // Too few bytes change nothing.
     let _ = draw(&mut Unstructured::new(data));

@@ -28,9 +28,9 @@ impl<P: Precision> FaceWalk<P> for Walk {
     }
 }
 
-/// An edge on the scanlines whose centres it crosses. On each, `column` is the first pixel whose centre is on
-/// it or to its right. `rest`, from 0 up to but not including `unit`, is the distance to its right, in `unit`
-/// parts of a pixel.
+/// An edge on the scanlines whose centres it crosses. On the current scanline, `column` is the first pixel
+/// whose centre is on the edge or to the right of it. `rest / unit` is the distance of this centre from the
+/// edge in pixels, from 0 up to but not including 1.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     first: i64,
@@ -71,7 +71,7 @@ impl Edge {
 }
 
 /// Calls `visit` with the row and the columns of all pixels whose centres are within a convex polygon, on its
-/// left boundary, or on its upper one.
+/// left boundary, or on its upper boundary.
 fn for_each_run(points: &[[i64; 2]], size: [u32; 2], mut visit: impl FnMut(u32, Range<u32>)) {
     let [width, height] = size.map(i64::from);
     let next = points.iter().cycle().skip(1);

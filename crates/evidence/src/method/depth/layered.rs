@@ -13,9 +13,9 @@ use binspace::BspTree;
 use binspace::raster::{NONE, Outline, Piece, Rays};
 use binspace::view::Camera;
 
-/// The polygons that show in each pixel, row by row from the top left, those behind first: an opaque
-/// one, if there is one, and all translucent ones that passed the depth test, in the order in which
-/// they were drawn.
+/// The visible polygons of each pixel, row by row from the top left. In a pixel, the opaque polygon comes
+/// first, if there is one. Then come all translucent polygons that passed the depth test, in the order in
+/// which they were drawn.
 pub type Layers = Vec<Vec<u32>>;
 
 /// A picture of opaque and translucent polygons.

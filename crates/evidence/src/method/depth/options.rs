@@ -45,7 +45,7 @@ pub struct DepthBuffer {
     pub sections: Option<Sections>,
 }
 
-/// How a picture is drawn in sections, so that the depths of all of it are never kept at once.
+/// How a picture is drawn in sections, so that the depths of the whole picture are never in memory at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sections {
     /// The number of rows of a section; at least 1.

@@ -7,7 +7,7 @@ use crate::method::clip::Range;
 /// The stored value of a depth in a depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
-    /// The stored number, from 0 at the near plane to 1 at the far one; the other way round for
+    /// The stored number: 0 at the near plane and 1 at the far plane, or the reverse for
     /// [`DepthFormat::FloatReversed`].
     pub value: f64,
     /// The depth that this number stands for.
@@ -43,8 +43,8 @@ impl DepthFormat {
         Stored { value, depth }
     }
 
-    /// Returns the largest difference between depths around this one, within `share` of it, and their stored
-    /// values.
+    /// Returns the largest difference between a depth and its stored value, over depths that differ from
+    /// `depth` by at most a share `share`.
     pub fn largest_error(self, planes: [f64; 2], depth: f64, share: f64) -> f64 {
         // Samples at irregular distances, so that their pattern differs from the regular steps of the format.
         let golden = |i: u32| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
@@ -53,8 +53,9 @@ impl DepthFormat {
         (0..LOOKED_AT).map(error).fold(0.0, f64::max)
     }
 
-    /// Returns the difference of two depths, near this one, whose stored numbers are a step apart, by the
-    /// formula: a step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
+    /// Returns the difference of two depths near `depth` whose stored numbers are a step apart. It is
+    /// computed by the formula: a step times the slope of w over the stored number. For z the slope is w² (f
+    /// − n) / (f n).
     ///
     /// The step of an `f32` depends on the power of two of the stored number.
     pub fn step(self, [near, far]: [f64; 2], depth: f64) -> f64 {

@@ -27,13 +27,13 @@ pub enum Nearer {
 /// The test that a depth must pass to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthTest {
-    /// Its number is smaller than the stored one.
+    /// The new number is smaller than the stored number.
     Less,
-    /// It is not larger.
+    /// The new number is not larger.
     LessOrEqual,
-    /// It is larger.
+    /// The new number is larger.
     Greater,
-    /// It is not smaller.
+    /// The new number is not smaller.
     GreaterOrEqual,
 }
 
@@ -112,7 +112,7 @@ impl Comparison {
         key ^ self.flip
     }
 
-    /// Whether a new number shows before the stored one.
+    /// Whether a new number passes the test against the stored number.
     #[inline]
     pub(super) fn passes(&self, new: u32, stored: u32) -> bool {
         new < stored || self.or_equal && new == stored

@@ -9,13 +9,13 @@ pub(super) const TOUCH: f64 = 1e-6;
 /// The test that proves that P does not hide Q.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Reason {
-    /// They are pieces of one face.
+    /// P and Q are pieces of one face.
     OneFace,
     /// One of the five tests, by its number from 0.
     Test(usize),
 }
 
-/// The first reason why P does not hide Q; `None` if it may hide a part of it.
+/// The first reason why P does not hide Q; `None` if P may hide a part of Q.
 #[inline]
 pub(super) fn why_not_hidden(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> Option<Reason> {
     let (a, b) = (pieces.get(p), pieces.get(q));

@@ -145,7 +145,7 @@ impl Pieces {
         &self.planes[self.pieces[piece as usize].face as usize]
     }
 
-    /// The face of a piece, and whether the piece is the whole visible part of it.
+    /// The face of a piece, and whether the piece is the whole visible part of this face.
     pub(super) fn source(&self, piece: u32) -> (u32, bool) {
         let piece = self.get(piece);
         (piece.face, piece.whole)

@@ -55,7 +55,7 @@ fn faces(polygons: &Polygons, tolerance: Option<f64>) -> Faces {
     Faces::new(polygons, tolerance).unwrap().0
 }
 
-/// Cameras outside of a scene and within it, and parallel ones.
+/// Cameras outside a scene and within it, and parallel cameras.
 fn cameras(polygons: &Polygons, size: [u32; 2], seed: u64) -> Vec<Camera> {
     let corners = || polygons.iter().flatten();
     let low = corners().fold(DVec3::INFINITY, |low, &p| low.min(p));

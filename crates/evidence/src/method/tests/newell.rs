@@ -280,7 +280,7 @@ fn each_test_decides_the_pair_that_it_is_for() {
     assert_eq!((above.compared, above.by_test), (1, [0, 1, 0, 0, 0]));
     let over = counts(&moved(0.0, 0.0, 0.5));
     assert_eq!((over.compared, over.by_test), (1, [0, 0, 1, 0, 0]));
-    // Its plane z = −4.5 + x cuts P, but all of it is in front of P's.
+    // The plane of Q, z = −4.5 + x, cuts P, but all of Q is in front of P's plane.
     let steep = counts(&[[0.5, 1.5, -4.0], [1.5, 1.5, -3.0], [1.5, 1.9, -3.0], [0.5, 1.9, -4.0]]);
     assert_eq!((steep.compared, steep.by_test), (1, [0, 0, 0, 1, 0]));
     // Beside a corner of P, with a plane that cuts P, and on both sides of P's.

@@ -23,7 +23,7 @@ pub(super) enum Meeting {
     Nothing,
     /// The distance along its direction, in lengths of the direction.
     At(f64),
-    /// It passes too near an edge, or is too parallel to the polygon, to tell.
+    /// Undecided: the ray passes too near an edge, or is too parallel to the polygon.
     Doubtful,
 }
 

@@ -1,4 +1,4 @@
-//! Rounded planes and an epsilon against exact decisions.
+//! Compares decisions by rounded planes and an epsilon with exact decisions.
 
 use super::{cameras, disjoint, faces, judge};
 use crate::method::Bsp;
@@ -61,7 +61,7 @@ impl Twins {
         pairs.map(apart).fold(0.0, f64::max)
     }
 
-    /// Cuts both, and keeps the parts in front or those behind.
+    /// Cuts both pieces, and keeps either the parts in front or the parts behind.
     fn cut<T: Precision>(
         &mut self,
         faces: &Faces,

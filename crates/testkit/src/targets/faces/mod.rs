@@ -146,7 +146,7 @@ impl Given {
             match place.kind {
                 Kind::Whole => point,
                 Kind::Tenths => point * 0.1,
-                // The same for every repetition of the corner.
+                // The offset is the same for every repetition of the corner.
                 Kind::Rough => point + off * (2.0 * Dice(seed ^ hash([x, y])).share() - 1.0),
             }
         };
@@ -190,7 +190,7 @@ impl Made<'_> {
     }
 
     /// Checks that a face has area, that its corners are the polygon's by number, and that its outer edges
-    /// run along those of the polygon.
+    /// run along the edges of the polygon.
     fn names_its_corners(&self) -> Verdict {
         let corners = self.snapped();
         let moved = 2.0 * self.faces.tolerance() + 2.0;
@@ -227,7 +227,7 @@ impl Made<'_> {
         for face in self.range.clone() {
             let own = area_of(self.faces.corners(face));
             // Corners that are collinear except for rounding may make a triangle that is seen edge-on, or
-            // that faces the other way along an axis other than that of its projection.
+            // that faces the other way along an axis other than the axis of its projection.
             let least = i128::from(self.given.kind == Kind::Whole);
             let faces_as = |&axis: &usize| own[axis].signum() * whole[axis].signum() >= least;
             ensure(axes.iter().any(faces_as), || format!("face {face} faces the other way"))?;

@@ -162,7 +162,7 @@ fn comb(size: usize, dice: &mut Dice) -> Vec<Corner> {
     below.into_iter().chain(above.into_iter().rev()).collect()
 }
 
-/// Corners around a centre that sees all of them.
+/// Corners around a centre that sees all corners.
 fn star(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let n = size.max(5);
     let ray = |k: usize| {

@@ -9,7 +9,7 @@ use binspace::glam::DVec3;
 const SIZES: [usize; 16] =
     [1, 40, 63, 64, 65, 120, 190, 255, 256, 257, 400, 700, 1_100, 2_047, 2_100, 5_000];
 
-/// Quarter turns and reflections: the image of each axis, and which of them are reversed. Exact.
+/// Exact quarter turns and reflections: the image of each axis, and which axes are reversed.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     axes: [usize; 3],
