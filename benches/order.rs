@@ -10,7 +10,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// All forms of an order must be one permutation.
+/// Checks that all forms of an order are the same permutation.
 fn check(tree: &BspTree, viewpoint: Viewpoint) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);

@@ -1,5 +1,6 @@
 //! A build on one thread and on two, against the surface area heuristic of the `bvh` crate on two threads, on
-//! the same polygons as triangles. Its boxes are computed beforehand, in `f32` as most of its users would.
+//! the same polygons as triangles. The boxes of `bvh` are computed beforehand, in `f32` as most of its users
+//! would.
 
 use binspace::BspTree;
 use binspace::scene::Scene;

@@ -64,7 +64,7 @@ fn by_layers(layers: &[PageLayer], empty: Layers) -> (Duration, Vec<Painted>) {
     (frame, page.back_to_front().map(painted).collect())
 }
 
-/// The way of a program that uses only the tree, with its default tolerance.
+/// Paints like a program that uses only the tree, with the tree's default tolerance.
 fn by_tree(layers: &[PageLayer], near: f64) -> (Duration, Vec<Painted>) {
     let (frame, tree) = best_of(3, || {
         BspTree::build(layers.iter().map(|layer| divided(layer, near))).expect("within budget")

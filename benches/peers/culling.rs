@@ -145,14 +145,14 @@ fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     (seen.len(), shortest)
 }
 
-/// The list is the whole order without the fragments whose vertices are all outside of one plane. A fragment
-/// may be in the list if it is so near to a plane that rounding decides.
+/// Checks that the list is the whole order without the fragments whose vertices are all outside one plane. A
+/// fragment so near to a plane that rounding decides may be in the list.
 fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
     let [low, high] = tree.bounds().expect("a level");
     let margin = 1e-6 * (high - low).max_element();
     let mut seen = seen.iter().peekable();
     for &fragment in order {
-        // The polygons are flat along axes, so their boxes are outside if they are.
+        // The polygons are perpendicular to axes, so the box of a polygon is outside if the polygon is.
         let vertices: Vec<DVec3> = tree.fragment(fragment).vertices().collect();
         let (low, high) = vertices
             .iter()

@@ -48,7 +48,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let (mut ours, mut theirs) = (Duration::MAX, Duration::MAX);
     let mut splitter = BspSplitter::<usize>::new();
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
-    // In turns, so that a slow moment of the machine affects both.
+    // Both take turns, so that a slow moment of the machine affects both.
     for _ in 0..4 {
         ours = ours.min(best_of(3, || our_frame(outlines, &mut builder, &mut order)).0);
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);

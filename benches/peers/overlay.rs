@@ -20,7 +20,7 @@ const SCENES: [&str; 7] = [
 const MOVERS: usize = 200;
 const FRAMES: usize = 20;
 
-/// Lines of this many segments, and points.
+/// The number of lines, the number of segments in each, and the number of points.
 const LINES: usize = 200;
 const SEGMENTS: usize = 50;
 const POINTS: usize = 1000;
@@ -129,7 +129,7 @@ fn orders(
     (replacing, ordering)
 }
 
-/// Both forms of the order agree, with each piece once.
+/// Checks that both forms of the order agree, and that each piece occurs once.
 fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     let mut order = Vec::new();
     overlay.order(tree, eye).expect("its own tree").write_into(&mut order);

@@ -90,9 +90,9 @@ fn look(polygon: usize) -> Look {
 
 /// The differences from the true picture in the judged pixels.
 struct Error {
-    /// The share of pixels with a channel that differs by more than 1 of 255.
+    /// The share of pixels in which a channel differs by more than 1/255.
     wrong: f64,
-    /// The mean difference of a channel, of 255.
+    /// The mean difference of a channel, in units of 1/255.
     mean: f64,
 }
 

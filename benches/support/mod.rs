@@ -19,7 +19,7 @@ use testkit::shapes::fan;
 /// The seed of every generated scene.
 pub const SEED: u64 = 1;
 
-/// A scene by name: built in, made here, or a file of `benches/scenes`.
+/// Returns a scene by name: a built-in scene, a scene of this module, or a file of `benches/scenes`.
 pub fn scene(name: &str) -> Scene {
     let count = |text: &str| text.parse().expect("a number");
     let round = |number: &str, height: f64| {
@@ -137,7 +137,7 @@ pub fn triangulated(scene: &Scene) -> Scene {
     triangles
 }
 
-/// The box of a triangle, in `f32` as most users of `bvh` would have it.
+/// The box of a triangle, in `f32`, which most users of `bvh` would take.
 #[derive(Clone)]
 pub struct Boxed {
     bounds: Aabb<f32, 3>,
@@ -183,12 +183,12 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
 /// shortest time.
 const ENOUGH: (Duration, u32) = (Duration::from_secs(1), 200);
 
-/// The shortest time of several, three at least, and the last result.
+/// Runs a function at least three times. Returns the shortest time and the last result.
 pub fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
     best_of(3, run)
 }
 
-/// The shortest time of several, and the last result.
+/// Runs a function at least `at_least` times. Returns the shortest time and the last result.
 pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     let start = Instant::now();
     let mut shortest = Duration::MAX;
@@ -231,7 +231,7 @@ pub fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
 pub struct Table(Vec<usize>);
 
 impl Table {
-    /// Prints the head. The last columns are wide enough for figures; the first for names.
+    /// Prints the head of the table. The first column is wide enough for names, and the others for figures.
     pub fn new(title: &str, columns: &[&str]) -> Self {
         println!("\n## {title}\n");
         let width =
@@ -278,7 +278,7 @@ pub fn time(time: Duration) -> String {
     }
 }
 
-/// The date, the commit and the machine, as the head of a document.
+/// Prints the head of a document: the date, the commit and the machine.
 pub fn print_head(title: &str, command: &str) {
     println!("# {title}\n");
     println!("- command: `{command}`");
@@ -304,7 +304,7 @@ fn machine() -> String {
     format!("{model}, {threads} threads, {} {}", env::consts::OS, env::consts::ARCH)
 }
 
-/// The sections named on the command line, or all.
+/// Returns whether the command line names this section, or names no section.
 pub fn wanted(section: &str) -> bool {
     let mut named = env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     named.peek().is_none() || named.any(|name| name == section)

@@ -25,7 +25,7 @@ pub(crate) enum Cover {
 /// The faces of a scene, and a camera.
 pub(crate) struct Sightlines {
     pub(crate) faces: Vec<(usize, Face)>,
-    /// The corners of each, rounded.
+    /// The rounded corners of each face.
     rounded: Vec<Vec<DVec3>>,
     pub(crate) origin: Origin,
     /// The eye or the direction, rounded.

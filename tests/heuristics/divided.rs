@@ -195,7 +195,7 @@ impl Divided<'_> {
         })
     }
 
-    /// The score of the chosen plane, and the least that any own plane has.
+    /// The score of the chosen plane, and the least score of the pieces' own planes.
     pub(super) fn scores(&self, score: impl Fn(&Counts, bool) -> f64) -> [f64; 2] {
         let PlaneKind::Face(face) = self.plane.kind() else { panic!("{:?} is free", self.plane) };
         let chosen = self.set.iter().zip(self.own_planes()).filter(|(piece, _)| piece.face == face);

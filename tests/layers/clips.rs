@@ -17,7 +17,8 @@ struct Nested {
     layer: Layer,
 }
 
-/// A place in the plane of a parent, or sometimes outside it.
+/// The matrix from a child layer to its parent. The child is in the plane of the parent, or sometimes outside
+/// this plane.
 fn step(dice: &mut Dice) -> DMat4 {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let shift = dvec3(between(-150.0, 150.0), between(-150.0, 150.0), 0.0);

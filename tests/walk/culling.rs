@@ -372,8 +372,8 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
     assert!(kept > 3000 && left_out > 3000 && doubtful < 600, "{kept} {left_out} {doubtful}");
 }
 
-/// Planes through a corner of a far-off box, exactly or up to the step of an offset. Their products are a
-/// million times their sum, and their rounding exceeds a step of the grid.
+/// Planes through a corner of a distant box, exactly or up to a step of the offset. The terms of a plane's
+/// equation there are a million times their sum, so rounding exceeds a step of the grid.
 #[test]
 fn a_box_is_kept_however_the_test_is_rounded() {
     let mut dice = Dice(31);

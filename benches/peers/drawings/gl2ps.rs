@@ -176,7 +176,7 @@ impl Driver {
         self.folder.join("driver")
     }
 
-    /// The driver's drawing, by one of its ways to sort.
+    /// The driver's drawing, by one of the two ways to sort.
     fn draw(&self, scene: &Scene, camera: &Camera, sort: &str) -> io::Result<Theirs> {
         let [input, output] = ["triangles", "drawing.svg"].map(|name| self.folder.join(name));
         fs::write(&input, seen(scene, camera))?;
@@ -222,7 +222,8 @@ fn seen(scene: &Scene, camera: &Camera) -> String {
     text
 }
 
-/// A polygon of the file. Its fill is the number of the triangle, in the upper seven bits of each byte.
+/// A polygon of the file. The upper seven bits of each byte of its fill colour are the number of the
+/// triangle.
 fn filled_of(line: &str) -> Option<Filled> {
     let fill = usize::from_str_radix(line.split_once("fill=\"#")?.1.get(..6)?, 16).ok()?;
     let bits = |from: usize| (fill >> (from + 1)) & 127;

@@ -127,7 +127,7 @@ fn drawn(tree: &BspTree, camera: &Camera) -> Drawing {
 }
 
 /// A drawing's figures. It panics if a pixel is wrong, in the drawing or in the map, or if there is not
-/// exactly one path for each polygon that shows.
+/// exactly one path for each visible polygon.
 fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, name: &str) -> [String; 8] {
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     let visible = map.polygons().count();

@@ -47,7 +47,7 @@ struct Above {
 struct Vertex {
     vertex_id: VertexId,
     place: Place,
-    /// The place, each coordinate within three roundings.
+    /// The position, each coordinate within three roundings.
     rounded: [f64; 3],
 }
 
@@ -91,7 +91,7 @@ struct Count<'a> {
     faces: &'a Faces,
     result: Accuracy,
     drift_sum: f64,
-    /// For each face the sum of its fragments' areas; `None` if a vertex has no place.
+    /// For each face, the sum of its fragments' areas; `None` if a vertex has no position.
     areas: Vec<Option<Residue>>,
 }
 

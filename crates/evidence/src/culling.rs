@@ -1,4 +1,4 @@
-//! The remainder of a scene after each step of culling.
+//! The fragments of a scene that remain after each step of culling.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -135,8 +135,8 @@ mod tests {
     use binspace::raster::NONE;
     use binspace::scene;
 
-    /// Compares every step with the exact picture of all polygons, and the last step with the owners of
-    /// pixels.
+    /// Compares every step with the exact picture of all polygons, and the last step with the set of visible
+    /// fragments.
     fn check(tree: &BspTree, camera: &Camera) -> Vec<usize> {
         let rays = Rays::new(camera, tree.faces()).unwrap();
         let truth = zbuffer(&rays, tree.faces());
@@ -179,7 +179,8 @@ mod tests {
         assert!(sums[3] * 20 < sums[0], "{sums:?}");
     }
 
-    /// The number of subtrees entered if only the mask detects subtrees out of view, and the fragments left.
+    /// The number of subtrees entered if only the mask detects subtrees out of view, and the remaining
+    /// fragments.
     fn entered_by_the_mask_alone(
         tree: &BspTree,
         camera: &Camera,
@@ -215,7 +216,7 @@ mod tests {
             assert_eq!(left, same);
             by_mask += others;
         }
-        // 7 more of 2450: the mask has no pixels for most subtrees out of view.
+        // Only 7 of 2450 more: most subtrees out of view cover no pixel of the mask, so the mask skips them.
         assert!(entered + 5 <= by_mask && entered > 1000, "{entered} of {by_mask}");
     }
 

@@ -7,9 +7,9 @@ use binspace::internals::Faces;
 use binspace::raster::{Image, Rays, zbuffer};
 use binspace::view::Camera;
 
-/// A sheet that fills the picture and recedes from 20 to 190 units, and another behind it whose
-/// distance from the eye is larger by a share `gap` along every ray. The further sheet comes first,
-/// so it shows wherever a buffer stores the same number for both.
+/// A sheet that fills the picture and recedes from 20 to 190 units, and a second sheet behind it. Along every
+/// ray, the distance of the second sheet from the eye is larger by a share `gap`. The further sheet comes
+/// first, so it is visible wherever a buffer stores the same number for both.
 #[derive(Debug)]
 pub struct Sheets {
     gap: f64,
@@ -132,7 +132,7 @@ impl Sheets {
         let planes = method.set_up(&self.camera, &self.faces)?;
         let [width, _] = self.camera.size();
         let apart = |(k, &face): (u32, &u32)| {
-            // A triangle of the further sheet is behind one of the nearer, along the same rays.
+            // A triangle of the further sheet is behind a triangle of the nearer sheet, along the same rays.
             let [near, far] = [face, face - 2].map(|face| planes.at(face, k % width, k / width));
             let (near, far) = (near.expect("a sheet"), far.expect("a sheet"));
             let step = near.step.min(far.step);

@@ -13,8 +13,8 @@ use binspace::internals::Pieces;
 /// The work that a picture took, pixel by pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Overdraw {
-    /// The number of times that a pixel was found to be covered. By then, its depth is computed or its place
-    /// in a mask is read.
+    /// The number of times that a pixel was found to be covered. For each of these times, a depth was
+    /// computed or a mask was read.
     pub tested: Vec<u32>,
     /// The number of times that a colour was stored in a pixel.
     pub written: Vec<u32>,
@@ -101,7 +101,7 @@ pub fn depth_buffer(
     let mut overdraw = Overdraw::new(rays);
     let width = rays.size()[0];
     let layers: Vec<&[u32]> = layers.pixels().collect();
-    // The currently visible layer of a pixel, by its place among all.
+    // The place of the currently visible layer of each pixel among all its layers.
     let mut shown = vec![NONE as usize; layers.len()];
     for face in order {
         for_each_run(rays, faces, Piece { face, outline: Outline::Whole }, |y, columns| {
@@ -172,13 +172,13 @@ mod tests {
 
     #[test]
     fn counts_match_hand_computation() {
-        // 10 by 10 pixels each, the highest last.
+        // Squares of 10 by 10 pixels, the highest last.
         let stack = [square(1.0, 0.0), square(1.0, 1.0), square(1.0, 2.0)];
         assert_eq!(sums(&stack), [[300, 300], [100, 100], [300, 300], [300, 100]]);
         // 5 by 5 pixels on 10 by 10: the mask hides no part of the larger square.
         let step = [square(1.0, 0.0), square(0.5, 1.0)];
         assert_eq!(sums(&step), [[125, 125], [125, 100], [125, 125], [125, 100]]);
-        // The middle one comes first, then the lowest, then the highest.
+        // The middle square comes first, then the lowest, then the highest.
         let mixed = [square(1.0, 1.0), square(1.0, 0.0), square(1.0, 2.0)];
         assert_eq!(sums(&mixed), [[300, 300], [100, 100], [300, 200], [300, 100]]);
     }

@@ -11,8 +11,8 @@ use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::{BspTree, Ray};
 
-/// Sight lines end this share of their length before the surfaces that they join, as points of surfaces are
-/// rounded. A face that is nearer to an end does not block.
+/// Sight lines end before the surfaces that they join, at this share of their length, because points of
+/// surfaces are rounded. A face nearer to an end than this does not block the line.
 pub const SHORTENED: f64 = 1e-6;
 
 /// A quad that is lit evenly; its front is the side from which its corners run counter-clockwise.
@@ -52,7 +52,7 @@ impl Patch {
     }
 }
 
-/// Quads in patches whose sides are not much longer than a length.
+/// Divides quads into patches whose sides are not much longer than `length`.
 pub fn patches(quads: &[[DVec3; 4]], length: f64) -> Vec<Patch> {
     let mut all = Vec::new();
     for (quad, &corners) in quads.iter().enumerate() {
@@ -113,7 +113,7 @@ impl FormFactors {
             return [0.0; 2];
         }
         let count = side * side;
-        // Part k of one is joined to part k + shift of the other.
+        // Part k of one patch is joined to part k + shift of the other.
         let shift = (random.next() % u64::from(count)) as u32;
         let (mut sums, mut free, mut all) = ([0.0; 2], 0.0, 0.0);
         for k in 0..count {

@@ -25,14 +25,14 @@ const OF_LAMP: [f64; 3] = [0.78; 3];
 /// The room with light in it.
 #[derive(Debug)]
 pub struct Room {
-    /// Parts of the surfaces.
+    /// The patches of all surfaces.
     pub patches: Vec<Patch>,
     /// The light that they send to one another.
     pub factors: FormFactors,
     /// The reflectance of each at 620, 540 and 460 nm.
     reflected: Vec<[f64; 3]>,
     light: Vec<f64>,
-    /// The patches of the wall that closes the room, black.
+    /// The patches of the black wall that closes the room.
     closing: Range<usize>,
 }
 

@@ -21,8 +21,8 @@ pub struct Tree {
     pub(crate) eye_side: fn(&Faces, PlaneId, &Eye) -> Ordering,
 }
 
-/// Nodes are stored depth first, the front before the back. Fragments are numbered likewise: fragments on the
-/// plane, in a front leaf, in a back leaf, then in the nodes below.
+/// Nodes are stored depth first, the front before the back. Fragments are numbered in this order: on the
+/// node's plane, in its front leaf, in its back leaf, and then in the nodes below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) plane: PlaneId,

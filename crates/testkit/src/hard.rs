@@ -140,7 +140,7 @@ pub fn on_each_others_planes() -> impl Strategy<Value = Vec<Corners>> {
     )
 }
 
-/// Pairs 1e-3 to 1e-12 rad apart.
+/// Pairs of triangles with a common edge, and an angle of 1e-3 to 1e-12 rad between their planes.
 pub fn near_coplanar() -> impl Strategy<Value = Vec<Corners>> {
     let pair = (turn(), -12..=-3i32, point(), prop::bool::ANY);
     prop::collection::vec(pair, 1..4).prop_map(|list| {

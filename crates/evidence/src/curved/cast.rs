@@ -106,8 +106,8 @@ fn blossoms(cubic: [i128; 4], [from, to]: [i128; 2], unit: i128) -> [i128; 4] {
 
 /// Whether both functions are certainly 0 in some point of a part.
 fn surely_zero([f, g]: &[Net; 2]) -> bool {
-    // Slopes, as shares of the largest, in 2¹⁶ths. Any numbers are valid for the proof; these succeed most
-    // often.
+    // The slopes as shares of the largest slope, in units of 2⁻¹⁶. The proof is valid for any numbers; these
+    // numbers succeed most often.
     let slope = |net: &Net| [(net[3][1] - net[0][1]) as f64, (net[1][3] - net[1][0]) as f64];
     let ([fu, fv], [gu, gv]) = (slope(f), slope(g));
     let largest = [fu, fv, gu, gv].into_iter().fold(0.0, |most: f64, s| most.max(s.abs()));

@@ -145,8 +145,8 @@ fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     chords(bend, net.iter().flatten(), view, tolerance).max(2)
 }
 
-/// The number n for which bend / (8 n²) is a tolerance in pixels, for the control points nearest to the
-/// eye.
+/// The number n for which bend / (8 n²) equals the tolerance. The tolerance is in pixels at the depth of the
+/// control point nearest to the eye.
 fn chords<'a>(
     bend: f64,
     points: impl Iterator<Item = &'a Corner>,

@@ -1,4 +1,4 @@
-//! Polygons, a sphere and patches together, and the surface that is surely nearest.
+//! Polygons, a sphere and patches together, and the surface that is certainly nearest.
 
 use super::{Cast, Patch, Shared, Sphere};
 use crate::plain::{Corner, PlainView};

@@ -1,4 +1,4 @@
-//! Back-face detection on convex bodies, and on others.
+//! Back-face detection on convex bodies and on other bodies.
 
 use binspace::internals::cuboid;
 use binspace::raster::{compare, zbuffer};
@@ -107,7 +107,7 @@ fn a_box_shows_one_two_or_three_faces() {
         let camera = Camera::parallel(direction, up, DVec3::splat(0.5), 3.0, [40, 30]).unwrap();
         assert_eq!(seen(&cube, &camera), (expected, 0), "{direction}");
     }
-    // Near enough, an eye sees one face only; in the plane of a face, not that face.
+    // An eye near a face sees only this face. An eye in the plane of a face does not see this face.
     for (eye, expected) in [
         (DVec3::new(0.5, 0.5, 3.0), facing(1, 5, 0)),
         (DVec3::new(1.0, 0.5, 3.0), facing(1, 4, 1)),

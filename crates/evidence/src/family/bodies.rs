@@ -1,4 +1,4 @@
-//! Ties, faces that almost coincide, and cycles.
+//! Scenes with ties, with faces that almost coincide, and with cycles.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use binspace::internals::cuboid;
 use binspace::internals::unit_circle;
 
 /// Unit squares of an integer grid with `side` cells a side: half of all squares, some of them twice, and
-/// diagonals through cells. One eye is itself a point of the grid.
+/// diagonals through cells. One eye is a point of the grid.
 pub(super) fn lattice(side: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut scene = empty("lattice", f64::from(side));
@@ -76,8 +76,8 @@ pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// `count` bars along the sides of a regular polygon, each longer than the side: its end lies over the
-/// beginning of the next.
+/// `count` bars along the sides of a regular polygon, each longer than the side. The end of each bar lies
+/// over the beginning of the next bar.
 pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);

@@ -31,8 +31,8 @@ use trial::{Look, Trial};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Scenes and cameras are the same, bit for bit, on every machine. Decide them with a tolerance of
-/// [`TOLERANCE`](Self::TOLERANCE), 0: most of the difficulties are smaller than the default tolerance, which
+/// Scenes and cameras are the same, bit for bit, on every machine. Build trees of them with the tolerance
+/// [`TOLERANCE`](Self::TOLERANCE), which is 0. The default tolerance is larger than most difficulties, and
 /// would hide them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Family {
@@ -55,8 +55,8 @@ pub enum Family {
     /// Squares and diagonals of an integer grid, with ties everywhere; the difficulty is the number
     /// of cells per side.
     Lattice,
-    /// Touching boxes in a turned grid, and labels on them: faces that are coplanar except for
-    /// rounding. The difficulty is the number of boxes per side.
+    /// Touching boxes in a rotated grid, with labels: faces that are coplanar except for rounding. The
+    /// difficulty is the number of boxes per side.
     Boxes,
     /// Bars in a cycle: each covers the next, and the last covers the first. The difficulty is
     /// their number.

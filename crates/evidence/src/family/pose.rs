@@ -6,7 +6,7 @@ use super::trial::Look;
 use binspace::internals::SplitMix64;
 use binspace::scene::{Material, Scene};
 
-/// Three unit vectors, each perpendicular to the others, turned at random, at a place.
+/// A frame with a random orientation: three perpendicular unit vectors at a place.
 pub(super) struct Pose {
     pub(super) axes: [DVec3; 3],
     pub(super) origin: DVec3,

@@ -1,4 +1,4 @@
-//! Sizes: scenes of any scale, and scenes of many scales at once.
+//! Scenes of any scale, and scenes of many scales at once.
 
 use glam::DVec3;
 
@@ -46,7 +46,7 @@ pub(super) fn depth_range(ratio: f64, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let pose = Pose::random(&mut random);
     let mut scene = empty("depth-range", ratio);
-    // The eighth root, by square roots, which are the same everywhere.
+    // The eighth root, by square roots, because these have the same result on every machine.
     let step = ratio.sqrt().sqrt().sqrt();
     let mut depth = 1.0;
     for level in 0..9u32 {

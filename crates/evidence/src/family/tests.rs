@@ -10,7 +10,7 @@ fn extent(scene: &Scene) -> f64 {
     (high - low).max_element()
 }
 
-/// For each step of each sweep of a family.
+/// Checks the scene of each step of the sweeps of a family.
 fn each_step(family: Family, mut check: impl FnMut(f64, &Scene)) {
     for quick in [true, false] {
         for &difficulty in family.sweep(quick) {
@@ -87,7 +87,8 @@ fn slivers_are_as_narrow_as_they_should_be() {
             let area = (polygon.points()[1] - polygon.points()[0])
                 .cross(polygon.points()[2] - polygon.points()[0])
                 .length();
-            // The base is 4/3 of the width a quarter of the length away, and more if rolled.
+            // A quarter of the length away, the base is 4/3 of the width, and more if the triangle is
+            // rotated.
             assert!((1.2..1.7).contains(&(area / length / width)), "{width:e} {area:e}");
         }
     });

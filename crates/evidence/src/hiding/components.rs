@@ -50,8 +50,8 @@ pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usiz
     (0..=all).filter(enough).map(|removed| removed.count_ones() as usize).min()
 }
 
-/// Whether these vertices, a bit each, have a cycle among them: vertices without an edge to the others are
-/// removed until none remains.
+/// Whether these vertices, one bit each, contain a cycle. Vertices without an edge to the remaining vertices
+/// are removed as long as there are any.
 fn has_cycle(leads: &[u32], mut left: u32) -> bool {
     loop {
         let ends = (0..leads.len()).filter(|&v| left >> v & 1 == 1 && leads[v] & left == 0);

@@ -56,8 +56,8 @@ impl Seen {
         [sides().any(|d| d.is_positive()), sides().any(|d| d.is_negative())]
     }
 
-    /// The vertices of the part of this face that is seen through another; none if that has no
-    /// inside.
+    /// The vertices of the part of this face that is seen through another face; an empty list if this part
+    /// has no inside.
     pub(super) fn within(&self, other: &Self) -> Vec<Quad> {
         let mut part = self.corners.clone();
         for side in &other.sides {

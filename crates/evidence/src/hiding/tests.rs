@@ -1,4 +1,4 @@
-//! Who hides whom against rays, permutations and pictures.
+//! Compares which faces hide which with rays, permutations and pictures.
 
 use binspace::internals::{Eye, SplitMix64};
 use binspace::raster::{Outline, Painter, Piece, compare, zbuffer};
@@ -28,7 +28,7 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
 
 type Vector = [RBig; 3];
 
-/// The distance along a ray at which it meets a face inside of its edges, in rationals.
+/// The distance along a ray at which it meets the inside of a face, in rationals.
 fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> {
     let face = Face::new(faces, face);
     let speed = scalar(&face.plane.normal, along);
@@ -103,8 +103,8 @@ fn hiding_agrees_with_single_rays() {
     assert!(checked > 200, "{checked}");
 }
 
-/// Rays through the centres of pixels, by the judge's picture and its picture without the visible faces: in
-/// each pixel, the first face hides the second.
+/// Rays through the centres of pixels. In each pixel, the face in the judge's picture hides the face in the
+/// judge's picture without the visible faces.
 #[test]
 fn nothing_that_hides_in_a_picture_is_overlooked() {
     let scene = Family::Penetration.scene(12.0, 5);
@@ -231,7 +231,7 @@ fn neither_newell_nor_the_tree_cuts_fewer_than_needed() {
     assert!(needed > 10, "{needed}");
 }
 
-/// Also for a city, where many polygons have the same depth, or no depth.
+/// The scenes include a city, in which many polygons have the same extent in depth, or no extent in depth.
 #[test]
 fn overlaps_in_depth_match_a_count_over_all_pairs() {
     for (scene, least_ties) in [(scene::random_triangles(60, 2), 0), (scene::city(60, 2), 50)] {

@@ -1,10 +1,11 @@
-//! Outlines filled at the centres of pixels, in floats, and compared with a picture by integers.
+//! Fills outlines at the centres of pixels, in floats, and compares the result with a picture computed in
+//! integers.
 
 use binspace::internals::Faces;
 use binspace::raster::{Image, NONE};
 
-/// Centres nearer to an outline than this, in pixels, are not compared: where parts of polygons were joined,
-/// outlines are off by up to 2⁻¹⁵.
+/// Centres nearer to an outline than this, in pixels, are not compared. Where parts of polygons were joined,
+/// outlines have errors of up to 2⁻¹⁵.
 const NEAR: f64 = 4e-5;
 
 /// The polygon at a pixel's centre.

@@ -23,7 +23,7 @@ pub struct Bsp {
 #[derive(Clone, Copy, Debug)]
 enum Arithmetic {
     Exact,
-    /// With an epsilon, a share of half the scene's extent.
+    /// A tree of `f64` with this epsilon, a share of half the scene's extent.
     Double(f64),
     Single(f64),
 }
@@ -75,7 +75,7 @@ impl Method for Bsp {
     }
 }
 
-/// A tree, and a list that is used again for each picture.
+/// A tree, and a list that each picture reuses.
 struct Ready<T> {
     tree: T,
     order: Vec<u32>,

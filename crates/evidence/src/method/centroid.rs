@@ -46,7 +46,7 @@ fn centroids(faces: &Faces) -> Vec<[f64; 3]> {
     (0..faces.len() as u32).map(centroid).collect()
 }
 
-/// Puts faces that are shown in order with their depths, the furthest first.
+/// Sorts the shown faces by their depths, the furthest first.
 fn sort(
     centroids: &[[f64; 3]],
     space: &CameraSpace,

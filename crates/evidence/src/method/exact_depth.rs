@@ -1,4 +1,4 @@
-//! The exact depth buffer, which judges all methods, as a method itself.
+//! The exact depth buffer, which judges all methods, as one of the methods.
 
 use std::time::{Duration, Instant};
 

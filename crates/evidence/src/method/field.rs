@@ -74,8 +74,8 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     for how in walks {
         methods.push(Box::new(buffer(Integer(24)).with_interpolation(how)));
     }
-    // Other conventions: the later of equal depths shows; larger is nearer. The buffer is cleared to the far
-    // plane, so that faces there do not show.
+    // Buffers with other conventions. In one, the later of equal depths shows. In the other, larger is
+    // nearer, and the buffer is cleared to the far plane, so that faces there do not show.
     let rules = DepthRules::DEFAULT;
     let larger = rules.with_nearer(Nearer::Larger).with_test(DepthTest::Greater);
     for rules in [rules.with_test(DepthTest::LessOrEqual), larger.with_clear(Clear::Smallest)] {

@@ -1,7 +1,7 @@
 //! Methods to decide visibility. They share a trait, so that their speed and errors can be compared.
 //!
-//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another. It
-//! paints a picture of faces, to be [compared](binspace::raster::compare) with the picture of the exact depth
+//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another.
+//! [`compare`](binspace::raster::compare) compares a method's picture with the picture of the exact depth
 //! buffer.
 //!
 //! | method | decides by | is wrong where |
@@ -120,12 +120,12 @@ pub trait Prepared {
 pub struct Painted {
     /// The face in each pixel.
     pub image: Image,
-    /// The time until the order was found; zero for methods that find none.
+    /// The time until the order was found; zero for methods without an order.
     pub order: Duration,
     /// The time that drawing took.
     pub draw: Duration,
     /// The number of drawn pieces, including faces that were not cut.
     pub pieces: usize,
-    /// The number of faces that a step before the method left out, as they do not show their fronts.
+    /// The number of faces that a step before the method left out, because they do not show their fronts.
     pub removed: usize,
 }

@@ -18,7 +18,7 @@ pub(super) struct CameraSpace {
     origin: DVec3,
     /// Right, down and forward, divided by the unit.
     axes: [DVec3; 3],
-    /// The side of a pixel: at depth 1, or, for a parallel camera, in units.
+    /// The side of a pixel in units. For a perspective camera, it is the side at depth 1.
     pub(super) pixel: f64,
     pub(super) size: [u32; 2],
     pub(super) perspective: bool,

@@ -7,7 +7,7 @@ use super::{FormFactors, Patch, patches, seen};
 use crate::rectangles::{above_a_point, facing, in_a_corner};
 use binspace::internals::{SplitMix64, cuboid};
 
-/// A room of 4 by 4 by 4, seen from inside, and a body in it.
+/// A room of 4 by 4 by 4, with fronts inside, and a body in the room if `with_body`.
 fn room(with_body: bool) -> Vec<[DVec3; 4]> {
     let inwards = |[a, b, c, d]: [DVec3; 4]| [d, c, b, a];
     let walls = cuboid(DVec3::ZERO, DVec3::splat(4.0)).map(inwards);
@@ -66,7 +66,7 @@ fn level(x: [f64; 2], y: [f64; 2], z: f64, is_turned: bool) -> [DVec3; 4] {
     if is_turned { [d, c, b, a] } else { corners }
 }
 
-/// The form factor from the first quad to the second among some others.
+/// The form factor from the first quad to the second, with the other quads as obstacles.
 fn factor(quads: &[[DVec3; 4]], side: u32) -> f64 {
     let tree = BspTree::build(quads.iter().copied()).unwrap();
     let whole = patches(&quads[..2], 1e9);
@@ -90,7 +90,8 @@ fn rectangles_of_other_shapes_match_the_closed_formulas() {
 fn a_wall_behind_a_window_gets_the_form_factor_of_the_window() {
     let small = level([-1e-3, 1e-3], [-1e-3, 1e-3], 0.0, false);
     let wall = level([-40.0, 40.0], [-40.0, 40.0], 4.0, true);
-    // The window reaches from the point above the patch to 2 and 3, one unit above.
+    // The window is one unit above the patch. It reaches from the point straight above the patch to 2 in x
+    // and 3 in y.
     let ([low, high], reach) = ([0.0, 0.0], 90.0);
     let [right, up] = [2.0, 3.0];
     let screen = [
@@ -105,7 +106,7 @@ fn a_wall_behind_a_window_gets_the_form_factor_of_the_window() {
     assert!(off[1] < 0.03 && off[1] < off[0], "{off:?}");
 }
 
-/// A screen right above a patch, at a thousandth of the way, hides all.
+/// A screen right above a patch, at a thousandth of the way, hides everything.
 #[test]
 fn screens_near_an_end_of_a_sight_line_block_it() {
     let floor = level([0.0, 2.0], [0.0, 3.0], 0.0, false);
@@ -116,8 +117,8 @@ fn screens_near_an_end_of_a_sight_line_block_it() {
     }
 }
 
-/// The form factor from a point to a patch, as a sum over small parts: also for patches partly below its
-/// horizon.
+/// The form factor from a point to a patch equals a sum over small parts, also for patches partly below the
+/// point's horizon.
 #[test]
 fn the_point_form_factor_is_the_sum_over_small_parts() {
     const PARTS: u32 = 200;

@@ -13,8 +13,8 @@ use crate::Precision;
 /// The content of a depth buffer.
 ///
 /// With n and f the near and the far plane's depths, z is the depth after the perspective divide, as in
-/// graphics libraries: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far plane. Half of its
-/// values are used for depths below 2 n. For parallel cameras it is (w − n) / (f − n).
+/// graphics libraries: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far plane. Half of the
+/// values of z are used for depths below 2 n. For parallel cameras, z is (w − n) / (f − n).
 ///
 /// Lapidous & Jiao, "Optimal depth buffer for low-cost graphics hardware" (1999), compare these and
 /// more.
@@ -22,8 +22,8 @@ use crate::Precision;
 pub enum DepthFormat {
     /// z in steps of 1 / (2^bits − 1), rounded to the nearest; 1 to 32 bits.
     Integer(u8),
-    /// z as an `f32`. Most of its values are near 0, as z values after the divide are, so far depths have the
-    /// worst resolution.
+    /// z as an `f32`. Most `f32` numbers are near 0, where z is small and depths are near. So far depths have
+    /// the worst resolution.
     Float,
     /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), where larger numbers are
     /// nearer. The uneven steps of z and of `f32` almost cancel.
@@ -86,13 +86,13 @@ impl Interpolation {
         [Self::EdgeFunctions, Self::Incremental, Self::Trapezoids, Self::IntegerEdges];
 }
 
-/// From depths to interpolated values, and from there to stored numbers.
+/// Converts depths to interpolated values, and interpolated values to stored numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale<P> {
     format: DepthFormat,
     range: Range,
     perspective: bool,
-    /// The interpolated value is (a · w + b), over w for a perspective.
+    /// The interpolated value is a · w + b, divided by w for a perspective.
     a: f64,
     b: f64,
     /// The largest step of an integer format.
@@ -153,7 +153,7 @@ impl<P: Precision> Scale<P> {
         Sample { x: position(x, width), y: position(y, height), value: self.value(w) }
     }
 
-    /// The stored number of an interpolated value: the smaller, the nearer.
+    /// The stored number of an interpolated value. Smaller numbers are nearer.
     #[inline]
     pub(super) fn key(&self, value: f64) -> u32 {
         match self.format {
@@ -185,7 +185,7 @@ impl<P: Precision> Scale<P> {
     }
 }
 
-/// A number that is not negative as an `f32`, as an integer of the same order.
+/// The bits of a non-negative number as an `f32`. Their order as integers is the order of the numbers.
 #[inline]
 fn bits(value: f64) -> u32 {
     (value as f32 + 0.0).to_bits()

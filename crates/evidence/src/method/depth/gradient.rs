@@ -46,7 +46,7 @@ impl<P: Precision> Gradient<P> {
         Self { origin, along_x, along_y, precision }
     }
 
-    /// The first value of a row: the value on the row's centre, at the x of the first sample.
+    /// The first value of a row: the value at the row's centre line and the x of the first sample.
     #[inline]
     pub(in crate::method) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);

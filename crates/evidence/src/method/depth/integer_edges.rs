@@ -7,7 +7,7 @@ use super::pass::Pass;
 use super::walk::FaceWalk;
 use crate::Precision;
 
-/// The number of parts of a pixel that vertices are rounded to. Too large: coordinates of wide pictures need
+/// The number of parts of a pixel to which vertices are rounded. Too large: coordinates of wide pictures need
 /// more than 32 bits in hardware. Too small: edges move, and neighbours of different slopes show gaps.
 const PARTS: i64 = 256;
 
@@ -113,7 +113,7 @@ mod tests {
             && (0..3).all(|k| {
                 let (a, b) = (points[k], points[(k + 1) % 3]);
                 let [run, rise] = [b[0] - a[0], b[1] - a[1]].map(|d| d * turn);
-                // With y down and this turn the inside is to the right of a rising edge.
+                // With y down and this orientation, the inside is to the right of a rising edge.
                 let on_left_or_top = rise < 0 || rise == 0 && run > 0;
                 let side = area([a, b, centre]) * turn;
                 side > 0 || side == 0 && on_left_or_top
@@ -125,7 +125,7 @@ mod tests {
         let mut random = SplitMix64::new(4);
         let mut covered = 0;
         for round in 0..3000 {
-            // Every second time on a coarse grid, so that centres are on edges.
+            // Every second triangle is on a coarse grid, so that centres of pixels are on edges.
             let grid = if round % 2 == 0 { 1 } else { PARTS / 2 };
             let mut point = || {
                 let p = random.point(-1.0, 1.0) * 12.0 * PARTS as f64;

@@ -1,4 +1,4 @@
-//! Opaque polygons by depth, and translucent ones over them in an order.
+//! Opaque polygons by depth, and translucent polygons over them in an order.
 
 use super::super::MethodError;
 use super::super::clip::{Clipper, Range};
@@ -21,7 +21,7 @@ pub type Layers = Vec<Vec<u32>>;
 /// A picture of opaque and translucent polygons.
 #[derive(Clone, Copy, Debug)]
 pub struct Layered<'a> {
-    /// The depth buffer. Its rule on writing applies to the opaque polygons.
+    /// The depth buffer. Its rule `writes` applies to the opaque polygons.
     pub buffer: DepthBuffer,
     /// The polygons, and the order of their fragments.
     pub tree: &'a BspTree,

@@ -33,9 +33,9 @@ pub struct DepthBuffer {
     pub format: DepthFormat,
     /// The interpolation of depths from the corners to the pixels.
     pub interpolation: Interpolation,
-    /// The least depth that is shown, in world units along the direction of view, from the eye, or from the
-    /// centre of a parallel camera's picture. Default: `None`, the least visible depth, though no less than
-    /// 2⁻⁴⁴ of the furthest.
+    /// The least depth that is shown, in world units along the direction of view. Depths start at the eye, or
+    /// at the centre of a parallel camera's picture. Default: `None`, the least visible depth, but at least
+    /// 2⁻⁴⁴ of the furthest depth.
     pub near: Option<f64>,
     /// The largest depth that is shown. Default: `None`, the largest visible depth.
     pub far: Option<f64>,

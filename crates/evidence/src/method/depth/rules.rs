@@ -1,6 +1,6 @@
 //! The conventions of a depth buffer: its first value, its test and its writes.
 
-/// The state that graphics libraries leave to their users.
+/// The state of a depth buffer that users of graphics libraries set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepthRules {
     /// Which of two stored numbers is nearer.
@@ -9,8 +9,8 @@ pub struct DepthRules {
     pub test: DepthTest,
     /// The buffer's clear value.
     pub clear: Clear,
-    /// Whether a visible polygon also leaves its depth. Translucent polygons must not: polygons behind them
-    /// are still seen.
+    /// Whether a visible polygon also writes its depth. Translucent polygons must not write their depths,
+    /// because polygons behind them are visible too.
     pub writes: bool,
 }
 
@@ -20,7 +20,7 @@ pub enum Nearer {
     /// The smaller: stored numbers run from 0 at the near plane to the format's largest number at the far
     /// one.
     Smaller,
-    /// The larger: stored numbers run the other way.
+    /// The larger: stored numbers run in the opposite direction.
     Larger,
 }
 
@@ -85,7 +85,7 @@ pub(super) struct Comparison {
     or_equal: bool,
     /// The clear value, flipped.
     pub(super) cleared: u32,
-    /// Whether any depth passes where no face is yet.
+    /// Whether any depth passes in a pixel without a face.
     pub(super) is_open: bool,
     pub(super) writes: bool,
 }

@@ -30,7 +30,7 @@ pub struct SetUp {
     perspective: bool,
     /// Half of the step between numbers from 1 to 2 in the pipeline.
     unit: f64,
-    /// For each face a point and slopes, if it is seen.
+    /// A point and the slopes of each face; `None` if the face is not visible.
     planes: Vec<Option<(Sample, [f64; 2])>>,
 }
 
@@ -86,7 +86,7 @@ impl SetUp {
         let by_x = (f64::from(x) + 0.5 - origin.x) * along_x;
         let row = origin.value + by_y;
         let value = row + by_x;
-        // The differences and the products, and the sum of a row; the last sum is stored.
+        // The roundings of the differences, the products and the sum of a row. The last sum is stored.
         let products = 2.0 * self.unit * (by_y.abs() + by_x.abs());
         let rounding = products + self.half_step(row.abs() + products);
         let whole = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);

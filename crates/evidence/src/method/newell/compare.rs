@@ -50,7 +50,7 @@ pub(super) fn is_in_front(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool
     pieces.vertices(p).iter().all(|vertex| plane.distance(vertex.at) >= -epsilon)
 }
 
-/// Whether an edge of one of two convex polygons has them on different sides.
+/// Whether an edge of one of two convex polygons separates them.
 fn are_apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     has_separating_edge(a, b) || has_separating_edge(b, a)
 }

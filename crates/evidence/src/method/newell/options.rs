@@ -26,10 +26,11 @@
 /// the worst case, the number of pieces is quadratic as well. Both have a budget.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Newell {
-    /// The most pieces, faces that were not cut included; more is an error. Default: 2²¹, about
-    /// 1 GB.
+    /// The largest number of pieces, including faces that were not cut. More pieces are an error. Default:
+    /// 2²¹, about 1 GB.
     pub max_pieces: usize,
-    /// The most pairs that are compared for one picture; more is an error. Default: 2²⁸, seconds.
+    /// The largest number of pairs that are compared for one picture. More pairs are an error. Default: 2²⁸,
+    /// which take some seconds.
     pub max_comparisons: u64,
     /// Vertices no further than this from a plane count as on it, in units of 2⁵¹ lattice steps. This unit is
     /// one to four times half the scene's extent. Default: 1e-10. Too small: faces with a common edge cut

@@ -25,7 +25,7 @@ impl EyePlane {
         if eye < 0.0 { Self { normal: -normal, offset: -offset } } else { Self { normal, offset } }
     }
 
-    /// The distance of a place on the eye's side; behind the plane it is negative.
+    /// The distance of a place from the plane: positive on the eye's side, negative behind the plane.
     #[inline]
     pub(super) fn distance(&self, at: DVec3) -> f64 {
         self.normal.dot(at) - self.offset
@@ -38,7 +38,7 @@ pub(super) struct Piece {
     pub(super) face: u32,
     start: u32,
     len: u32,
-    /// Whether it is the whole visible part of its face.
+    /// Whether the piece is the whole visible part of its face.
     whole: bool,
     pub(super) near: f64,
     pub(super) far: f64,

@@ -64,7 +64,7 @@ impl<'a> Sorter<'a> {
         if self.pieces.len() > limit { Err(MethodError::pieces(limit)) } else { Ok(()) }
     }
 
-    /// All pieces, the furthest first, and the deciding tests.
+    /// Returns all pieces, the furthest first, and the counts of the deciding tests.
     pub(super) fn sort(mut self) -> Result<(Vec<u32>, Decisions), MethodError> {
         let mut order = Vec::with_capacity(self.list.len());
         while let Some(candidate) = self.next() {
@@ -149,8 +149,8 @@ impl<'a> Sorter<'a> {
         is_behind(self.pieces, q, p, epsilon) || is_in_front(self.pieces, p, q, epsilon)
     }
 
-    /// Cuts a piece so that the end of the chain and `q`, which it may hide, can be put in order:
-    /// one of the two, or, if `q` is in the chain, two neighbours in the cycle that begins there.
+    /// Cuts a piece so that the end of the chain and `q`, which the end may hide, can be put in order. One of
+    /// the two is cut. If `q` is in the chain, one of two neighbours in the cycle that begins at `q` is cut.
     fn cut_for(&self, q: u32) -> Option<(u32, Halves)> {
         let begin = self.chain.iter().position(|candidate| candidate.piece == q);
         let cycle = begin.map_or(&[][..], |begin| &self.chain[begin..]);
@@ -164,7 +164,7 @@ impl<'a> Sorter<'a> {
         cut.or_else(|| pairs.iter().flat_map(both).find_map(outline))
     }
 
-    /// Puts two halves in the place of a piece, and begins again with the furthest.
+    /// Replaces a piece by its two halves, and begins again with the furthest piece.
     fn replace(&mut self, piece: u32, halves: &Halves) -> Result<(), MethodError> {
         for candidate in self.chain.drain(..) {
             self.state[candidate.piece as usize] = State::Waiting;

@@ -9,7 +9,8 @@ use super::pieces::Pieces;
 /// The parts of a polygon in front of a plane and behind it.
 pub(super) type Halves = [Vec<Vertex>; 2];
 
-/// Cuts a piece by the plane of another; `None` unless it reaches beyond the epsilon on both sides.
+/// Cuts a piece by the plane of another piece; `None` unless the piece reaches beyond the epsilon on both
+/// sides.
 pub(super) fn by_plane(pieces: &Pieces, piece: u32, by: u32, epsilon: f64) -> Option<Halves> {
     let plane = pieces.plane(by);
     cut(pieces.vertices(piece), |vertex| plane.distance(vertex.at), |_| epsilon)

@@ -16,7 +16,7 @@ fn ahead(size: [u32; 2]) -> Camera {
     Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, size).unwrap()
 }
 
-/// A square across the view at some depth; wider than the picture.
+/// A square perpendicular to the direction of view at some depth, wider than the picture.
 fn wall(depth: f64) -> Vec<DVec3> {
     let c = 2.0 * depth;
     [(-c, -c), (c, -c), (c, c), (-c, c)].map(|(x, y)| DVec3::new(x, y, -depth)).to_vec()
@@ -37,8 +37,8 @@ fn mistaken(format: DepthFormat, gap: f64) -> usize {
 
 #[test]
 fn precision_is_that_of_the_format() {
-    // At depth 500 of 1 to 1000, z changes by 4e-6 a unit, and w by 1e-3 of its range.
-    // A step of 16 bits is 15e-6 of z, or 0.0152 units of w.
+    // At depth 500 of 1 to 1000, z changes by 4e-6 per unit, and w by 1e-3 of its range. A step of 16 bits is
+    // 15e-6 of z, or 0.0152 units of w.
     assert!(mistaken(Integer(16), 1.0) > 20);
     assert_eq!(mistaken(Integer(16), 4.0), 0);
     assert_eq!(mistaken(LinearInteger(16), 0.016), 0);
@@ -173,8 +173,8 @@ fn planes_near_and_far_cut_off() {
 
 #[test]
 fn a_floor_is_cut_off_between_the_planes() {
-    // Below the eye by 1, it shows in row y of 12, 0.577 / 6 each, at depth 1 / (0.0962 (y − 5.5)):
-    // 20.8, 6.9, 4.2, 3.0, 2.3, 1.9.
+    // The floor is 1 below the eye. The picture has 12 rows of height 0.577 / 6 = 0.0962 at depth 1. Row y
+    // shows the floor at depth 1 / (0.0962 (y − 5.5)): 20.8, 6.9, 4.2, 3.0, 2.3, 1.9.
     let c = 100.0;
     let floor = [(-c, c), (c, c), (c, -c), (-c, -c)].map(|(x, z)| DVec3::new(x, -1.0, z)).to_vec();
     let faces = faces(&vec![floor], Some(0.0));

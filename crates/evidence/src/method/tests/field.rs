@@ -39,7 +39,7 @@ fn every_method_paints_every_kind_of_scene() {
     for (number, polygons) in scenes.iter().enumerate() {
         let faces = faces(polygons, Some(0.0));
         let cameras = if polygons.is_empty() {
-            // A parallel camera has no pixels on the grid of a point.
+            // If a scene is a single point, its grid has no pixels for a parallel camera.
             cameras(&scenes[0], [40, 30], 4)[..3].to_vec()
         } else {
             cameras(polygons, [40, 30], 4)

@@ -118,8 +118,8 @@ fn a_cycle_of_three_is_cut() {
     }
 }
 
-/// Spikes along the sides of a polygon around the z axis, each over the next where they meet, and
-/// the last over the first. (Triangles, which are planar however they are turned.)
+/// Spikes along the sides of a polygon around the z axis. Where two spikes meet, each is over the next, and
+/// the last is over the first. (Spikes are triangles, which stay planar if they are rotated.)
 fn random_ring(random: &mut SplitMix64) -> Polygons {
     let count = 3 + random.next() % 6;
     let angle = |i: u64| std::f64::consts::TAU * (i % count) as f64 / count as f64;
@@ -199,7 +199,7 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
     }
 }
 
-/// The upper one reaches further down the slope, so a sort by depth alone would paint it first.
+/// The upper layer reaches further down the slope, so a sort by depth alone would paint it first.
 #[test]
 fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
     let slope = |half, lift: f64| square(half, |x, y| DVec3::new(x, y, x + lift));
@@ -258,7 +258,7 @@ fn a_long_chain_of_swaps_needs_no_stack() {
     std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
 }
 
-/// Two squares, or their substitutes. The further, P, is the first: one test decides.
+/// Two squares, or polygons in their place. P, the further, comes first. One test decides each pair.
 #[test]
 fn each_test_decides_the_pair_that_it_is_for() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 12.0, [120, 120]).unwrap();
@@ -272,8 +272,8 @@ fn each_test_decides_the_pair_that_it_is_for() {
         let faces = faces(&vec![points(&p), points(other)], Some(0.0));
         Newell::DEFAULT.decisions(&faces, &camera).unwrap()
     };
-    // To the right; above; just in front of P's plane; a triangle that P is behind but that is not
-    // in front of P; one that only its box overlaps.
+    // Q is to the right of P; above P; or just in front of P's plane. Or Q is a triangle with P behind its
+    // plane, but not all of Q is in front of P's plane. Or only the box of Q overlaps P.
     let right = counts(&moved(3.0, 0.0, 0.5));
     assert_eq!((right.compared, right.by_test), (1, [1, 0, 0, 0, 0]));
     let above = counts(&moved(0.0, 3.0, 0.5));
@@ -283,13 +283,13 @@ fn each_test_decides_the_pair_that_it_is_for() {
     // The plane of Q, z = −4.5 + x, cuts P, but all of Q is in front of P's plane.
     let steep = counts(&[[0.5, 1.5, -4.0], [1.5, 1.5, -3.0], [1.5, 1.9, -3.0], [0.5, 1.9, -4.0]]);
     assert_eq!((steep.compared, steep.by_test), (1, [0, 0, 0, 1, 0]));
-    // Beside a corner of P, with a plane that cuts P, and on both sides of P's.
+    // Q is beside a corner of P. The plane of Q cuts P, and Q is on both sides of P's plane.
     let beside = counts(&[[1.5, 2.6, -4.5], [2.6, 1.5, -4.5], [2.6, 2.6, -3.0]]);
     assert_eq!((beside.compared, beside.by_test), (1, [0, 0, 0, 0, 1]));
-    // Behind P, though nearer than its furthest vertex: it takes P's place.
+    // Q is behind P's plane, but nearer than P's furthest vertex, so Q takes P's place.
     let below = counts(&[[0.5, 0.2, -4.5], [1.5, 0.2, -4.5], [1.5, 0.6, -4.5], [0.5, 0.6, -4.5]]);
     assert_eq!((below.moved, below.cuts, below.painted), (1, 0, 2));
-    // Through P.
+    // Q goes through P.
     let through = counts(&[[0.5, 0.2, -3.5], [1.5, 0.2, -3.5], [1.5, 1.8, -3.5], [0.5, 1.8, -3.5]]);
     assert_eq!((through.cuts, through.begun, through.painted), (1, 2, 3));
 }

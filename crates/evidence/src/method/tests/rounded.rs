@@ -15,8 +15,8 @@ fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     least / 2f64.powi(51)
 }
 
-/// The growth of a plane's rounding: a sliver's plane is as uncertain as its corners, times its length over
-/// its width.
+/// The factor by which the plane of a triangle magnifies the rounding of its corners: the triangle's length
+/// over its width.
 fn reach(faces: &Faces, plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let longest = (q - p).length().max((r - p).length()).max((r - q).length());
@@ -29,7 +29,7 @@ fn with_close_calls() -> Faces {
     let mut random = SplitMix64::new(3);
     let mut polygons = disjoint(3, 4);
     polygons.extend((0..30).map(|_| (0..3).map(|_| random.point(-1.0, 1.0)).collect()));
-    // Lifted by a little from the plane of another, now to one side, now to both.
+    // Each triangle is lifted slightly from the plane of another, to one side or to both sides.
     for i in 0..30 {
         let base = polygons[i].clone();
         let normal = (base[1] - base[0]).cross(base[2] - base[0]).normalize();
@@ -39,7 +39,7 @@ fn with_close_calls() -> Faces {
     faces(&polygons, Some(0.0))
 }
 
-/// A piece of a face, by exact and by rounded arithmetic, as the same planes cut it.
+/// A piece of a face, cut by the same planes in exact and in rounded arithmetic.
 struct Twins {
     face: u32,
     exact: Vec<Vertex>,
@@ -141,7 +141,7 @@ fn trees_without_close_calls_paint_the_same() {
             let method = Bsp::double(BuildOptions::DEFAULT, epsilon);
             assert_eq!(judge(&method, &faces, &camera).wrong(), 0, "{epsilon:e}");
         }
-        // Cuts are rounded to about 1e-7 of the extent: a pixel on one may be missing.
+        // Cuts are rounded to about 1e-7 of the extent, so a pixel on a cut may be missing.
         let method = Bsp::single(BuildOptions::DEFAULT, 1e-6);
         assert!(judge(&method, &faces, &camera).wrong() <= 2);
     }
@@ -149,7 +149,7 @@ fn trees_without_close_calls_paint_the_same() {
 
 #[test]
 fn layers_within_the_epsilon_are_mistaken_for_one() {
-    // Squares 1e-5 apart, and half the extent is 1; reversed, so that the lowest comes last.
+    // Squares 1e-5 apart; half the extent is 1. The list is reversed, so that the lowest square comes last.
     let mut polygons = super::polygons_of(&scene::layers(6, 1e-5));
     polygons.reverse();
     let faces = faces(&polygons, Some(0.0));

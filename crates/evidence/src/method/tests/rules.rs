@@ -67,7 +67,7 @@ fn each_rule_decides_what_it_says() {
             let nearest = u32::from(order[1] < order[0]);
             assert_eq!(walls(&order, format, smaller), nearest, "{format}");
             assert_eq!(walls(&order, format, LARGER), nearest);
-            // The wrong test, from the end that it selects: the furthest shows.
+            // With the reversed test, and the buffer cleared to the near end, the furthest wall shows.
             let wrong = smaller.with_test(DepthTest::Greater).with_clear(Clear::Smallest);
             assert_eq!(walls(&order, format, wrong), 1 - nearest);
             let wrong = LARGER.with_test(DepthTest::Less).with_clear(Clear::Largest);
@@ -75,7 +75,7 @@ fn each_rule_decides_what_it_says() {
             // Cleared to the near end: nothing shows.
             assert_eq!(walls(&order, format, smaller.with_clear(Clear::Smallest)), NONE);
             assert_eq!(walls(&order, format, LARGER.with_clear(Clear::Largest)), NONE);
-            // Without a depth left behind, the last shows.
+            // If no depth is written, the last wall shows.
             assert_eq!(walls(&order, format, DepthRules { writes: false, ..smaller }), 1);
         }
         // Of two faces at the same depth, `LESS` shows the first and `LEQUAL` the last.
