@@ -26,7 +26,7 @@ const CHECKS: f64 = 8.0;
 /// Texture coordinates of each sheet's four corners.
 const UV: [DVec2; 4] = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
 
-/// The attributes of a corner. The attributes of a vertex are weighted sums of these.
+/// The attributes of a corner. The attributes of a vertex are weighted sums of the attributes of corners.
 #[derive(Clone, Copy)]
 struct Attributes {
     uv: DVec2,

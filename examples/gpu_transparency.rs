@@ -1,6 +1,6 @@
-//! Transparency as an engine draws it: vertices are uploaded once, opaque triangles are drawn by
-//! depth buffer, and translucent ones back to front from an index buffer that is written only when
-//! the order has changed.
+//! Transparency as an engine draws it. Vertices are uploaded once. Opaque triangles are drawn with a depth
+//! buffer. Translucent triangles are drawn back to front, from an index buffer that is written only when the
+//! order has changed.
 //!
 //! ```sh
 //! cargo run --release --example gpu_transparency                    # walks along a path
@@ -187,7 +187,7 @@ impl Target {
         Self { eye, axes: [right, ahead.cross(right), ahead], colors, nearness }
     }
 
-    /// Draws triangles with depth test and blending; `writes_depth` is off for translucent ones.
+    /// Draws triangles with depth test and blending; `writes_depth` is off for translucent triangles.
     fn draw(&mut self, vertices: &[Vertex], indices: &[u32], writes_depth: bool) {
         for triangle in indices.chunks_exact(3) {
             let [a, b, c] = [0, 1, 2].map(|k| &vertices[triangle[k] as usize]);

@@ -44,7 +44,8 @@ fn hexagon(distance: f64, z: f64) -> Ring {
     ring
 }
 
-/// A nut with a flange and a step in its bore: rings, each joined to the next, and the last to the first.
+/// A nut with a flange and a step in its bore. It consists of rings, each joined to the next, and the last to
+/// the first.
 fn part() -> Vec<[DVec3; 4]> {
     let rings = [
         circle(3.1, 0.0),

@@ -5,8 +5,8 @@
 //! cargo run --release --example smooth_layers -- page.png
 //! ```
 //!
-//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam shows.
-//! So each piece is filled without antialiasing. Then only the edges of its layer are stroked with
+//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam is
+//! visible. So each piece is filled without antialiasing. Then only the edges of its layer are stroked with
 //! antialiasing.
 
 #![allow(clippy::print_stdout, reason = "a program")]

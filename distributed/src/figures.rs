@@ -30,7 +30,7 @@ pub(crate) struct Figures {
 }
 
 impl Figures {
-    /// Prints the figures of all ranks, one a line, if they are wanted.
+    /// Prints the figures of all ranks, one rank per line, if they are requested.
     pub(crate) fn report(&self, world: &SimpleCommunicator, is_wanted: bool) {
         let counts = [
             self.given,

@@ -1,7 +1,7 @@
 //! Draws scenes that are spread over many processes, in exact order.
 //!
-//! Each MPI rank reads or generates a share of the polygons. All agree on the extent and, from samples, on
-//! the planes between cells, one cell a rank. Polygons go to the ranks whose cells they reach; each rank
+//! Each MPI rank reads or generates a share of the polygons. All ranks agree on the extent and, from samples,
+//! on the planes between cells, one cell per rank. Polygons go to the ranks whose cells they reach. Each rank
 //! builds the tree of its cell, and paints it. The visible layers of a pixel go to the rank that owns the
 //! pixel, which blends them in the order of the cells.
 
@@ -44,12 +44,12 @@ fn main() -> ExitCode {
     agree::abort_on_panic();
     match run(&world) {
         Ok(()) => ExitCode::SUCCESS,
-        // The rank where it occurred has reported it.
+        // The rank with the error has reported it.
         Err(Failure) => ExitCode::from(2),
     }
 }
 
-/// The work of a rank. After an error on any rank, all of them return.
+/// The work of a rank. After an error on any rank, all ranks return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let arguments = match Arguments::try_parse() {
         // Requested output, such as help, is not an error: rank 0 prints it.
@@ -168,7 +168,7 @@ fn send_polygons(
         partition.reached_by(given, &mut reached);
         reached.iter().for_each(|&cell| given.write(&mut outgoing[cell]));
     }
-    // The share is freed before other polygons arrive.
+    // The memory of the share is freed before other polygons arrive.
     drop(share);
     let own = outgoing[rank(world)].len();
     let sent = outgoing.iter().map(Vec::len).sum::<usize>() - own;

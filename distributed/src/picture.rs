@@ -1,4 +1,4 @@
-//! A rank's painting of its cell, and pictures in files.
+//! Paints the cell of a rank, and writes pictures into files.
 
 use std::fs::{self, Permissions};
 use std::io;
@@ -91,7 +91,7 @@ impl Painted {
             place += 1;
             place > first[layer.pixel as usize]
         });
-        // The remaining layers of each pixel show.
+        // The remaining layers of each pixel are visible.
         self.first.fill(0);
     }
 }

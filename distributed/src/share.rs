@@ -20,7 +20,7 @@ pub(crate) struct Share {
 #[derive(Clone, Copy, Debug)]
 struct Generated {
     polygons: u64,
-    /// Whether nearly all are in a small part of the room.
+    /// Whether nearly all polygons are in a small part of the room.
     is_lump: bool,
 }
 

@@ -135,7 +135,7 @@ impl Level {
     }
 }
 
-/// The camera of a frame: from room to room, a step at a time, and looking around.
+/// The camera of a frame. It walks from room to room, one step per frame, and looks around.
 fn camera(frame: usize) -> Result<Camera, Box<dyn Error>> {
     let along = frame as f64 / (FRAMES - 1) as f64;
     let eye = dvec3(2.5 + 3.0 * along, 4.5, 0.0) * ROOM + DVec3::Z * 1.7;
@@ -205,7 +205,7 @@ fn a_frame_visits_few_parts_and_misses_none() {
     assert!((0..480).step_by(60).all(|y| canvas.pixel([300, y]) != background));
 }
 
-/// The pixels in which the door shows, if outlines are painted one over the other.
+/// The pixels in which the door is visible, if outlines are painted one over the other.
 #[cfg(test)]
 fn door_pixels(camera: &Camera, outlines: impl Iterator<Item = (bool, Vec<DVec3>)>) -> Vec<bool> {
     let mut canvas = Canvas::new(VIEW.map(|side| side as usize), [0.0; 3]);
@@ -259,6 +259,6 @@ fn the_guard_sees_into_the_room_when_the_door_is_open() {
     assert!(!level.is_in_sight(guard, room).unwrap());
     level.open(FRAC_PI_2).unwrap();
     assert!(level.is_in_sight(guard, room).unwrap());
-    // Through a wall, whatever the door does.
+    // A sight line through a wall is blocked, whether the door is open or closed.
     assert!(!level.is_in_sight(guard, room + DVec3::Z * 9.0).unwrap());
 }

@@ -8,7 +8,7 @@ use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use dashu_int::IBig;
 use num_traits::{One, Signed};
 
-/// The points x with normal · x = offset; in front the left side is larger.
+/// The plane normal · x = offset. In front of it, normal · x is larger.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     pub(crate) normal: [IBig; 3],
@@ -46,8 +46,8 @@ impl Plane {
         Self { normal, offset }
     }
 
-    /// The plane through three places in homogeneous coordinates, or along them where the weight is 0:
-    /// the minors of these three rows.
+    /// The plane through three places in homogeneous coordinates. A place of weight 0 is a direction of the
+    /// plane. The coefficients are the minors of the three rows.
     pub(crate) fn joining([p, q, r]: [&[IBig; 4]; 3]) -> Self {
         let minor = |i: usize, j: usize, k: usize| {
             let of = |a: &IBig, b: &IBig, c: &IBig| {
@@ -64,7 +64,7 @@ impl Plane {
         Self { normal: self.normal.each_ref().map(|c| -c), offset: -&self.offset }
     }
 
-    /// The direction across it, in homogeneous coordinates.
+    /// The direction of the normal, in homogeneous coordinates.
     pub(crate) fn direction(&self) -> [IBig; 4] {
         let [x, y, z] = self.normal.clone();
         [x, y, z, IBig::ZERO]
@@ -75,8 +75,8 @@ impl Plane {
         dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
     }
 
-    /// The side of an eye in homogeneous coordinates, larger in front: Ax + By + Cz + D, or, of a
-    /// direction, Ax + By + Cz.
+    /// The value of the plane at an eye in homogeneous coordinates, positive in front: Ax + By + Cz + D, or
+    /// Ax + By + Cz for a direction.
     pub(crate) fn at_eye(&self, eye: &[IBig; 4]) -> IBig {
         let [x, y, z, w] = eye;
         let [a, b, c] = &self.normal;
@@ -103,8 +103,8 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The position of a vertex of a face; `None` if the planes that define it are parallel. `plane` is the
-    /// face's.
+    /// The position of a vertex of a face; `None` if the planes that define the vertex are parallel. `plane`
+    /// is the plane of the face.
     pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: VertexId) -> Option<Self> {
         match vertex.kind() {
             VertexKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
@@ -119,8 +119,8 @@ impl Place {
         }
     }
 
-    /// Corner `k` of a face; if it is off the face's plane, it is moved there along the plane's
-    /// main axis.
+    /// Corner `k` of a face. A corner off the face's plane is moved onto the plane along the plane's main
+    /// axis.
     pub(crate) fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
         let point = faces.corners(face)[k];
         let mut place = Self { coordinates: point.map(integer), weight: IBig::one() };
@@ -175,7 +175,7 @@ impl Place {
         [x, y, z, self.weight.clone()]
     }
 
-    /// The factor on a distance from a plane in [`Plane::at`].
+    /// The factor by which [`Plane::at`] multiplies distances of this place.
     pub(crate) fn weight(&self) -> &IBig {
         &self.weight
     }
@@ -199,7 +199,7 @@ impl Place {
             if position[i].is_nan() || position[i].abs() > REACH {
                 return f64::INFINITY;
             }
-            // The rest of the whole part is exact, and small enough to be rounded.
+            // The difference from the whole part is exact, and small enough to be rounded.
             let whole = position[i].trunc();
             let rest = integer(whole) * &self.weight - &self.coordinates[i];
             ((position[i] - whole) + float(&rest) / weight).abs()

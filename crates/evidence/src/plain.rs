@@ -1,5 +1,5 @@
-//! A view whose rays are small integers, and their intersections, in integers: a judge that shares nothing
-//! with the library, for scenes of integer corners.
+//! A view whose rays are small integers, and intersections of these rays in integers. It is a judge that
+//! shares no code with the library, for scenes of integer corners.
 
 use std::cmp::Ordering;
 
@@ -173,7 +173,8 @@ mod tests {
 
     #[test]
     fn a_square_is_met_where_it_is() {
-        // Pixels of 1/4 at depth 1; the square reaches to 2.0 at depth 4, to 0.5 at depth 1.
+        // Pixels have a side of 1/4 at depth 1. The square reaches to 2.0 at depth 4, which is 0.5 at depth
+        // 1.
         let view = PlainView::new([4, 4]);
         let square = [[-512, -512], [512, -512], [512, 512], [-512, 512]];
         let square = square.map(|[x, y]| [x, y, -1024]);

@@ -42,7 +42,7 @@ pub fn above_a_point(sides: [f64; 2], apart: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The sum of the light that small parts send to one another, each as if from its middle.
+    /// The form factor as a sum over small parts of both rectangles, each taken as its middle point.
     fn by_sums(
         at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
         other: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),

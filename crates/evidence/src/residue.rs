@@ -1,4 +1,4 @@
-//! Exact equality of fractions too large to be added: by their residues modulo a prime.
+//! Tests whether fractions are equal that are too large to be added, by their residues modulo a prime.
 
 use dashu_int::IBig;
 use num_traits::Euclid;

@@ -16,7 +16,8 @@ const CEILING: usize = 1;
 const LAMP: usize = 2;
 /// The light that the lamp sends out for each unit of area, in each channel.
 const LAMP_LIGHT: f64 = 1.0;
-/// The share of light that the paints reflect at 620, 540 and 460 nm, and the lamp at all wavelengths.
+/// The share of light that the paints reflect at 620, 540 and 460 nm, and that the lamp reflects at all
+/// wavelengths.
 const WHITE: [f64; 3] = [0.744, 0.743, 0.765];
 const GREEN: [f64; 3] = [0.126, 0.441, 0.104];
 const RED: [f64; 3] = [0.513, 0.059, 0.062];
@@ -27,9 +28,9 @@ const OF_LAMP: [f64; 3] = [0.78; 3];
 pub struct Room {
     /// The patches of all surfaces.
     pub patches: Vec<Patch>,
-    /// The light that they send to one another.
+    /// The form factors of the patches.
     pub factors: FormFactors,
-    /// The reflectance of each at 620, 540 and 460 nm.
+    /// The reflectance of each patch at 620, 540 and 460 nm.
     reflected: Vec<[f64; 3]>,
     light: Vec<f64>,
     /// The patches of the black wall that closes the room.

@@ -1,4 +1,4 @@
-//! A tree as textbooks build it: rounded planes, rounded vertices, and an epsilon.
+//! A textbook tree with rounded planes, rounded vertices, and an epsilon.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -177,7 +177,7 @@ impl RoundedPiece {
 
 /// The number of planes tried at each node, as by `Heuristic::Sampled`.
 const CANDIDATES: usize = 16;
-/// A cut costs as much as this difference in the numbers of pieces of the two sides.
+/// The cost of a cut, in pieces by which the two sides differ.
 const CUT: usize = 8;
 
 /// A set of pieces that is still to be divided.

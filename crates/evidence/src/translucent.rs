@@ -22,7 +22,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// The view through a surface that looks like this: "over" (Porter & Duff 1984).
+    /// The colour of this surface over the colour behind it: "over" (Porter & Duff 1984).
     fn over(self, behind: Colour) -> Colour {
         [0, 1, 2].map(|i| behind[i] * (1.0 - self.opacity) + self.colour[i] * self.opacity)
     }
@@ -256,7 +256,7 @@ mod tests {
         let [red, green] = [share, 1.0 - share].map(|share| (0.625 * share + 0.375) as f32);
         let found = by_weights(&faces, &layers, &camera, Weight::Equation9, look, white);
         all_near(found, [red, green, 0.375]);
-        // The nearest depth is 0, the furthest 1, where the weight is limited.
+        // The nearest depth d is 0 and the furthest is 1, where the weight is at its limit.
         let share = 3e3 * 0.5 / (3e3 * 0.5 + 0.01 * 0.25);
         let [red, green] = [share, 1.0 - share].map(|share: f64| (0.625 * share + 0.375) as f32);
         let found = by_weights(&faces, &layers, &camera, Weight::Equation10, look, white);

@@ -7,8 +7,8 @@ use std::ops::Range;
 use binspace::internals::{EdgeLine, Eye, Faces, PlaneId, VertexId};
 use binspace::{BspTree, Child, Viewpoint};
 
-/// A BSP tree whose vertices have a definition and a position: the library's, or one of
-/// [rounded numbers](Tree::with_epsilon).
+/// A BSP tree whose vertices have a definition and a position: the library's tree, or a tree of [rounded
+/// numbers](Tree::with_epsilon).
 #[derive(Clone)]
 pub struct Tree {
     pub(crate) faces: Faces,
@@ -143,8 +143,8 @@ impl Tree {
             .map(move |node| (node.plane, [node.on.clone(), all(&node.front), all(&node.back)]))
     }
 
-    /// Writes the numbers of all fragments, back to front, in place of the list's content. O(n), with its own
-    /// stack.
+    /// Replaces the list's content by the numbers of all fragments, back to front. Takes O(n) time, without
+    /// recursion.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         order.clear();
         let eye = Eye::new(viewpoint, self.faces.lattice());

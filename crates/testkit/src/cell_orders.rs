@@ -118,8 +118,7 @@ pub fn shoot(
     Ok(())
 }
 
-/// Whether both hits, or the nearer one and the eye, are within the tolerance of a plane between their
-/// cells.
+/// Whether both hits, or the nearer hit and the eye, are within the tolerance of a plane between their cells.
 fn is_excused(ray: &Ray, hits: [&Found<'_>; 2]) -> bool {
     let tolerance = hits[0].cell.tree.faces().tolerance();
     if tolerance == 0.0 {
@@ -134,7 +133,7 @@ fn is_excused(ray: &Ray, hits: [&Found<'_>; 2]) -> bool {
             .map(|[low, high]| [side(hits[low], 1)[axis], side(hits[high], 0)[axis]]);
         walls.into_iter().filter(|[low, high]| low <= high).flatten().any(|wall| {
             let near = |point: DVec3| (point[axis] - wall).abs() <= reach;
-            // The second one comes later in the order, and is further away.
+            // The second hit comes later in the order, and is further away.
             near(a) && (near(b) || eye.is_some_and(near))
         })
     })

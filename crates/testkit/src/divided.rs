@@ -11,7 +11,7 @@ pub struct Divided {
     pub cells: Vec<Cell>,
 }
 
-/// A tree, and the numbers in the scene of the polygons that it was given.
+/// The tree of a cell, and the numbers of its polygons in the scene.
 pub struct Cell {
     pub tree: BspTree,
     pub given: Vec<usize>,

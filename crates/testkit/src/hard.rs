@@ -1,6 +1,6 @@
 //! Scenes that are hard to decide: proptest strategies biased towards coincidence and near coincidence.
 //!
-//! Use [`scene`]; use a single family in a test about that family.
+//! Use [`scene`] in general, and a single family only in a test about this family.
 
 use super::shapes::{self, Corners};
 use binspace::glam::{DMat3, DVec3};
@@ -159,7 +159,7 @@ pub fn layers() -> impl Strategy<Value = Vec<Corners>> {
         .prop_map(|(turn, gap, count)| shapes::layers(turn, 10f64.powi(gap), count))
 }
 
-/// Triangles 1e-3 to 1e-12 wide, through one another.
+/// Triangles 1e-3 to 1e-12 wide that pass through each other.
 pub fn slivers() -> impl Strategy<Value = Vec<Corners>> {
     let one = (turn(), -12..=-3i32, -1.0..1.0f64, point());
     prop::collection::vec(one, 2..6).prop_map(|list| {

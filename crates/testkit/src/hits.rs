@@ -82,7 +82,7 @@ pub struct Score {
     pub hits: usize,
     /// Hits of rays in the polygon's plane.
     pub in_plane: usize,
-    /// Hits at the same point as the one before.
+    /// Hits at the same point as the hit before.
     pub ties: usize,
     /// Hits at an end of the ray.
     pub at_ends: usize,
@@ -152,7 +152,7 @@ fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     values.into_iter().map(exponent).min().expect("numbers")
 }
 
-/// A number in units of a power of two that divides it.
+/// A number in units of a power of two, of which it is a multiple.
 fn whole(value: f64, unit: i32) -> IBig {
     let (digits, exponent) = parts(value);
     if digits == 0 {
@@ -177,8 +177,8 @@ impl Face {
         }
     }
 
-    /// The direction in which the border turns from a corner to the next around a point `at` / `under`, for
-    /// all corners.
+    /// For each corner, the direction in which the border turns around the point `at` / `under` on the way to
+    /// the next corner.
     fn turns(&self, at: [&IBig; 2], under: &IBig) -> Vec<Ordering> {
         let [i, j] = self.seen;
         let next = self.corners.iter().cycle().skip(1);
@@ -217,7 +217,7 @@ impl Face {
             let inside = self.has([&line.from[i], &line.from[j]], &one);
             return inside.then(|| [Fraction::whole(0), Fraction::whole(0)]);
         }
-        // Corners relative to the beginning, and their sides of the line.
+        // Corners relative to the start of the line, and the sides of the line on which they are.
         let arms: Vec<[IBig; 2]> = self
             .corners
             .iter()
@@ -348,8 +348,8 @@ impl<'t> Oracle<'t> {
         }
     }
 
-    /// The faces that a line may meet: tested from the point where it is nearest to the scene, so that
-    /// floats lose little.
+    /// The faces that a line may meet. They are tested from the point of the line that is nearest to the
+    /// scene, so that floats lose little precision.
     fn near(&self, line: &Line) -> Vec<usize> {
         let number = |c: &IBig| c.to_f64().value();
         let unit = 2f64.powi(-(line.bits as i32));
@@ -472,7 +472,7 @@ impl<'t> Oracle<'t> {
         }
         for (hit, truth) in hits.iter().zip(&truth) {
             self.check_place(&line, hit, &truth.enter).map_err(|what| fault(&what))?;
-            // Rationals of a fragment's vertices are large, so only some are tested.
+            // The rationals of a fragment's vertices are large, so only some fragments are tested.
             let has_point = || {
                 let axis = main_axis(&self.faces[truth.face].normal);
                 let vertices = self.vertices(hit.fragment().index());
@@ -570,7 +570,7 @@ impl Rough {
     }
 }
 
-/// Whether a convex outline has a point of its plane, seen along an axis.
+/// Whether a convex outline contains a point of its plane, seen along an axis.
 fn contains(outline: &[Point], point: &Point, axis: usize) -> bool {
     let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
     let turn = |(a, b): (&Point, &Point)| {

@@ -201,12 +201,13 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// Checks that weights sum to 1 and give the vertices back from the polygon's own corners, and that
-    /// edges said to be the polygon's lie on them.
+    /// Checks that weights sum to 1, that they give the vertices from the polygon's corners, and that
+    /// reported edges of the polygon lie on edges of the polygon.
     fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
         let faces = self.tree.faces();
         let lattice = faces.lattice();
-        // Moved onto a plane by the tolerance, along an axis no steeper than 1 in √3.
+        // The tolerance moves a corner onto a plane along an axis. The angle between axis and normal has a
+        // cosine of at least 1 / √3.
         let moved = 2.0 * lattice.length_to_world(faces.tolerance());
         let step = lattice.length_to_world(1.0);
         for (fragment, _, _) in self.with_pieces() {

@@ -20,7 +20,7 @@ pub struct Layers {
     pub polygons: usize,
     pub fragments: usize,
     pub paths: usize,
-    /// Polygons that are drawn although no pixel shows them, and polygons that are not visible at all.
+    /// Small polygons: drawn although no pixel shows them, or not visible at all.
     pub small: usize,
     pub hidden: usize,
     /// Paths that are parts of opaque polygons.
@@ -93,7 +93,7 @@ pub fn check_mixed(
 }
 
 /// Checks by rays that nothing opaque is in front of the visible polygons. (Where polygons within the
-/// tolerance of one plane overlap, the order decides, which rays do not know.)
+/// tolerance of one plane overlap, the order decides which is visible, and rays cannot judge it.)
 pub fn check_sight(
     tree: &BspTree,
     camera: &Camera,
@@ -171,8 +171,9 @@ fn visible(layers: &[usize], opacity: &dyn Fn(usize) -> f64) -> Vec<usize> {
     rest.iter().copied().filter(|&polygon| opacity(polygon) > 0.0).collect()
 }
 
-/// Compares the paint of a drawing at each pixel with the polygons there, back to front. Returns the number
-/// of paths of each polygon, and the number of these that are parts. `is_flat`: no polygon was flattened.
+/// Compares the paint of a drawing at each pixel with the polygons there, back to front. Returns for each
+/// polygon the number of its paths, and the number of paths that are parts. `is_flat`: no polygon was
+/// flattened.
 fn compare(
     drawing: &Drawing,
     truth: &[Vec<usize>],
@@ -193,7 +194,7 @@ fn compare(
         for (i, pixel) in picture.pixels.iter().enumerate() {
             match pixel {
                 Pixel::Nothing => {}
-                // Overlapping outlines of one path would count once.
+                // If outlines of one path overlapped, the pixel would be covered only once.
                 Pixel::Polygon(polygon) => found[i].push(*polygon),
                 Pixel::Unsure => is_unsure[i] = true,
             }
@@ -202,8 +203,7 @@ fn compare(
     let mut seen = HashSet::new();
     for (i, (found, truth)) in found.iter().zip(truth).enumerate() {
         let (found, truth) = (visible(found, opacity), visible(truth, opacity));
-        // Flattened faces have gaps at the edges that they share: there the tree's fragments reveal
-        // polygons behind them.
+        // Flattened faces have gaps at common edges, where the tree's fragments show polygons behind them.
         if is_flat || !is_unsure[i] {
             seen.extend(truth.iter().copied());
         }

@@ -1,8 +1,8 @@
 //! Pages as in a compositor of CSS 3D layers, from a seed: for tests, benches and examples.
 //!
-//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its
-//! own origin; its matrix places it on a screen of [`SCREEN`] pixels and includes the page's perspective.
-//! No layer reaches behind the eye.
+//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its own
+//! origin. The layer's matrix places it on a screen of [`SCREEN`] pixels, and includes the page's
+//! perspective. No layer reaches behind the eye.
 
 use super::dice::Dice;
 use binspace::glam::{DMat4, DVec3, dvec3};
@@ -106,7 +106,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
         * DMat4::from_rotation_y(dice.range(-0.7, 0.7));
     let planes = count.div_ceil(3);
     let place = |k: usize| {
-        // Planes in a scattered order: the step is coprime to their number.
+        // Planes are in a scattered order, with a step that is coprime to their number.
         let plane = (k % planes) * scatter(planes) % planes;
         let z = 400.0 * (plane as f64 / planes as f64 - 0.7);
         let at = dvec3(dice.range(-250.0, 250.0), dice.range(-150.0, 150.0), z);
@@ -116,7 +116,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
     (0..count).map(place).collect()
 }
 
-/// A number coprime to `count`, near its golden section.
+/// A number coprime to `count`, near the golden section of `count`.
 fn scatter(count: usize) -> usize {
     let shares_none = |&step: &usize| {
         let (mut a, mut b) = (step, count);

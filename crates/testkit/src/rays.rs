@@ -1,7 +1,7 @@
 //! Checks that an order paints far before near: compares rays with fragments, in big integers.
 //!
-//! The fragments that a ray hits, and the hits' places, are computed from the lines of the source faces
-//! alone, for every fragment, without the tree.
+//! The fragments that a ray hits, and the places of the hits, are computed for every fragment from the lines
+//! of its source face, without the tree.
 
 use super::dice::Dice;
 use super::judge::{Verdict, ensure};
@@ -245,8 +245,8 @@ impl<'t> Rays<'t> {
     }
 }
 
-/// The plane through an edge of a face and along the axis in which its plane is least steep, and
-/// its sign inside.
+/// The plane through an edge of a face, parallel to the axis along which the face's plane is least steep; and
+/// the sign of this plane inside the face.
 fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Ordering) {
     let corners = faces.corners(face);
     let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));

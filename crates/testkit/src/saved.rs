@@ -1,4 +1,4 @@
-//! Trees as bytes, and every use of a tree.
+//! Trees as bytes, and functions that use a tree in every way.
 
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};

@@ -5,7 +5,7 @@ use binspace::Ray;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 
-/// Makes rays for the faces of a tree, which must have some.
+/// Makes rays for the faces of a tree. The tree must have faces.
 pub struct Shots<'t> {
     faces: &'t Faces,
     low: DVec3,
@@ -126,7 +126,7 @@ impl<'t> Shots<'t> {
                 for _ in 0..dice.below(4) {
                     let axis = dice.below(3);
                     let step = if dice.below(2) == 0 { f64::next_up } else { f64::next_down };
-                    // Numbers far below the scene's extent have digits that a ray drops.
+                    // Digits of numbers far below the scene's extent are lost in a ray.
                     if to[axis] != 0.0 {
                         to[axis] = step(to[axis]);
                     }

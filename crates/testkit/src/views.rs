@@ -16,7 +16,8 @@ pub struct View {
     pub viewpoint: Viewpoint,
     /// The eye in lattice units, rounded; or the direction of view, in integers.
     lattice: DVec3,
-    /// The eye as the library rounds it; `None` for a direction, and for an eye too far to be a point.
+    /// The eye as the library rounds it; `None` for a direction, and for an eye that is so far away that it
+    /// counts as a direction.
     eye: Option<Point>,
 }
 

@@ -38,7 +38,7 @@ struct Node {
     sides: [Next; 2],
     /// The fragments on the plane.
     own: Range<u32>,
-    /// The node above, and on which of its sides this one is.
+    /// The parent node, and the side of the parent on which this node is.
     parent: Option<(usize, usize)>,
 }
 
@@ -126,7 +126,7 @@ impl Cells {
         found
     }
 
-    /// Takes over the tree's nodes, and divides its leaves by their content.
+    /// Copies the tree's nodes, and divides its leaves by the planes of their fragments.
     fn divide(&mut self, tree: &BspTree) {
         let root = tree.root().map_or(Child::Leaf(0..tree.len() as u32), Child::Node);
         let mut pending = vec![(root, None)];
@@ -197,7 +197,7 @@ impl Cells {
         while let Some((above, side)) = parent {
             let Node { plane, parent: next, .. } = &self.nodes[above];
             let kept = if side == 0 { *plane } else { plane.flipped() };
-            // A plane that is almost the one above is not lost.
+            // A plane that almost coincides with the plane of an ancestor still has a region.
             region = clip(&region, &kept.eased(NOISE * self.extent));
             parent = *next;
         }

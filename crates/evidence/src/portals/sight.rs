@@ -16,11 +16,11 @@ use super::outline::{Outline, Plane, apart, clip, holds, hull};
 /// again. A line from the source through the opening magnifies the sum of both errors up to the end of the
 /// box, which is at most √3 · 1.02 / `NEAREST` times as far as the opening: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
 pub(super) const SLACK: f64 = 1e-7;
-/// Openings that are nearer to the source do not narrow the view: lines from the source through them would
-/// carry roundings too far. Too large: more is kept without need. Too small: `SLACK` has to be larger.
+/// Openings that are nearer to the source than this do not narrow the view, because lines through them would
+/// magnify roundings too much. Too large: more is kept without need. Too small: `SLACK` has to be larger.
 pub(super) const NEAREST: f64 = 2e-4;
 /// The number of times that a portal's visible part may grow before all of the portal counts as visible. Too
-/// small: more is kept than can be seen. Too large: crowded scenes take longer.
+/// small: invisible polygons are kept. Too large: crowded scenes take longer.
 const GROWTHS: u32 = 24;
 
 /// The cells and polygons that may be seen from an eye or from a cell.
@@ -151,7 +151,7 @@ impl<'a> Sight<'a> {
         for &(number, side) in &self.cells.cells[cell].portals {
             let Portal { plane, outline, .. } = &self.cells.portals[number];
             let [low, high] = plane.range(self.source);
-            // Lines of sight cross it from the side that the source is on.
+            // Lines of sight cross the portal from the source's side.
             if (if side == 0 { high } else { -low }) <= noise {
                 continue;
             }
@@ -206,14 +206,14 @@ fn within(outline: &[DVec3], planes: &[Plane]) -> Outline {
     part
 }
 
-/// Planes with a convex source behind and a convex opening in front, each through an edge of one
-/// and a corner of the other: lines from the source through the opening stay in front of them.
+/// Planes with a convex source behind and a convex opening in front. Each goes through an edge of one and a
+/// corner of the other. Behind the opening, lines from the source through it stay in front of these planes.
 fn between(source: &[DVec3], opening: &[DVec3], noise: f64) -> Vec<Plane> {
     let mut planes: Vec<Plane> = Vec::new();
     let mut add = |edge: [DVec3; 2], corner: DVec3| {
         let normal = (edge[1] - edge[0]).cross(corner - edge[0]);
         let size = (edge[1] - edge[0]).length() * (corner - edge[0]).length();
-        // Through three points almost in line there is no plane.
+        // Three points that are almost collinear give no plane.
         if normal.length() < 1e-6 * size || size == 0.0 {
             return;
         }

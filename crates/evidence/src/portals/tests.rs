@@ -1,4 +1,4 @@
-//! The kept polygons, against exact pictures.
+//! Compares the kept polygons with exact pictures.
 
 use super::Cells;
 use super::outline::{Plane, apart, clip, hull, split, without};
@@ -8,7 +8,7 @@ use binspace::internals::SplitMix64;
 use binspace::raster::{NONE, zbuffer};
 use testkit::prelude::*;
 
-/// The polygons that own a pixel in a picture.
+/// The polygons that are visible in a pixel of a picture.
 fn owners(tree: &BspTree, camera: &Camera) -> Vec<usize> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
     let depth = zbuffer(&rays, tree.faces());
@@ -111,7 +111,7 @@ fn a_strip_along_the_boundary_of_an_opening_is_seen() {
 /// Polygons seen along the boundary are kept. They would be lost if such near openings narrowed the view.
 #[test]
 fn polygons_seen_along_the_boundary_of_an_opening_are_kept() {
-    // Upright rectangles, from one point of the ground to another.
+    // An upright rectangle from one point of the ground to another.
     let upright = |from: DVec3, to: DVec3| {
         [(from, -20.0), (to, -20.0), (to, 20.0), (from, 20.0)].map(|(p, z)| p.with_z(z)).to_vec()
     };
@@ -151,8 +151,8 @@ fn polygons_seen_along_the_boundary_of_an_opening_are_kept() {
     assert!(shown > 100 && lost > 5, "{lost} of {shown}");
 }
 
-/// A slit of a 4-millionth of the scene, a hundred times the width that counts as closed: the far wall is
-/// seen.
+/// The far wall is visible through a slit of a 4-millionth of the scene, a hundred times the width that
+/// counts as closed.
 #[test]
 fn polygons_seen_through_a_slit_are_kept() {
     let wall = |x: [f64; 2], z: f64| {

@@ -21,15 +21,15 @@ use binspace::internals::Faces;
 pub struct Piece {
     /// The face that it is a part of.
     pub face: u32,
-    /// Whether it sees each tested point of the lamp.
+    /// For each tested point of the lamp, whether the piece sees it.
     pub sees: Vec<bool>,
-    /// Whether one face lies between it and all points of the lamp: that face also hides everything between
-    /// these points.
+    /// Whether one face lies between the piece and all points of the lamp. Then this face also hides the lamp
+    /// between these points.
     pub is_umbra: bool,
     corners: Vec<Corner>,
 }
 
-/// A corner, and a plane through the edge from there to the next; it is not the face's own.
+/// A corner, and a plane through the edge from this corner to the next, which is not the plane of the face.
 #[derive(Clone, Debug)]
 struct Corner {
     place: Place,

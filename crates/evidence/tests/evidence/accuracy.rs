@@ -15,8 +15,8 @@ use testkit::scenes::polygons;
 #[derive(Debug, Default)]
 struct Figures {
     vertices: usize,
-    /// For the exact tolerance, and for it rounded down to an integer in the unit of each plane's equation:
-    /// the library's figure is one of these or in between.
+    /// The count for the exact tolerance, and the count for the tolerance rounded down to an integer in the
+    /// unit of each plane's equation. The library's count is one of these or between them.
     misplaced: [usize; 2],
     undefined: usize,
     torn: usize,
@@ -120,7 +120,7 @@ fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) 
     [&limits[1], &limits[0]].map(|limit| size > *limit)
 }
 
-/// Whether the areas of a face's pieces do not add up to its own.
+/// Whether the areas of a face's pieces do not add up to the face's area.
 fn is_torn(tree: &Tree, id: u32, face: &Face, pieces: &[Vec<Option<Placed>>]) -> bool {
     let axis = model::main_axis(&face.plane);
     let own = rational::area(&face.corners)[axis].clone();

@@ -33,7 +33,7 @@ fn known_faults_of_pictures_are_found() {
     let right = judged(&[0, 1, 2], Outline::Whole);
     assert_eq!((right.covered, right.wrong(), right.depth_max), (1600, 0, 0.0));
 
-    // The lowest square on top: all wrong, by 1 of an extent of 2.
+    // The lowest square is painted on top: all pixels are wrong, by 1 of an extent of 2.
     let upside_down = judged(&[2, 1, 0], Outline::Whole);
     assert_eq!((upside_down.wrong_order, upside_down.wrong()), (1600, 1600));
     assert!((upside_down.depth_max - 0.5).abs() < 1e-12, "{upside_down:?}");

@@ -52,7 +52,7 @@ impl Judge {
         self.0[face as usize].lamp == Ordering::Equal
     }
 
-    /// Whether a face has a point between this one and the lamp.
+    /// Whether a face has a point between this point and the lamp.
     fn hides(&self, point: &[IBig; 4]) -> bool {
         self.0.iter().any(|Screen { plane, lamp, side_planes }| {
             if *lamp == Ordering::Equal || side(plane, point) != lamp.reverse() {
@@ -187,7 +187,7 @@ fn the_pieces_of_a_face_have_its_area() {
                 let own = pieces.iter().filter(|piece| piece.face == face);
                 let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
                 let areas: Vec<RBig> = areas.collect();
-                // All have the face's orientation, so none is subtracted.
+                // All pieces have the face's orientation, so no area is subtracted.
                 let whole = area(&corners, axis);
                 assert!(areas.iter().all(|part| part.signum() == whole.signum()));
                 assert_eq!(testkit::rational::total(areas), whole, "face {face}");

@@ -25,7 +25,7 @@ impl Wall {
     }
 }
 
-/// Whether a polygon has a point between two that are not both in its plane.
+/// Whether a polygon has a point between two points that are not both in the polygon's plane.
 fn blocks(Wall { corners, plane }: &Wall, a: Point, b: Point) -> bool {
     let [at_a, at_b] = [a, b].map(|p| plane.at(&p));
     assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");

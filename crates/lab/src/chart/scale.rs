@@ -54,7 +54,7 @@ impl Scale {
     }
 }
 
-/// As in the plotting library: from exponents to pixels.
+/// Maps exponents to pixels, as the plotting library requires.
 impl Ranged for Scale {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;

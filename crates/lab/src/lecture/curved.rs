@@ -67,7 +67,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The surely nearest surface in each pixel.
+/// The certainly nearest surface in each pixel.
 fn certain(surfaces: &Surfaces<'_>, view: &PlainView) -> Vec<Option<u32>> {
     let pixels = (0..SIZE[0] * SIZE[1]).map(|i| [i % SIZE[0], i / SIZE[0]]);
     pixels.map(|pixel| nearest(surfaces, view, pixel)).collect()

@@ -63,7 +63,7 @@ pub(super) struct Report<'a> {
     city: Option<City>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
-    /// Whether it contains all requested sections.
+    /// Whether the report contains all requested sections.
     complete: bool,
 }
 

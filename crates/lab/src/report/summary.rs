@@ -29,12 +29,12 @@ pub(super) struct Summary<'a> {
     build: f64,
     picture: f64,
     bytes: usize,
-    /// The space in which it decides; `None` without trials.
+    /// The space in which the method decides; `None` without trials.
     space: Option<Space>,
 }
 
 impl<'a> Summary<'a> {
-    /// One for each method, in order, over its finished trials; none without families.
+    /// Returns a summary for each method, in order, over its finished trials; an empty list without families.
     pub(super) fn of_families(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |_, _| true)
     }
@@ -133,7 +133,7 @@ impl<'a> Summary<'a> {
         (self.build / self.ended.max(1) as f64).exp()
     }
 
-    /// The mean share of faces that are left out as back faces; a dash if none is.
+    /// The mean share of faces that are left out as back faces; a dash if no face is left out.
     fn removed_share(&self) -> String {
         match self.removed / self.ended.max(1) as f64 {
             0.0 => "–".to_owned(),

@@ -42,7 +42,7 @@ fn the_exact_rows_are_zero_and_others_are_not() {
     for row in &rows {
         let removed: f64 = row["removed_share"].parse().unwrap();
         let has_step = row["method"].starts_with("fronts");
-        // About a half for closed boxes; others may show all their fronts.
+        // About a half of the faces of closed boxes are removed. Other scenes may show only fronts.
         let is_known = row["subject"] != "boxes" || (0.3..0.7).contains(&removed);
         assert!(if has_step { is_known && removed < 1.0 } else { removed == 0.0 }, "{row:?}");
     }

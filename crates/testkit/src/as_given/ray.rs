@@ -1,4 +1,4 @@
-//! The hits of rays on the polygons as given, exactly sorted.
+//! The hits of rays on the given polygons, exactly sorted.
 
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
 use super::scene::{Point, Scene, minus, world};
@@ -6,7 +6,7 @@ use crate::prelude::*;
 use binspace::internals::PlaneKind;
 use dashu_int::IBig;
 
-/// The points (origin / below) + s · direction, with s above 0, or any s if it is endless.
+/// The points (origin / below) + s · direction, with s above 0, or with any s if the ray is endless.
 #[derive(Clone, Debug)]
 pub struct Ray {
     pub origin: Vector,
@@ -84,7 +84,7 @@ impl<'s> Targets<'s> {
         let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
         let mut hits = Vec::new();
         for (polygon, &(centre, radius)) in self.balls.iter().enumerate() {
-            // The rounding error of the origin's and the centre's coordinates, a thousand times over.
+            // A thousand times the rounding error of the coordinates of the origin and the centre.
             let slack = 1e-12 * (origin.abs().max_element() + centre.abs().max_element());
             if along.cross(centre - origin).length() <= radius * 1.001 + slack {
                 hits.extend(self.hit(ray, polygon));

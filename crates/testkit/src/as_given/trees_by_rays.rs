@@ -15,7 +15,7 @@ use crate::prelude::*;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
     pub trees: usize,
-    /// Trees that would have had more fragments than allowed.
+    /// Trees that were given up because they would have more fragments than allowed.
     pub given_up: usize,
     pub faces: usize,
     pub fragments: usize,
@@ -89,7 +89,7 @@ pub struct Court<'t> {
     score: Score,
 }
 
-/// A hit with the fragment there: on its border, or not.
+/// A hit, the fragment there, and whether the hit is on the fragment's border.
 struct Found<'h> {
     hit: &'h Hit,
     fragment: u32,
@@ -121,7 +121,7 @@ impl<'t> Court<'t> {
         Ok(self.score)
     }
 
-    /// The judge's assumptions: faces are the polygons, with exactly the same corners.
+    /// Checks the judge's assumption that faces are the polygons, with exactly the same corners.
     fn input_has_not_moved(&self) -> Verdict {
         let (scene, faces) = (self.targets.scene, self.tree.faces());
         ensure(faces.len() == scene.polygons.len(), || format!("{} faces", faces.len()))?;
@@ -202,7 +202,8 @@ impl<'t> Court<'t> {
         Ok(())
     }
 
-    /// The fragments of a polygon at a hit: one around it, or some that share a border there.
+    /// The fragments of a polygon at a hit: one fragment around the hit, or several that share a border
+    /// there.
     fn find<'h>(&mut self, hit: &'h Hit, places: &[u32]) -> Result<Vec<Found<'h>>, String> {
         let found = |fragment: u32, border| Found {
             hit,

@@ -5,8 +5,8 @@ use super::ray::Ray;
 use super::scene::{Point, Scene, add, between, minus, times};
 use crate::prelude::*;
 
-/// The viewpoint: integers over a power of two, or a direction whose largest component is a power of two,
-/// so that the library rounds neither.
+/// The viewpoint: integers over a power of two, or a direction whose largest component is a power of two, so
+/// that the library does not round it.
 #[derive(Clone, Debug)]
 pub enum Place {
     Eye(Vector, i128),
@@ -107,7 +107,7 @@ fn some_corner(scene: &Scene, dice: &mut Dice) -> (usize, Point) {
     (polygon, corners[dice.below(corners.len())])
 }
 
-/// A point on a polygon's plane, within a few of its sizes.
+/// A point on a polygon's plane, within a few diameters of the polygon.
 fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     let corners = &scene.polygons[polygon];
     let arm = |k: usize| minus(corners[k], corners[0]);
@@ -128,7 +128,7 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
         2 => View::eye(some_corner(scene, dice).1),
         3 => View::eye(on_plane(scene, polygon, dice)).about(vec![polygon]),
         4 => {
-            // Fewer bits are spare, because eyes reach a few sizes beyond the scene.
+            // Fewer bits are spare, because eyes are up to a few diameters from the scene.
             let below = hair(scene) >> 4;
             let mut eye = wide(on_plane(scene, polygon, dice)).map(|c| c * below);
             eye[dice.below(3)] += [-1, 1][dice.below(2)];

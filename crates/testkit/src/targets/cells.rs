@@ -1,4 +1,4 @@
-//! Scenes as cells, judged together; and partitions in files, forged ones and any bytes.
+//! Scenes divided into cells, judged together; and files of partitions, either forged or with any bytes.
 
 use super::super::cell_orders::{self, Score};
 use super::super::divided::{Divided, extent};
@@ -80,7 +80,7 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     };
     let mut file = written(&partition);
     while !bytes.is_empty() {
-        // After the head, whose changes are always noticed.
+        // Changes begin after the head, because a changed head is always refused.
         let at = bytes.int_in_range(16..=file.len() - 5)?;
         match bytes.int_in_range(0..=3u8)? {
             0 => file[at] = bytes.arbitrary()?,
@@ -120,7 +120,7 @@ pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     for (cell, given) in given.iter().enumerate() {
         let [low, high] = partition.bounds(cell);
         assert!(!low.is_nan() && !high.is_nan());
-        // The grid may be another, and the polygons beyond it.
+        // The grid may be different, and the polygons may be outside it.
         let built = [given.clone(), polygons.iter().collect()]
             .map(|polygons| BuildOptions::DEFAULT.build_cell(&partition, cell, polygons));
         let [Ok(tree), Ok(all)] = built else { continue };

@@ -25,7 +25,7 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
         if Rays::new(&camera, tree.faces()).is_err() {
             continue;
         }
-        // One of four polygons is translucent, another is left out.
+        // Of four polygons, one is translucent, and one is left out.
         let opacity = |polygon: usize| [1.0, 0.5, 1.0, 0.0][polygon % 4];
         let checked = check(&tree, &camera, &mut Score::default());
         let checked =

@@ -1,4 +1,4 @@
-//! Files of trees: forged ones, and any bytes. A tree that is read can be used.
+//! Files of trees, either forged or with any bytes. A tree that is read must be usable.
 
 use super::super::decode;
 use super::super::saved::{bytes, seal, use_all};
@@ -68,9 +68,9 @@ fn file<P: binspace::Polygon>(
     (file.len() < MOST).then_some(file)
 }
 
-/// Changes a number of the file slightly or completely, or copies one over another.
+/// Changes a number of the file slightly or completely, or copies one number over another.
 fn change(bytes: &mut Unstructured<'_>, file: &mut [u8]) -> Result<()> {
-    // After the head, whose changes are always noticed.
+    // Changes begin after the head, because a changed head is always refused.
     let place = |bytes: &mut Unstructured<'_>| bytes.int_in_range(16..=file.len() - 5);
     let at = place(bytes)?;
     let word = |at: usize| at & !3;

@@ -1,4 +1,4 @@
-//! A tree of any scene, by any heuristic, judged.
+//! Builds a tree of any scene by any heuristic, and judges it.
 
 use super::super::dice::Dice;
 use super::super::hits::{Oracle, Score};

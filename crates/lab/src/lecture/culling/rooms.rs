@@ -85,7 +85,7 @@ impl Level {
     }
 }
 
-/// The view of an eye, and a plan of the polygons kept for it and for its cell.
+/// Shows the view of an eye, and a plan of the polygons kept for the eye and for its cell.
 fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Result<(), Failure> {
     let failure = |error| Failure::about("a view", error);
     let camera = Camera::perspective(eye, target, DVec3::Z, 0.9, SIZE).map_err(failure)?;
@@ -168,7 +168,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Adds to the number of kept polygons, and to the number of owners that are not kept.
+/// Adds to the number of kept polygons, and to the number of visible polygons that are not kept.
 fn add([kept, missing]: &mut [usize; 2], polygons: &[bool], owners: &BTreeSet<usize>) {
     *kept += polygons.iter().filter(|&&is_kept| is_kept).count();
     *missing += owners.iter().filter(|&&polygon| !polygons[polygon]).count();

@@ -39,8 +39,8 @@ pub(super) fn main_axes(area: Area) -> Vec<usize> {
     (0..3).filter(|&axis| largest - size[axis] <= largest >> 40).collect()
 }
 
-/// Checks that each point inside a simple polygon lies in one of its faces, and no other point does: in a
-/// projection along an axis, at points in the middle of a face and anywhere near.
+/// Checks that each point inside a simple polygon lies in one of its faces, and that no other point does.
+/// Tests points in the middle of a face and points anywhere near, in a projection along an axis.
 pub(super) fn winds_once(
     faces: &Faces,
     range: Range<u32>,

@@ -22,7 +22,7 @@ fn cells(rooms: usize, dice: &mut Dice) -> HashSet<Corner> {
     let mut grown = vec![[0, 0]];
     let mut cells = HashSet::from([[0, 0]]);
     while grown.len() < rooms {
-        // Mostly from the last room, so that corridors are long.
+        // The tree mostly grows from the last room, so that corridors are long.
         let last = grown.len() - 1;
         let from = grown[if dice.below(3) > 0 { last } else { dice.below(grown.len()) }];
         let step = STEPS[dice.below(4)];
@@ -62,7 +62,7 @@ fn around(cells: &HashSet<Corner>) -> Vec<Corner> {
     }
 }
 
-/// The cells to the left and to the right ahead of a corner; a cell is named by its lower left.
+/// The cells ahead of a corner, to the left and to the right. A cell is named by its lower left corner.
 fn sides([x, y]: Corner, heading: usize) -> [Corner; 2] {
     match heading {
         0 => [[x, y], [x, y - 1]],

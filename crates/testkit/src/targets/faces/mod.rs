@@ -1,4 +1,4 @@
-//! Polygons of up to some thousand corners, simple or not: their preparation before a tree is built.
+//! Tests the preparation of polygons of up to some thousand corners, simple or not.
 
 mod flat;
 mod maze;
@@ -16,7 +16,7 @@ use flat::{Area, area_of, cross, main_axes};
 use outline::Outline;
 use std::ops::ControlFlow;
 
-/// Other targets test trees that take longer.
+/// The largest number of fragments of a tree. Other targets test larger trees.
 const MOST_FRAGMENTS: usize = 20_000;
 /// A build that reports its progress more often takes too long as well. It reports about once in 65 536
 /// examined pieces.
@@ -155,7 +155,7 @@ impl Given {
         Self { corners, kind: place.kind, is_simple }
     }
 
-    /// Whether it is known not to touch or cross itself.
+    /// Whether the polygon is known not to touch or cross itself.
     fn is_simple(&self) -> bool {
         self.is_simple
     }

@@ -1,4 +1,4 @@
-//! Outlines of polygons in the plane, with integer corners: simple ones by construction, and others.
+//! Outlines of polygons in the plane, with integer corners. Some are simple by construction.
 
 use super::super::super::dice::Dice;
 use super::maze;
@@ -10,7 +10,7 @@ pub(super) type Corner = [i32; 2];
 #[derive(Clone, Debug)]
 pub(super) struct Outline {
     pub(super) corners: Vec<Corner>,
-    /// Whether it is known not to touch or cross itself, except for consecutive equal corners.
+    /// Whether the outline is known not to touch or cross itself, except for consecutive equal corners.
     pub(super) is_simple: bool,
 }
 
@@ -69,7 +69,7 @@ impl Shape {
     }
 }
 
-/// Any outline: one of the shapes, changed.
+/// Decodes an outline: a shape with changes.
 pub(super) fn some(bytes: &mut Unstructured<'_>) -> Result<Outline> {
     let (shape, size) = (*bytes.choose(&Shape::ALL)?, *bytes.choose(&SIZES)?);
     let size = size + bytes.int_in_range(0..=size / 2)?;

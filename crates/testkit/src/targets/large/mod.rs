@@ -20,8 +20,8 @@ use limits::Watched;
 /// A tree of more fragments takes too long to be judged, so its scene is halved.
 const MOST_FRAGMENTS: usize = 8_000;
 
-/// A build that reports its progress more often, about once in 65 536 examined pieces, takes too long as
-/// well.
+/// A build that reports its progress more often takes too long as well. It reports about once in 65 536
+/// examined pieces.
 const MOST_CALLS: usize = 100;
 
 /// Trees of at most this many fragments are judged in rationals.
