@@ -9,8 +9,8 @@ use testkit::prelude::*;
 /// A plane between cells: its axis, and the bits of its lattice coordinate.
 type Wall = (usize, u64);
 
-/// The definition of a vertex, independent of its polygon: the ends of an edge as given, in order, and a
-/// plane; or a polygon and two planes.
+/// The definition of a vertex. On an edge: the given ends of the edge, in order, and a plane, so that it does
+/// not depend on the polygon. Inside a polygon: the polygon and two planes.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Name {
     OnEdge([[u64; 3]; 2], Wall),
@@ -77,7 +77,7 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
     let mut total = [0; 2];
     for cells in 2..10 {
         let mut dice = Dice(cells as u64);
-        // Corners with many digits, so that nothing is exact by chance.
+        // Corners have many digits, so that nothing is exact by chance.
         let odd = |corner: DVec3| corner * 0.1 + DVec3::new(0.003, 0.007, 0.011) * corner.x;
         let polygons = triangles(&mut dice, 60, 30);
         let polygons = polygons.into_iter().map(|p| p.into_iter().map(odd).collect()).collect();

@@ -85,7 +85,7 @@ fn cells_have_about_as_many_samples() {
     }
 }
 
-/// Degenerate samples: none, one, all in one place, some NaN.
+/// Degenerate samples: no sample, one sample, all in one place, or some NaN.
 #[test]
 fn odd_samples_give_as_many_cells() {
     let polygons = tiles(&mut Dice(3), 30);
@@ -105,7 +105,7 @@ fn odd_samples_give_as_many_cells() {
     }
 }
 
-/// Samples in four places: planes go through the places, and leave some on both sides.
+/// Samples in four places. Planes go through these places, and have samples on both sides.
 #[test]
 fn planes_go_through_places_that_many_samples_share() {
     let options = BuildOptions::DEFAULT;
@@ -337,7 +337,7 @@ fn bounds_of_the_options_are_held_too() {
     assert!(options.build_cell(&scene.partition, 1, [square(99.0)]).is_ok());
 }
 
-/// Meshes, boxes and hits of a cell contain only its polygons' parts.
+/// Meshes, boxes and hits of a cell contain only the parts of polygons in the cell.
 #[test]
 fn a_cell_is_a_tree_as_any_other() {
     let terrain = scene::terrain(400, 3);
@@ -373,7 +373,7 @@ fn a_cell_is_a_tree_as_any_other() {
     enough!(hits[1] > 20; "{hits:?}");
 }
 
-/// More polygons or fragments than allowed, endless polygons among them, and a cancelled build.
+/// More polygons or fragments than allowed, also endless polygons, and a cancelled build.
 #[test]
 fn budgets_and_cancels_count_in_cells() {
     use std::ops::ControlFlow;

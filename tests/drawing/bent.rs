@@ -1,4 +1,5 @@
-//! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
+//! Polygons that are not planar, and that others cross along the edge where they are bent. Compared with rays
+//! in rationals.
 
 use super::on_grid;
 use super::overlay::{between, place_in};
@@ -31,7 +32,7 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
     }
 }
 
-/// A wall goes through an L along an edge that its triangulation made.
+/// A wall goes through an L-shaped polygon, along an edge that the triangulation of the L made.
 #[test]
 fn a_line_along_an_inner_edge_is_visible_or_hidden_once() {
     let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
@@ -168,7 +169,7 @@ pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> 
 
 #[derive(Debug, Default)]
 struct Score {
-    /// By the number of polygons in front: 0, 1, or more.
+    /// Counts by the number of polygons in front: 0, 1, or more.
     crossed: [usize; 3],
     /// Places where polygons touch.
     touched: usize,
@@ -275,7 +276,7 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
     lengths
 }
 
-/// The tolerance leaves the ends of polygons and their bends open.
+/// Within the tolerance, the ends of polygons and their bends are undecided.
 #[test]
 fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     let (mut dice, mut compared) = (Dice(15), 0);
@@ -290,7 +291,7 @@ fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
             let found = shown(&map.crossings(Hidden::Keep).unwrap());
             for (pair, length) in &expected {
                 let other = found.get(pair).copied().unwrap_or_default();
-                // (Slivers near their ends are the one's alone.)
+                // (Slivers near the ends of crossings may occur in only one of the two results.)
                 assert!((length - other).abs() < 0.05, "{pair:?}: {length} and {other}");
                 compared += 1;
             }

@@ -13,7 +13,7 @@ use testkit::shapes::rectangle;
 /// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
-    /// Paths before points of lines, and after them.
+    /// Paths painted before points of lines, and paths painted after them.
     below: usize,
     above: usize,
     marker_below: usize,
@@ -54,8 +54,8 @@ fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
     (is_on_outline || nearest >= NEAR).then_some(is_on_outline || winding != 0)
 }
 
-/// Judges the order of a drawing at points of its lines, a number for each part, and at its points: see
-/// `covers`.
+/// Judges the order of a drawing at some points of each part of its lines, and at its points. For `through`,
+/// see `covers`.
 fn check(
     tree: &BspTree,
     camera: &Camera,
@@ -77,7 +77,7 @@ fn check(
     let drawing =
         Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, Some(&overlay)).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
-    // The number of paths required before a point, and not before it.
+    // The number of paths that must come before a point, and the number that must not.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];

@@ -66,8 +66,8 @@ fn edges_over_a_grid_are_hidden_only_by_polygons_over_them() {
             sheets.iter_mut().for_each(|sheet| sheet.high = sheet.low.map(|c| c + 1));
         }
         let tree = tree_of(&sheets.iter().map(Sheet::corners).collect::<Vec<_>>());
-        // Pictures of the whole grid and of its middle. Only polygons whose rays are not rounded end on the
-        // border.
+        // Pictures of the whole grid and of its middle. Polygons end exactly on the border only if rays are
+        // not rounded.
         let (height, side) = [(8, 64), (4, 64), (4, 1), (8, 1), (12, 37), (2, 4)][round % 6];
         let camera = from_above(f64::from(height), [side; 2]);
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };

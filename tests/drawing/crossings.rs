@@ -47,7 +47,7 @@ fn crossings_show_beside_edges_that_lie_on_them_in_the_picture() {
     let wall = vec![[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
     let pane = vec![[-2.0, -2.0, -2.0], [2.0, -2.0, -2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
     let flap = vec![[-1.0, -3.0, 0.0], [0.0, -3.0, 0.0], [0.0, -3.0, 2.0]];
-    // From below, on another part of the line.
+    // This flap is on another part of the line, from below.
     let other = vec![[0.5, -3.0, 0.0], [1.0, -3.0, 0.0], [0.5, -3.0, -2.0]];
     let polygons = [wall, pane, flap, other];
     let eye = DVec3::new(0.0, -10.0, 0.0);
@@ -113,7 +113,7 @@ fn planes_through_one_line_cross_in_it() {
     assert!(seen > 16 * Heuristic::ALL.len());
 }
 
-/// Two upright cards that cross, and a bar before the middle of their crossing.
+/// Two upright cards cross, and a bar is in front of the middle of their crossing.
 #[test]
 fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
     let cards = [
@@ -137,8 +137,8 @@ fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
     }
 }
 
-/// A wall through a floor of tiles: a run for each tile, and one for two walls in a line with a gap
-/// between them.
+/// A wall through a floor of tiles has a run for each tile. Two walls in a line with a gap between them have
+/// one run each.
 #[test]
 fn a_wall_crosses_every_tile_of_a_floor() {
     let count = 2_000;

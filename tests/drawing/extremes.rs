@@ -12,7 +12,8 @@ fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
     rectangle([x - half, y - half], [x + half, y + half], z)
 }
 
-/// A hundred thousand squares behind a wall of ten; a million with an effort of ten, in some 20 seconds.
+/// A hundred thousand squares behind a wall of ten squares. With an effort of ten, a million squares, which
+/// take some 20 seconds.
 #[test]
 fn ten_of_a_million_polygons_show() {
     let layers = times(10).min(100) as u32;

@@ -1,4 +1,4 @@
-//! Many triangles around one vertex: cells grow with their number, not with its square.
+//! Many triangles around one vertex. The number of cells is linear in the number of triangles, not quadratic.
 
 use super::map_of;
 use testkit::prelude::*;

@@ -1,5 +1,5 @@
 //! Crossings of polygons whose corners are on a small grid, so that nearly everything coincides somewhere:
-//! edges on planes, corners on edges, polygons in one plane, eyes in planes; against rationals.
+//! edges on planes, corners on edges, polygons in one plane, eyes in planes. Compared with rationals.
 
 use super::bent::{at, do_cross, sides_at};
 use super::overlay::between;
@@ -17,7 +17,7 @@ fn corner(dice: &mut Dice) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| dice.range(0.0, GRID).floor()))
 }
 
-/// Triangles, parallelograms, and quads that are bent; some with corners of others.
+/// Triangles, parallelograms, and bent quads. Some share corners with others.
 fn polygons(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons: Vec<Vec<DVec3>> = vec![];
     while polygons.len() < count {
@@ -84,7 +84,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
                 let Some(place) = sightlines.place_of(&point) else { continue };
                 let here: Vec<_> = at(&all, pair, place).collect();
                 if !is_crossed {
-                    // Another of their crossings may be seen there.
+                    // Another crossing of the same polygons may be visible there.
                     score.touched += usize::from(here.is_empty());
                     continue;
                 }

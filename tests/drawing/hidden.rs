@@ -1,4 +1,4 @@
-//! Polygons that are just hidden, and just visible.
+//! Polygons that are just hidden, and polygons that are just visible.
 
 use super::map_of;
 use testkit::fill::{Score, check};
@@ -58,7 +58,7 @@ fn the_narrowest_gap_shows_polygons_behind() {
     }
 }
 
-/// A wall cut into many pieces by polygons in front of it hides everything behind it.
+/// A wall hides everything behind it, although polygons in front of the wall cut it into many pieces.
 #[test]
 fn a_wall_in_pieces_hides_all_behind_it() {
     let mut polygons = vec![sized([-50.0, -50.0], [100.0; 2], 0.0)];

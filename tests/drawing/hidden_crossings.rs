@@ -45,7 +45,7 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     runs.sort_by(|a, b| a.ends[0][1].min(a.ends[1][1]).total_cmp(&b.ends[0][1].min(b.ends[1][1])));
     let found: Vec<(Option<u32>, f64)> =
         runs.iter().map(|run| (run.layers, (length(run) * 1e6).round() / 1e6)).collect();
-    // From the top: y goes down in the picture.
+    // Runs are listed from the top, because y points down in the picture.
     let expected = [(0, 10.0), (1, 5.0), (2, 10.0), (1, 10.0), (0, 5.0)];
     assert_eq!(found, expected.map(|(layers, length)| (Some(layers), length)));
     for run in &runs {
@@ -72,7 +72,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
         let faces: Vec<Face> =
             (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
         assert_eq!(faces.len(), polygons.len());
-        // Rationals are slow: only for triangles whose boxes have points in common.
+        // Rationals are slow, so only triangles whose boxes overlap are compared.
         let boxes: Vec<[DVec3; 2]> =
             polygons.chunks(1).map(|corners| bounds(corners).expect("corners")).collect();
         let mut crossing: Vec<(usize, usize, [Point; 2])> = vec![];

@@ -153,7 +153,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
         .map(|i| {
             let (at, x, y) =
                 (random.point(-8.0, 8.0), random.point(-1.0, 1.0), random.point(-1.0, 1.0));
-            // On a grid, so that all corners of a polygon are in one plane.
+            // Corners are on a grid, so that all corners of a polygon are in one plane.
             let [at, x, y] = [at, x * 8.0, y * 8.0].map(|v| v.round() / 8.0);
             outlines[i % outlines.len()].iter().map(|[u, v]| at + x * *u + y * *v).collect()
         })

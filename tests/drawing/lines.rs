@@ -88,7 +88,7 @@ fn edges_on_one_line_have_separate_runs() {
             let mut found = [0.0, 0.0];
             for run in &runs {
                 let [a, b] = run.ends;
-                // The two walls have one edge in common: it is reported for the first.
+                // The two walls have a common edge, which is reported for the first wall.
                 if (run.polygon, run.edge) == (polygon, Some(k as u32)) {
                     found[usize::from(!run.is_visible)] += (b[0] - a[0]).hypot(b[1] - a[1]) / 10.0;
                 }
@@ -130,8 +130,8 @@ struct Score {
     unsure: usize,
 }
 
-/// Tests by rays whether points of runs are hidden by polygons that do not have the edge. Points where rays
-/// slightly to the left and to the right do not agree are left out.
+/// Tests by rays whether points of runs are hidden by polygons that do not contain the edge. Points where
+/// rays slightly to the left and to the right do not agree are left out.
 fn check_runs(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],

@@ -1,4 +1,4 @@
-//! Cameras from matrices: pictures and drawings agree with the matrix applied in floats.
+//! Cameras from matrices: compares pictures and drawings with the matrix applied in floats.
 
 use binspace::glam::{DMat4, DVec4};
 use binspace::paint::paint_tree;
@@ -57,7 +57,8 @@ fn shown(triangles: &[Shown], is_parallel: bool, at: DVec3) -> Option<u32> {
     }
 }
 
-/// A map of clip coordinates: oblong, sheared, off-axis, and, from an eye, with a tilted picture.
+/// A map of clip coordinates that stretches, shears and shifts the picture. For an eye, it also tilts the
+/// picture.
 fn skew(dice: &mut Dice, is_parallel: bool) -> DMat4 {
     let [x, y] = [dice.range(0.3, 2.0), dice.range(0.3, 2.0)];
     let [a, b] = [y * dice.range(-0.7, 0.7), x * dice.range(-0.7, 0.7)];

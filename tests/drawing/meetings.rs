@@ -43,7 +43,7 @@ fn check_parts(wall: &[Vec<DVec3>], missing: impl Iterator<Item = usize>) {
     }
 }
 
-/// A cone of triangles, whose apex is nearest to the eye, and one whose apex is furthest.
+/// A cone of triangles whose apex is nearest to the eye, and a cone whose apex is furthest.
 #[test]
 fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
     const COUNT: usize = 300;
@@ -60,7 +60,7 @@ fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
     }
 }
 
-/// Bricks in a tilted plane, each row shifted against the next: corners end in the middle of edges.
+/// Bricks in a tilted plane. Each row is shifted against the next, so corners are in the middle of edges.
 #[test]
 fn walls_with_t_junctions_hide_polygons_behind() {
     // A rectangle of width 30 and height 20, in a plane with whole numbers.

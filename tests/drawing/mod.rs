@@ -1,5 +1,5 @@
-//! Visibility maps and drawings, compared with pictures whose every pixel is decided by separate integers,
-//! and with rays.
+//! Compares visibility maps and drawings with rays, and with pictures in which separate integers decide every
+//! pixel.
 
 mod areas;
 mod bent;

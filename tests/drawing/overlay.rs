@@ -168,7 +168,7 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     assert_eq!(one(&[[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]]), []);
 }
 
-/// There is no crack where two walls meet, and a line along the corner of a room is visible on both.
+/// There is no crack where two walls meet. A line along the corner of a room is visible on both walls.
 #[test]
 fn lines_in_cracks_and_corners() {
     let halves =
@@ -214,7 +214,7 @@ fn lines_across_the_eye_end_with_the_picture() {
     let runs = map.lines(&overlay, Hidden::Keep).unwrap();
     let [seen, hidden] = runs[..] else { panic!("{runs:?}") };
     assert!(seen.is_visible && !hidden.is_visible && seen.line == 0);
-    // From the right end of the picture to the vanishing point, to a thousandth of a pixel.
+    // The line goes from the right end of the picture to the vanishing point, up to a thousandth of a pixel.
     let [_, pixel] = camera.pixel_size();
     let expected = [200.0, 100.0 + 0.001 / 90.0 / pixel, 100.0 + 0.001 / 1e6 / pixel];
     for (at, x) in [seen.ends[0], seen.ends[1], hidden.ends[1]].into_iter().zip(expected) {

@@ -96,7 +96,7 @@ fn lines_are_as_few_as_can_be_and_travel_is_short() {
 
 #[test]
 fn the_straightest_way_is_taken() {
-    // Two long lines that cross in a corner of both.
+    // Two long lines that cross in a common corner.
     let point = |x: f64, y: f64| [x, y];
     let arms = [point(0.0, 1.0), point(2.0, 1.0), point(1.0, 0.0), point(1.0, 2.0)];
     let lines = polylines(arms.map(|arm| [arm, point(1.0, 1.0)])).unwrap();
@@ -139,7 +139,7 @@ fn a_cube_is_two_lines() {
     assert_eq!((visible.len(), lines.len()), (9, 2));
 }
 
-/// A fan of many segments at one corner, and a chain of many, on a thread with little room.
+/// A fan of many segments at one corner, and a chain of many segments, on a thread with a small stack.
 #[test]
 fn corners_of_many_and_long_lines_take_no_stack() {
     let spread = std::thread::Builder::new().stack_size(1 << 18).spawn(|| {

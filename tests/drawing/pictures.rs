@@ -86,7 +86,7 @@ fn no_background_shows_in_seams() {
     assert!(changed < 4, "{changed} pixels");
 }
 
-/// Drawings of triangles that go through one another, and of a city.
+/// Drawings of triangles that cross each other, and of a city.
 fn drawings() -> Vec<Drawing> {
     let scenes = [(Builtin::Random, 200), (Builtin::City, 200), (Builtin::Crossing, 6)];
     let drawing = |(scene, count): (Builtin, u32)| {
@@ -195,7 +195,7 @@ fn markers_lines_and_labels_are_at_their_places() {
     let label = document.descendants().find(|node| node.has_tag_name("text")).unwrap();
     assert_eq!(label.text(), Some("a & b"));
     assert_eq!(label.attribute("text-anchor"), Some("middle"));
-    // In units of 1/500 of a pixel: half the height of a capital letter below the point.
+    // In units of 1/500 of a pixel: the baseline is half the height of a capital letter below the point.
     let place =
         ["x", "y"].map(|axis| label.attribute(axis).unwrap().parse::<f64>().unwrap() / 500.0);
     assert!(place[0] == 50.0 && (place[1] - 10.0 - 0.359 * 20.0).abs() < 2e-3, "{place:?}");
@@ -241,7 +241,8 @@ fn strokes_leave_out_the_border_of_the_picture() {
     picture.add_drawing(&drawing, |_| Paint::from([200; 3]).with_stroke(Stroke::new(2.0, [0; 3])));
     let pixels = crisp(&picture);
     let at = |x: usize, y: usize| pixels[40 * y + x];
-    // From the left: the border, the inside, the right edge, the background; and the edges above and below.
+    // The pixels from the left: the border, the inside, the right edge, the background. Then the edges above
+    // and below.
     assert_eq!([0, 15, 29, 35].map(|x| at(x, 20)), [[200; 3], [200; 3], [0; 3], [255; 3]]);
     assert_eq!([10, 29].map(|y| at(0, y)), [[0; 3]; 2]);
 }
@@ -346,7 +347,7 @@ fn fill_at_random(
     }
 }
 
-/// For any numbers, a file is well-formed, and its numbers are finite.
+/// For any input numbers, a file is well-formed, and its numbers are finite.
 #[test]
 fn odd_numbers_make_no_broken_files() {
     const ODD: [f64; 12] = [

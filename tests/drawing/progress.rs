@@ -127,7 +127,7 @@ fn check(name: &str, listener: &Listener, operation: impl Fn() -> Result<String,
     found
 }
 
-/// On one thread, so that two runs have the same calls.
+/// Runs on one thread, so that two runs have the same calls.
 fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(act)
 }
@@ -168,7 +168,7 @@ fn queries_of_a_map_report_progress_and_can_be_cancelled() {
     });
 }
 
-/// On several threads calls come one at a time, in order, and none after the one that cancels.
+/// On several threads, calls come one at a time and in order, and no call comes after the call that cancels.
 #[test]
 fn threads_report_in_order() {
     let (view, listener) = (view(330), Listener::default());
@@ -191,7 +191,7 @@ fn threads_report_in_order() {
     });
 }
 
-/// Two discs with `corners` corners each that go through one another.
+/// Two discs with `corners` corners each, which cross.
 fn discs(corners: u32) -> View {
     let disc = |tilt: f64| -> Vec<DVec3> {
         let corner = |i: u32| {

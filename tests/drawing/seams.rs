@@ -22,7 +22,8 @@ fn length([a, b]: [[f64; 2]; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// The length of the longest seam: the part that two sides of some outlines share in opposite directions.
+/// The length of the longest seam. A seam is the common part of two sides of outlines that run in opposite
+/// directions.
 fn seam(outlines: &[Outline]) -> f64 {
     let mut longest = 0.0_f64;
     for (i, one) in sides(outlines).enumerate().filter(|(_, side)| length(*side) > 1e-3) {
@@ -74,7 +75,7 @@ fn from_the_south() -> Camera {
     Camera::perspective_by_slope(eye, target, DVec3::Z, 0.25, [250, 250]).unwrap()
 }
 
-/// A cut of one polygon lies on an edge of another.
+/// A cut of one polygon lies on an edge of another polygon.
 #[test]
 fn a_region_has_no_seam_along_a_cut_on_an_edge() {
     let polygons = [
@@ -112,7 +113,7 @@ fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     let tree = tree_of(&polygons);
     let camera = from_above(8.0, [64, 64]);
     let map = map_of(&tree, &camera);
-    // The rectangle, and the triangle, which touches its border with a corner.
+    // The rectangle, and the triangle, which touches the border of the rectangle with a corner.
     let regions = map.regions().unwrap();
     assert_eq!(regions[0].outlines().map(<[_]>::len).collect::<BTreeSet<_>>(), [3, 4].into());
     assert_eq!(fault(&tree, &camera, &[1.0; 2]), None);
@@ -215,7 +216,7 @@ fn outlines_over_a_grid_have_no_seams() {
             0 => Camera::parallel(target - eye, DVec3::Z, target, 12.0, size),
             _ => Camera::perspective_by_slope(eye, target, DVec3::Z, 0.4, size),
         };
-        // An eye right above the target has no up.
+        // If the eye is right above the target, the up vector is invalid.
         let Ok(camera) = camera else { continue };
         let fault = fault(&tree, &camera, &opacities);
         assert_eq!(fault, None, "{round}: {polygons:?}, {opacities:?}, {camera:?}");

@@ -1,4 +1,5 @@
-//! The polygons that hide a point, in rationals: faces, with their edges, between it and the eye.
+//! The polygons that hide a point, in rationals: their faces, including edges, are between the point and the
+//! eye.
 
 use binspace::internals::Lattice;
 use num_traits::One;
@@ -88,12 +89,12 @@ impl Sightlines {
             .filter(|((_, face), _)| self.is_before(face, point))
             .map(|((polygon, _), _)| *polygon)
             .collect();
-        // Faces of one polygon follow one another.
+        // Faces of one polygon are consecutive.
         polygons.dedup();
         polygons
     }
 
-    /// Whether the line of sight of a point may go through a face, if floats decide: only to save time.
+    /// Whether the line of sight of a point may go through a face. Floats decide, to save time.
     fn may_be_before(&self, corners: &[DVec3], point: DVec3) -> bool {
         let (from, way) = match &self.origin {
             Origin::Eye(_) => (self.from, point - self.from),

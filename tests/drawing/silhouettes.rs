@@ -8,7 +8,7 @@ use testkit::prelude::*;
 
 type Corners = Vec<Vec<DVec3>>;
 
-/// A ring of quads, not convex, with lumps: none of the quads is planar.
+/// A ring of quads with lumps. It is not convex, and no quad is planar.
 fn torus(around: usize, across: usize) -> Corners {
     let point = |i: usize, k: usize| {
         let angle = |n: usize, of: usize| std::f64::consts::TAU * (n % of) as f64 / of as f64;

@@ -7,7 +7,7 @@ use testkit::layered::{Layers, check_layers, check_mixed, check_sight};
 use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
-/// Opacities of a third of the polygons, of nearly all, and with some left out.
+/// Opacities: a third of the polygons are translucent, nearly all are, or some are left out.
 const MIXES: [fn(usize) -> f64; 3] = [
     |polygon| if polygon.is_multiple_of(3) { 0.5 } else { 1.0 },
     |polygon| if polygon.is_multiple_of(17) { 1.0 } else { 0.25 },
@@ -48,7 +48,7 @@ fn layers_of_whole_scenes_agree_with_the_tree() {
         [all, mixed].iter().all(|score| score.unsure < score.pixels / 100),
         "{all:?} {mixed:?}"
     );
-    // Most cuts of the tree are undone, and few polygons are in parts.
+    // Most cuts of the tree are undone, and few polygons are drawn in parts.
     assert!(all.paths * 2 < all.polygons * 3, "{all:?}");
     assert!(mixed.paths * 10 < mixed.polygons * 11, "{mixed:?}");
 }

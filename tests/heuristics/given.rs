@@ -18,7 +18,7 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
 
-/// The plane of the piece with the lowest score; of equal scores, the first.
+/// The plane of the piece with the lowest score. Of equal scores, the first piece counts.
 fn least(
     set: &PieceSet<'_>,
     candidates: usize,
@@ -78,7 +78,8 @@ fn built_in_heuristics_written_against_the_interface_build_the_same_trees() {
         for seed in 0..24 {
             let scene = scene(&mut Dice(seed), 4 + seed as usize * 3);
             let options = BuildOptions::DEFAULT.with_tolerance(0.0);
-            // If the function declines, this would be visible.
+            // If the function declined, this heuristic would choose another plane, and the trees would
+            // differ.
             let options = options.with_heuristic(Heuristic::FreePlanes);
             let own = options.with_chooser(move |set| rewritten(by, set));
             let own = own.build(&scene).expect("a tree");
@@ -203,7 +204,8 @@ fn an_invalid_or_useless_plane_counts_as_none() {
     }
 }
 
-/// The side of the plane through three points on which a fourth is. All are multiples of a quarter.
+/// The side of the plane through three points on which a fourth point is. All coordinates are multiples of a
+/// quarter.
 fn side_of([p, q, r]: [DVec3; 3], at: DVec3) -> i128 {
     let [a, b, c] = [q - p, r - p, at - p].map(|arm| (arm * 4.0).to_array().map(|c| c as i128));
     a[0] * (b[1] * c[2] - b[2] * c[1])

@@ -1,5 +1,5 @@
-//! Each heuristic is compared with its documentation, at every node, by brute force in exact rationals: on
-//! integer scenes, where the cuts of a plane are certain.
+//! Compares each heuristic with its documentation, at every node, by brute force in exact rationals. Scenes
+//! have integer coordinates, so that the cuts of a plane are certain.
 
 mod divided;
 mod given;
@@ -9,7 +9,7 @@ use divided::{Counts, Divided, nodes, work};
 use testkit::prelude::*;
 use testkit::shapes;
 
-/// A scene on a small lattice, of one of several kinds.
+/// A scene of one of several kinds, on a small lattice.
 fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let wide = 2 + dice.below(8) as u32;
     let kind = dice.below(3);

@@ -90,8 +90,8 @@ pub(crate) fn noisy_layers(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("noisy layers", (0..n).map(triangle).collect()).shuffled(dice).with_tolerance(4.5)
 }
 
-/// Boxes side by side and one on the other, each row shifted: sides that coincide, edges that end in the
-/// middle of others.
+/// Boxes side by side and one on the other. Each row is shifted, so sides coincide, and edges end in the
+/// middle of other edges.
 pub(crate) fn bricks(dice: &mut Dice, n: usize) -> Scene {
     let across = ((n / 6) as f64).cbrt().ceil() as i64;
     let mut polygons = Vec::new();
@@ -111,7 +111,7 @@ fn cuboid(low: Point, size: Point) -> Vec<Vec<Point>> {
     sides.map(|side| side.map(corner).to_vec()).to_vec()
 }
 
-/// Triangles with others that touch one of their edges in its middle, or in thirds.
+/// Triangles, and other triangles that touch an edge of these in its middle or at its thirds.
 pub(crate) fn t_junctions(dice: &mut Dice, n: usize) -> Scene {
     let mut polygons: Vec<Vec<Point>> = Vec::new();
     let across = ((n / 4) as f64).cbrt().ceil() as i64;

@@ -8,7 +8,7 @@ use testkit::as_given::trees_by_rays::Score;
 use testkit::prelude::*;
 use testkit::slivers::{Sliver, along, whole};
 
-/// Coordinates are below this. Too large: viewpoints have no room for exact digits.
+/// Coordinates are below this. Too large: viewpoints cannot have enough exact digits.
 const SIZE: i64 = 1 << 43;
 /// About half of the default tolerance.
 const NEAR: i64 = SIZE / 1_000_000_000;

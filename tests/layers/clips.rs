@@ -109,7 +109,7 @@ fn a_layer_is_seen_inside_all_its_ancestors() {
     enough!(seen > 500, hidden > 600, cut > 20; "{seen} {hidden} {cut}");
 }
 
-/// Every edge with a number lies on that edge of the layer, or of that ancestor.
+/// Every edge with a number lies on the edge of the layer or ancestor that has this number.
 #[test]
 fn edges_made_by_ancestors_have_their_numbers() {
     let mut dice = Dice(72);

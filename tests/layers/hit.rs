@@ -6,8 +6,8 @@ use binspace::layers::{Layer, Layers};
 use testkit::pages::Page;
 use testkit::prelude::*;
 
-/// A rectangle far from its own origin, where (u, v) are rounded coarsely: a painted point is hit if it is
-/// further from the edges than 10⁻⁹ of the viewport.
+/// A rectangle far from its own origin, where (u, v) are rounded coarsely. A painted point is hit if its
+/// distance from the edges is more than 10⁻⁹ of the viewport.
 #[test]
 fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() {
     let mut dice = Dice(51);
@@ -24,7 +24,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
             let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
             for (k, &a) in corners.iter().enumerate() {
                 let along = corners[(k + 1) % corners.len()] - a;
-                // To the right of the edge, as y runs down.
+                // Points to the right of the edge, because y points down.
                 let inwards = along.perp().normalize();
                 let on_edge = a + along * (0.1 + 0.8 * dice.share());
                 let beside = |distance: f64| (on_edge + inwards * distance).to_array();

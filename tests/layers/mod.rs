@@ -1,5 +1,5 @@
-//! Pages of layers, compared with exact rationals of the rectangles and matrices: the visible part of a
-//! layer, its point at a point of the screen, and the painting order.
+//! Compares pages of layers with exact rationals of the rectangles and matrices: the visible part of a layer,
+//! the point of a layer that appears at a point of the screen, and the painting order.
 
 mod clips;
 mod drawn;
@@ -75,7 +75,7 @@ fn page_of(layers: &[Given]) -> Layers {
     page_on(VIEWPORT, true, layers.iter().map(Given::layer))
 }
 
-/// Rectangles of all sizes turned every way, many partly behind the eye or beside the screen.
+/// Rectangles of all sizes in any orientation, many partly behind the eye or beside the screen.
 fn wild(dice: &mut Dice) -> Given {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let low = [between(-900.0, 300.0), between(-900.0, 300.0)];

@@ -1,4 +1,4 @@
-//! The order of pages, judged at points of the screen by the exact depths of the layers given.
+//! Judges the order of pages at points of the screen, by the exact depths of the given layers.
 
 use super::oracle::{Point2, Truth, covers, number};
 use super::{Given, layers_of, order, outlines, page_of, wild};

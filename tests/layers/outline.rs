@@ -12,8 +12,8 @@ const STEPS: f64 = 20.0 * f64::EPSILON;
 /// The box that layers are clipped to.
 const REACH: f64 = 1920.0 * (1u64 << 20) as f64;
 
-/// The error bound of x/w, y/w and z/w where the layer's point (u, v) appears: the sum of its terms, over
-/// w, in `STEPS`.
+/// The error bound of x/w, y/w and z/w at the layer's point (u, v): the sum of the terms, divided by w, times
+/// `STEPS`.
 fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
     let terms = |k: usize| {
         let [u, v, one] = [0, 1, 3].map(|column: usize| given.matrix.col(column)[k].abs());
@@ -80,7 +80,7 @@ fn edges_of_the_rectangle_are_told_from_clips() {
             assert_eq!(piece.edges().len(), locals.len());
             for (k, edge) in piece.edges().enumerate() {
                 let [a, b] = [k, (k + 1) % locals.len()].map(|k| locals[k]);
-                // Points of an edge have the edge's own coordinate, bit for bit.
+                // Points on an edge have the coordinate of the edge, bit for bit.
                 let lies_on = [
                     a.y == v0 && b.y == v0,
                     a.x == u1 && b.x == u1,
@@ -128,7 +128,7 @@ fn places_in_a_layer_are_right_after_the_division() {
                 continue;
             };
             let [u, v] = [0, 1].map(|k: usize| number(&exactly[k]));
-            // Steep layers magnify a rounding error on the screen in the layer.
+            // A rounding error on the screen is a larger error in the coordinates of a steep layer.
             let [_, _, z, w] = truth.homogeneous(&exactly);
             assert!(w.is_positive() && !z.is_zero());
             let steep = steepness(&given, [u, v], number(&w));

@@ -58,7 +58,7 @@ fn cards_put_into_one_plane_by_f64_matrices_stay_whole() {
     }
 }
 
-/// Layers a thousandth of a pixel apart keep their order beside one that passes through the eye.
+/// Layers a thousandth of a pixel apart keep their order beside a layer that passes through the eye.
 #[test]
 fn a_layer_through_the_eye_does_not_merge_thin_layers() {
     let card = [[-100.0, -60.0], [100.0, 60.0]];
@@ -73,7 +73,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
             for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
                 assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
             }
-            // The wall may cut them, and all parts on one side of it come first.
+            // The wall may cut the cards. Then all parts on one side of the wall come first.
             let mut cards: Vec<usize> =
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
             cards.dedup();
@@ -92,7 +92,7 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     let wall = camera() * DMat4::from_rotation_y(1.5);
     let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
     let page = page_on(VIEWPORT, false, [wall, at(0.2), at(0.0), at(0.1)]);
-    // The wall may cut them.
+    // The wall may cut the cards.
     let mut cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
     cards.dedup();
     let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);

@@ -16,7 +16,7 @@ fn floats(triangle: &Triangle) -> Vec<[f64; 3]> {
     triangle.map(|p| p.map(|c| c as f64)).to_vec()
 }
 
-/// Faces of some triangles behind one that spans the scene, so that no corner is moved.
+/// Faces of a triangle that spans the scene, so that no corner is moved, and of the given triangles.
 fn faces(triangles: &[Triangle]) -> Faces {
     let all = [[[-EDGE; 3], [EDGE; 3], [EDGE, -EDGE, 0]]];
     let all: Vec<_> = all.iter().chain(triangles).map(floats).collect();
@@ -25,7 +25,7 @@ fn faces(triangles: &[Triangle]) -> Faces {
     faces
 }
 
-/// The target of a search for planes: a place as numerators over a denominator, and rounded.
+/// The target of a search for planes: a place as numerators and a denominator, and the rounded place.
 struct Place {
     over: [IBig; 3],
     denominator: IBig,
@@ -287,8 +287,8 @@ fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyon
     }
 }
 
-/// Without a tolerance, even the least distance counts: a corner one lattice step off the plane of a
-/// triangle of single steps, where the plane's value is 1.
+/// Without a tolerance, even the least distance counts. A corner is one lattice step off the plane of a
+/// triangle with sides of one step, where the plane's value is 1.
 #[test]
 fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
     let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];

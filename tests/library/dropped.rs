@@ -1,5 +1,5 @@
-//! The polygons that preparation drops, keeps whole and counts as duplicates, checked by brute force in big
-//! integers, on polygons with little or no area.
+//! Checks by brute force in big integers which polygons preparation drops, keeps whole and counts as
+//! duplicates. Polygons have little or no area.
 
 use binspace::internals::Lattice;
 use dashu_int::IBig;
@@ -23,7 +23,7 @@ fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     corners
 }
 
-/// The corners on the lattice that some face of the polygon has; none of a polygon without faces.
+/// The corners on the lattice that occur in a face of the polygon; an empty list for a polygon without faces.
 fn known_outline(faces: &Faces, polygon: usize, corners: &[DVec3]) -> Vec<Vector> {
     let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
     let numbers: BTreeSet<u32> = own
@@ -35,7 +35,8 @@ fn known_outline(faces: &Faces, polygon: usize, corners: &[DVec3]) -> Vec<Vector
     numbers.into_iter().map(|number| snap(number).map(|c| IBig::from(c as i64))).collect()
 }
 
-/// Two arms from the first corner that are not collinear, if there are any.
+/// The cross product of two edges from the first corner that are not collinear; `None` if all corners are
+/// collinear.
 fn plane(corners: &[Vector]) -> Option<Vector> {
     let arms: Vec<Vector> = corners.iter().map(|corner| difference(corner, &corners[0])).collect();
     let pairs = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
@@ -76,7 +77,7 @@ fn area(corners: &[Vector]) -> Vector {
     })
 }
 
-/// Whether the corners are in one plane, on their convex hull, and in order around their middle, once.
+/// Whether the corners are in one plane and on their convex hull, and go around their middle once.
 fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     let flat = |corner: &Vector| scalar(normal, &difference(corner, &corners[0])).is_zero();
     if !corners.iter().all(flat) {
@@ -126,7 +127,8 @@ fn is_same(a: &[Vector], b: &[Vector]) -> bool {
 #[derive(Debug, Default)]
 struct Kinds {
     on_a_line: usize,
-    /// Dropped polygons that run out and back, and others whose parts cancel.
+    /// Dropped polygons whose corners are not collinear: outlines that run out and back, and outlines whose
+    /// parts cancel.
     folded: usize,
     cancelled: usize,
     whole: usize,
@@ -183,8 +185,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Polygons of little or no area: collinear corners, corners off a line by ulps, repeated, running out and
-/// back; needles; and other polygons, some given twice.
+/// Polygons of little or no area: with collinear corners, with corners off a line by ulps, with repeated
+/// corners, running out and back, and needles. Also other polygons, some given twice.
 fn thin(seed: u64, count: usize) -> Vec<Corners> {
     let mut dice = Dice(seed);
     let lattice = dice.below(2) == 0;

@@ -17,8 +17,8 @@ fn planes(faces: &Faces) -> impl Iterator<Item = PlaneId> {
     (0..faces.len() as u32).map(PlaneId::face).chain(axes)
 }
 
-/// The side of an eye infinitely far in a direction, where the direction's rounding to 52 bits
-/// cannot matter.
+/// The side of an eye infinitely far in a direction; `None` if rounding the direction to 52 bits may change
+/// the side.
 fn side_of_direction(plane: &Plane, towards: &Point) -> Option<Ordering> {
     let value = rational::scalar(&plane.normal, towards);
     let size = |v: &Point| v.iter().map(Signed::abs).max().expect("three");

@@ -1,4 +1,5 @@
-//! Facts about the faces of any scene: convex, planar, at the input's positions, and whole if possible.
+//! Checks that the faces of any scene are convex, planar, at the positions of the input, and whole if
+//! possible.
 
 use binspace::internals::{PreparedPlane, Side, Vertex, split};
 use proptest::prelude::*;
@@ -45,7 +46,7 @@ fn with_repeats(mut scene: HardScene, repeats: &[(Index, Index)]) -> HardScene {
     scene
 }
 
-/// Any finite number: of every size, and typical of a scene.
+/// Any finite number: numbers of every size, and typical coordinates.
 fn any_finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>().prop_filter("finite", |x| x.is_finite()),

@@ -51,7 +51,7 @@ fn nothing_else_changes_the_input_order_of_polygons_in_one_plane() {
         (1e-8, 0.1, 0.9e-9),
         (1e-3, 0.5, 4e-4),
         (0.5, 0.01, 1e-9),
-        // All are in one plane within the tolerance.
+        // All polygons are in one plane within the tolerance.
         (1e-9, 0.1, 2e-9),
     ] {
         for (name, tree) in trees(&scene(rise, overlap), tolerance) {

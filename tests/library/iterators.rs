@@ -116,8 +116,8 @@ fn fragments_and_nodes_are_read_from_both_ends() {
     enough!(deep > 10; "{deep}");
 }
 
-/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other; then a
-/// square through the first two.
+/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other. Then a square
+/// through the first two squares.
 #[test]
 fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     let square = |z: f64| sheet(2, z, 4.0).to_vec();

@@ -1,10 +1,10 @@
-//! The library's modules, the files and folders of `src`, import one way.
+//! The library's modules, which are the files and folders of `src`, have no import cycle.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The text of a module's files, without comments and without everything from the first test on.
+/// The text of a module's files, without comments and without the tests at the end of each file.
 fn text_of(path: &Path) -> String {
     if path.file_stem().is_some_and(|name| name == "tests") {
         return String::new();

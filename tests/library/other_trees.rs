@@ -1,4 +1,4 @@
-//! Objects made from one tree, used with another of the same size: refused, or right.
+//! Objects made from one tree and used with another tree of the same size are refused, or give right results.
 
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
@@ -74,7 +74,7 @@ fn an_overlay_of_another_frame_is_refused() {
     }
 }
 
-/// Boxes belong to a tree and follow it: through copies, extensions and frames.
+/// Boxes belong to a tree, and stay right through copies, extensions and frames.
 #[test]
 fn boxes_belong_to_the_current_polygons_of_the_tree() {
     let mut tree = BspTree::build([square(0.0)]).expect("within budget");

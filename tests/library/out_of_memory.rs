@@ -1,5 +1,5 @@
-//! If the polygons, a tree's file or its mesh do not fit into memory, there is an error and the program
-//! continues. Each case runs in a separate process, with limited memory.
+//! If the polygons, a tree's file or a tree's mesh do not fit into memory, an error is returned and the
+//! program continues. Each case runs in a separate process, with limited memory.
 #![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
 
 use binspace::ErrorKind;
@@ -11,7 +11,7 @@ use testkit::scenes::polygons;
 
 type Polygons = Vec<Vec<DVec3>>;
 
-/// Names the case to a process that this test starts.
+/// The environment variable that names the case in a process that this test starts.
 const CASE: &str = "BINSPACE_OUT_OF_MEMORY";
 
 const CASES: [&str; 8] = ["heap", "sphere", "layers", "sampled", "extend", "frame", "read", "mesh"];
@@ -99,7 +99,7 @@ fn tree_file() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("out_of_memory.tree")
 }
 
-/// This program again, as a case, with some memory.
+/// Runs this program again for one case, with limited memory.
 fn process(case: &str, kilobytes: Option<usize>) -> Output {
     let program = env::current_exe().expect("this program");
     let limit = kilobytes.map_or("unlimited".to_owned(), |kilobytes| kilobytes.to_string());
@@ -126,7 +126,7 @@ fn printed(output: &Output, words: &str) -> Option<usize> {
 #[ignore = "a part of the other test, which runs it in processes of its own"]
 fn one_case() {
     let case = env::var(CASE).expect("the other test names it");
-    // The pool's threads, started before there is a limit.
+    // Starts the pool's threads before there is a limit.
     rayon::join(|| (), || ());
     let kept = keep_small_change();
     let failed = run(&case);

@@ -48,7 +48,7 @@ fn polygon(i: usize) -> Corners {
     flat.iter().map(|&corner| cell * 4.0 + DVec3::from_array(corner)).collect()
 }
 
-/// A triangle whose bounding box holds the others, so that it alone decides the lattice.
+/// A triangle whose bounding box contains all polygons, so that this triangle alone determines the lattice.
 fn ground() -> Corners {
     let side = 4.0 * ACROSS as f64;
     [[-1.0, -1.0, -1.0], [side, -1.0, 20.0], [-1.0, side, 3.0]].map(DVec3::from).into()
@@ -156,7 +156,7 @@ fn a_tree_extended_by_several_parts_equals_the_tree_of_all_polygons() {
         let (mesh, mut moved) = (tree.mesh().expect("memory"), 0);
         for fragment in tree.fragments().filter(|fragment| fragment.is_whole()) {
             let k = fragment.polygon();
-            // The kind that is planar within the tolerance.
+            // The polygon is of the kind that is planar within the tolerance.
             if polygons[k].len() == 4 && polygons[k][2].z.fract() == 2f64.powi(-11) {
                 let range = mesh.triangles().range(fragment.index());
                 for vertex in &mesh.triangles().indices()[range] {

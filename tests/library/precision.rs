@@ -58,8 +58,8 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
-/// The plane of a small card has a far larger rounding error than the plane of the page on which it lies.
-/// Wherever the card lies, and whichever comes first, the page's plane shows that they are coplanar.
+/// The plane of a small card has a far larger rounding error than the plane of the page on which it lies. For
+/// any place of the card and either order, the page's plane shows that the two are coplanar.
 #[test]
 fn a_page_and_a_small_card_keep_their_order() {
     let mut dice = Dice(4);
@@ -154,7 +154,7 @@ fn layers_some_steps_of_f32_apart_keep_their_order() {
         let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
         let tree = BspTree::build(&cards).unwrap();
         let order = order(&tree, -normal);
-        // Neighbours overlap, so the order of the input, from below upwards, is the only right one.
+        // Neighbours overlap, so only the input order, from below upwards, is right.
         let first = |polygon| order.iter().position(|&p| p == polygon).unwrap();
         let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
         for upper in 1..30 {
@@ -216,7 +216,7 @@ fn the_tolerance_follows_the_precision_within_bounds_or_the_option() {
 
 #[test]
 fn bent_flattened_and_nearly_coplanar_polygons_are_counted_and_measured() {
-    // The plane of three of its corners is level; the fourth is off by `off`.
+    // Three corners are in a level plane, and the fourth is off this plane by `off`.
     let quad = |off: f64| {
         [[0.0, 0.0, 0.0], [4.0, 0.0, off], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]].map(DVec3::from)
     };
@@ -224,7 +224,7 @@ fn bent_flattened_and_nearly_coplanar_polygons_are_counted_and_measured() {
         assert!((found - expected).abs() <= 1e-3 * expected, "{found}, not {expected}");
     };
     let build = |tolerance, polygons: &[[DVec3; 4]]| {
-        // The first remaining polygon gives the next plane.
+        // The next plane comes from the first remaining polygon.
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
         options.with_tolerance(tolerance).build(polygons).unwrap()
     };

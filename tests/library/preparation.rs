@@ -1,5 +1,5 @@
-//! From polygons of any kind to convex planar faces, by example: triangulated polygons, dropped polygons,
-//! errors.
+//! Examples of preparing polygons of any kind as convex planar faces: triangulated polygons, dropped
+//! polygons, errors.
 
 use binspace::Preparation;
 use binspace::glam::DMat3;
@@ -18,7 +18,7 @@ fn flat(corners: &[[f64; 2]]) -> Corners {
     corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
 }
 
-/// The faces together have the polygon's area, and each has its orientation.
+/// Asserts that the faces together have the polygon's area, and that each face has the polygon's orientation.
 fn assert_area_is_conserved(faces: &Faces, polygon: &[DVec3]) {
     let whole = area(faces, polygon);
     let mut total = rational::point(DVec3::ZERO);
@@ -226,7 +226,8 @@ fn an_outline_with_a_hole_stays_closed_and_its_corners_keep_their_numbers() {
     }
 }
 
-/// Also a bow tie of equal halves, whose area is 0, and a star that is run through twice.
+/// The polygons include a bow tie of equal halves, whose area is 0, and a star whose outline runs around
+/// twice.
 #[test]
 fn polygons_that_cross_themselves_become_triangles_and_are_counted() {
     let bow_tie = flat(&[[0.0, 0.0], [3.0, 2.0], [3.0, 0.0], [0.0, 1.0]]);
@@ -248,7 +249,7 @@ fn polygons_that_cross_themselves_become_triangles_and_are_counted() {
 
 #[test]
 fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
-    // Cut along its shorter diagonal, from corner 1 to 3.
+    // The quad is cut along its shorter diagonal, from corner 1 to 3.
     let quad = flat(&[[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]]);
     let bent = quad.iter().map(|&p| p + DVec3::Z * (0.1 * p.x.abs())).collect();
     let (faces, _) = prepare(&[bent]);

@@ -21,7 +21,7 @@ fn centre(polygon: &[DVec3]) -> DVec3 {
     polygon.iter().sum::<DVec3>() / polygon.len() as f64
 }
 
-/// The directed edges that no polygon runs through the other way.
+/// The directed edges whose reverse occurs in no polygon.
 fn open_edges<'a>(polygons: impl Iterator<Item = &'a [DVec3]>) -> Vec<(DVec3, DVec3)> {
     let mut edges: HashMap<(Bits, Bits), (DVec3, DVec3)> = HashMap::new();
     let mut doubled = Vec::new();
@@ -166,7 +166,7 @@ fn teapot_patches_meet_without_cracks() {
     }
     for name in ["handle", "spout"] {
         let open = open_edges(part(&scene, &[name]));
-        // Two halves of 6 edges at either end of the tube.
+        // Two halves of 6 edges at each end of the tube.
         assert_eq!(open.len(), 24, "{name}");
     }
 }

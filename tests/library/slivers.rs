@@ -57,7 +57,7 @@ fn rays_meet_a_square_beside_a_sliver() {
 #[derive(Debug, Default)]
 struct Score {
     on: usize,
-    /// Faces on a plane that is not exactly theirs.
+    /// Faces that lie on a plane within the tolerance, but not exactly.
     nearly_on: usize,
     beside: usize,
     /// Planes whose normal has a wrong length if it is computed in floats.

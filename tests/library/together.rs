@@ -1,4 +1,4 @@
-//! The combinations in the table of the crate page.
+//! Tests the combinations in the table of the crate page.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::partition::Extent;
@@ -54,7 +54,7 @@ fn trees_frames_and_cells() {
     cells.for_each(|tree| assert_eq!(use_all(tree), Some(ErrorKind::Unsupported)));
 }
 
-/// Drawings refuse polygons of an overlay, and regions do not see them.
+/// Drawings refuse polygons of an overlay, and regions ignore them.
 #[test]
 fn trees_and_overlays() {
     let tree = BspTree::build(squares()).expect("a tree");

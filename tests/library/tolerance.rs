@@ -1,4 +1,4 @@
-//! The orders that the coplanar tolerance leaves open: the statements of `docs/guide/exact.md`.
+//! Tests the statements of `docs/guide/exact.md` on orders that the coplanar tolerance leaves open.
 
 use binspace::internals::LATTICE_LIMIT;
 use testkit::prelude::*;
@@ -18,7 +18,7 @@ fn is_met(outline: &[DVec3], eye: DVec3, target: DVec3) -> bool {
     sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
 }
 
-/// The polygon visible from an eye at a target: the last one painted.
+/// The polygon visible from an eye at a target: the last painted polygon.
 fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
     let mut painted = Vec::new();
     for fragment in tree.back_to_front(Viewpoint::Eye(eye)) {
@@ -37,7 +37,7 @@ fn built(polygons: &[[DVec3; 4]], tolerance: Option<f64>) -> BspTree {
     options.build(polygons).unwrap()
 }
 
-/// One layer above the plane of a third polygon and one below it, by less than the tolerance each.
+/// One layer is above the plane of a third polygon, and another is below it, both by less than the tolerance.
 #[test]
 fn only_layers_up_to_twice_the_tolerance_apart_may_be_exchanged() {
     let tolerance = 1e-3;
@@ -80,7 +80,7 @@ fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_toleran
     assert_eq!(shown(&built(&polygons, Some(unit)), above, target), near);
 }
 
-/// In metres: a millimetre between the layers, and a thousand kilometres to the stray vertex.
+/// In metres: the layers are a millimetre apart, and the stray vertex is a thousand kilometres away.
 #[test]
 fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
     let wide = [DVec2::splat(-1.0), DVec2::splat(1.0)];

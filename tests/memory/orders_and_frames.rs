@@ -1,4 +1,4 @@
-//! A second order into the same list allocates nothing, nor does a second frame.
+//! A second order into the same list allocates nothing, and a second frame allocates nothing.
 
 use super::{allocations, counted, least_allocations};
 use binspace::Ray;

@@ -21,7 +21,7 @@ fn boxes(count: usize) -> Vec<Vec<DVec3>> {
         .collect()
 }
 
-/// A body, and the least number of its cuts.
+/// Checks a body that is cut at least `cuts` times.
 fn check(name: &str, polygons: &[Vec<DVec3>], heuristic: Heuristic, tolerance: Tolerance) -> usize {
     let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     options.tolerance = tolerance;

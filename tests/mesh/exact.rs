@@ -19,7 +19,7 @@ pub(crate) struct Seen {
     fragments: usize,
     /// Fragments of faces that have moved corners.
     moved: usize,
-    /// Fragments that are not judged because two of their vertices are too near to be distinguished.
+    /// Fragments that are not judged, because two vertices are too near to each other to be distinguished.
     skipped: usize,
 }
 
@@ -102,7 +102,7 @@ fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(),
     inner_edges_match(tree, &mesh, 1e-11 * hard_size(tree))
 }
 
-/// The weights of every vertex give its place, up to a length.
+/// Checks that the weights of every vertex give its place, up to the length `slack`.
 fn weights_match(mesh: &Mesh, polygons: &[Vec<DVec3>], slack: f64) -> Result<(), TestCaseError> {
     for vertex in mesh.vertices() {
         let sum: f64 = vertex.weights.iter().map(|&(_, weight)| weight).sum();
@@ -157,7 +157,7 @@ pub(crate) fn check_moved(
             sum += area;
             seen.triangles += 1;
         }
-        // A sliver that has no area as given has no triangles.
+        // A sliver whose given corners have no area has no triangles.
         prop_assert!((sum - whole).abs() <= slack * fragment.vertex_count() as f64);
         seen.fragments += 1;
         seen.moved += usize::from(face.moved);

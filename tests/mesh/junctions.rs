@@ -1,4 +1,4 @@
-//! Many polygons that meet in one place: they have one point there.
+//! Many polygons that meet in one place have one point there.
 
 use std::f64::consts::{SQRT_2, TAU};
 use testkit::prelude::*;
@@ -23,11 +23,11 @@ fn a_junction_at_the_centre_of_the_scene_is_one_point() {
                 vec![a, b, -a, -b]
             })
             .collect();
-        // The long edge, and two that end at the centre.
+        // A polygon with the long edge, and two polygons with edges that end at the centre.
         polygons.push(vec![along * 3.0, along * -2.0, whole(&mut dice, 50)]);
         polygons.push(vec![DVec3::ZERO, along * 3.0, whole(&mut dice, 50)]);
         polygons.push(vec![along * -2.0, DVec3::ZERO, whole(&mut dice, 50)]);
-        // These make the scene's box one around the origin.
+        // These polygons make the scene's box symmetric around the origin.
         let far = DVec3::splat(2f64.powi(51) - 1.0);
         for end in [far, -far] {
             polygons.push(vec![end, end * dvec3(0.99, 1.0, 1.0), end * dvec3(1.0, 0.99, 1.0)]);

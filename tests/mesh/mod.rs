@@ -27,7 +27,7 @@ fn open_edges(mesh: &Mesh, triangles: &Triangles, fragments: &[u32]) -> HashMap<
     edges
 }
 
-/// Whether every directed edge is matched by its reverse, and runs once.
+/// Whether every directed edge occurs once, and its reverse occurs once.
 fn is_closed_once(mesh: &Mesh) -> bool {
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for triangle in mesh.triangles().indices().chunks(3) {

@@ -1,4 +1,4 @@
-//! Tips that a plane cuts off a face with moved corners, but not off the face as given.
+//! Tips that a plane cuts off a face with moved corners, but would not cut off the given polygon.
 
 use crate::mesh::exact::{Seen, check_moved};
 use binspace::Fragment;

@@ -41,7 +41,8 @@ fn malformed_and_missing_parts_are_left_out_and_counted() {
     let (scene, report) =
         read(with_corners("vt x 1\nvn 0 1\nvt 1 1\nf 1/1/1 2/2/7 3/0 4/-5\nf 1/x 2/9 3//y"))
             .unwrap();
-    // Two lines; two references to them, which are without a value; 7, 0, -5, x, 9 and y.
+    // Skipped are two lines, two references to these lines, which have no value, and the references 7, 0, -5,
+    // x, 9 and y.
     assert_eq!(report.skipped_attributes, 8);
     assert!(report.to_string().contains("texture coordinates and normals skipped: 8"), "{report}");
     let uv: Vec<_> = (0..4).map(|k| scene.uv(0, k)).collect();

@@ -1,4 +1,5 @@
-//! Faces that name vertices far beyond the number in the file: an error, before any memory is allocated.
+//! Faces that name vertices far beyond the last vertex of the file are an error, before any memory is
+//! allocated.
 
 use std::fs;
 use testkit::prelude::*;

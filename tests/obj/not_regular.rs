@@ -119,7 +119,7 @@ fn a_file_that_becomes_a_pipe_is_refused() {
     assert!(message.contains("regular"), "{message}");
 }
 
-/// As with the shell's `<`: the file is open, and named by its number.
+/// As with the shell's `<`, the file is open, and its path is the number of the descriptor.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_regular_file_behind_a_device_is_read() {

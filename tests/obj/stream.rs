@@ -1,4 +1,4 @@
-//! Files read polygon by polygon: the same polygons, materials, precision and errors.
+//! Files read polygon by polygon give the same polygons, materials, precision and errors.
 
 use std::fs;
 use std::path::PathBuf;

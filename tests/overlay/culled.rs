@@ -4,7 +4,7 @@ use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::{Culling, Facing, Frustum};
 use testkit::prelude::*;
 
-/// The points that decide whether a shape is in a frustum, and the side that it shows.
+/// The points that decide whether a shape is in a frustum, and the side that the shape shows.
 fn looked_at(shape: Shape<'_>, viewpoint: Viewpoint) -> (Vec<DVec3>, Option<Facing>) {
     match shape {
         Shape::Fragment(piece) => (piece.vertices().collect(), Some(piece.facing(viewpoint))),
@@ -108,7 +108,7 @@ fn coplanar_pieces_keep_their_places() {
     enough!(left > 40, right > 4; "{left} {right}");
 }
 
-/// Without shapes, it is the tree's own culled order.
+/// Without shapes, the culled order is the tree's own culled order.
 #[test]
 fn an_empty_overlay_culls_as_its_tree_does() {
     let tree = BspTree::build(scene::city(200, 1).polygons()).expect("within budget");

@@ -11,8 +11,8 @@ use testkit::shots::Shots;
 
 use super::{Divided, divide};
 
-/// The score, the number of hits of the overlay's polygons, and the number of these between two hits of the
-/// tree's polygons.
+/// The score, the number of hits of the overlay's polygons, and how many of these hits are between two hits
+/// of the tree's polygons.
 #[derive(Debug, Default)]
 struct Counts {
     score: Score,

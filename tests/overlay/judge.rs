@@ -88,8 +88,8 @@ impl Judged {
     }
 }
 
-/// The order as a list, if all forms agree, each number comes once, and the tree's fragments come as
-/// in the tree.
+/// Returns the order as a list. Returns an error unless all forms agree, each number occurs once, and the
+/// tree's fragments are in the tree's order.
 fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>, String> {
     let viewpoint = camera.viewpoint();
     let (mut order, mut still, mut near) = (vec![7], Vec::new(), Vec::new());
@@ -113,7 +113,8 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     Ok(order)
 }
 
-/// Whether the pieces of every moving face have its area, exactly; returns the number of faces.
+/// Checks that the pieces of every moving face have exactly the area of the face. Returns the number of
+/// faces.
 pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> {
     let faces = overlay.faces();
     let first = tree.faces().len() as u32;
@@ -126,7 +127,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
         let points: Vec<Point> =
             piece.vertex_ids().map(|vertex_id| models[at].resolve(faces, vertex_id)).collect();
         let area = rational::area(&points);
-        // Pieces have their face's orientation: none counts against another.
+        // Pieces have the orientation of their face, so areas do not cancel.
         let along = rational::scalar(&area, &models[at].plane.normal);
         ensure(rational::sign(&along).is_gt(), || format!("piece {number} is turned over"))?;
         sums[at] =
@@ -139,7 +140,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
     Ok(models.len())
 }
 
-/// Whether two overlays have the same pieces: earlier contents leave no trace.
+/// Checks that two overlays have the same pieces, so that earlier contents leave no trace.
 pub(crate) fn same(tree: &BspTree, overlays: [&Overlay; 2]) -> Verdict {
     let [bytes, others] = overlays.map(|overlay| overlay.faces().memory_usage());
     ensure(bytes == others, || format!("faces of {bytes} and {others} bytes"))?;

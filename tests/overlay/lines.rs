@@ -20,7 +20,7 @@ struct Scene {
 }
 
 fn whole(dice: &mut Dice) -> DVec3 {
-    // Multiples of four, so that the middle of a middle is whole.
+    // Multiples of four, so that a midpoint between midpoints has integer coordinates.
     dice.whole_point(3) * 4.0
 }
 
@@ -114,8 +114,8 @@ fn eyes(scene: &Scene, dice: &mut Dice) -> Vec<DVec3> {
     eyes
 }
 
-/// Puts the polygons of odd number into the tree, and everything else into the overlay, and judges it from
-/// some eyes.
+/// Puts the polygons with odd numbers into the tree, and everything else into the overlay. Judges the order
+/// from some eyes.
 fn judge(scene: &Scene, by: Heuristic, eyes: &[DVec3], counts: &mut Counts) {
     let bounds = DVec3::splat(ROOM);
     let options = BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0);
@@ -165,7 +165,7 @@ fn lines_and_points_come_in_the_exact_order_where_much_coincides() {
     assert!(counts.edge_on < point_line + points && counts.pieces > counts.segments * 3 / 2);
 }
 
-/// Numbers of many digits: nothing coincides, and much is rounded.
+/// A scene of numbers with many digits: nothing coincides, and most numbers are rounded.
 fn tangle(polygons: usize, lines: usize, points: usize, dice: &mut Dice) -> Scene {
     let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
     let mut scene = Scene::default();
@@ -189,7 +189,7 @@ fn lines_and_points_come_in_the_exact_order_in_a_tangle() {
         let scene = tangle(dice.below(12), 3 + dice.below(12), 12, &mut dice);
         let by = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
         let mut eyes: Vec<DVec3> = (0..4).map(|_| whole(&mut dice) * 1.7).collect();
-        // Not quite in line with two points: rounding leaves them beside each other.
+        // The eye is not exactly in line with the two points, because of rounding.
         eyes.push(scene.points[0] * 2.0 - scene.points[1]);
         judge(&scene, by, &eyes, &mut counts);
     }

@@ -20,8 +20,8 @@ fn area(triangles: &[u32], position: impl Fn(u32) -> DVec3) -> DVec3 {
     triangles.chunks(3).map(of).sum()
 }
 
-/// One buffer of both meshes: each fragment and piece of the order has triangles of its polygon, which face
-/// and fill as it does.
+/// One buffer contains both meshes. Each fragment and piece of the order has triangles with its polygon,
+/// orientation and area.
 #[test]
 fn one_list_of_indices_draws_the_order_of_both() {
     let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
@@ -177,7 +177,7 @@ fn a_mesh_of_pieces_is_neither_a_trees_nor_loses_its_numbers() {
     assert!(polygons.eq([0, 2, 3, 1]));
 }
 
-/// The room after the last fragment's indices is not a fragment.
+/// The space after the indices of the last fragment is not a fragment.
 #[test]
 #[should_panic(expected = "out of bounds")]
 fn a_tree_has_no_triangles_of_an_overlays_pieces() {

@@ -93,7 +93,7 @@ impl Painted {
         pieces.find(|piece| piece.shares[0] + NEAR < share && share < piece.shares[1] - NEAR)
     }
 
-    /// The piece of a face around one of its points, if the point is not near an edge of any.
+    /// The piece of a face around a point of the face; `None` if the point is near an edge of a piece.
     fn fragment_at(&self, face: usize, point: &Point) -> Option<&PolygonPiece> {
         let at = to_f64(point);
         self.polygons[face].iter().find(|piece| {
@@ -108,7 +108,7 @@ impl Painted {
     }
 }
 
-/// Judges the order of an eye at a place of the grid; an eye that is rounded again is left out.
+/// Judges the order of an eye at a point of the grid. Eyes that would be rounded again are left out.
 pub(crate) fn judge(
     tree: &BspTree,
     overlay: &Overlay,

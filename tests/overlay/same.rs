@@ -1,4 +1,4 @@
-//! Whether two viewpoints have the same order of a tree and an overlay.
+//! Tests whether two viewpoints have the same order of a tree and an overlay.
 
 use binspace::overlay::Overlay;
 use testkit::prelude::*;

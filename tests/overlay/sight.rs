@@ -75,8 +75,8 @@ pub(crate) fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational>
     face.place(&at).is_gt().then_some(ratio)
 }
 
-/// The share of a segment, which may be a point, that the line through the eye and a point goes
-/// through.
+/// The place where the line through the eye and a point meets a segment, as a share of the segment. The
+/// segment may be a point.
 pub(crate) fn share_in_line(eye: &Point, x: &Point, [p, q]: &[Point; 2]) -> Option<Rational> {
     let arm = rational::difference(x, eye);
     let off = |at: &Point| rational::product(&arm, &rational::difference(at, eye));

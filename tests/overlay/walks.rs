@@ -1,4 +1,4 @@
-//! Movers on random walks, frame after frame: no pixel is wrong.
+//! Movers walk at random, frame after frame, and no pixel may be wrong.
 
 use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shapes};

@@ -89,7 +89,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
     }
 }
 
-/// A region of some kind that is hard for a scene.
+/// A region of a random kind that is hard to decide for a scene.
 fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
     let normal = |dice: &mut Dice| dice.whole_point(2);
     let through = |normal: DVec3, point: DVec3| (normal, normal.dot(point));
@@ -120,7 +120,7 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
             let (apex, count) = (shots.corner(dice), 1 + dice.below(4));
             Frustum::new((0..count).map(|_| through(normal(dice), apex)).collect::<Vec<_>>())
         }
-        // Between parallel planes through corners.
+        // A region between parallel planes through corners.
         6 => {
             let (normal, [a, b]) = (normal(dice), [shots.corner(dice), shots.corner(dice)]);
             Frustum::new([through(normal, a), through(-normal, b)])

@@ -28,7 +28,8 @@ struct Bodies(Vec<Vec<Point>>);
 const PARTS: i128 = 64;
 
 impl Bodies {
-    /// A convex body as polygons of its corners' numbers, fronts outwards, or all turned inwards.
+    /// Adds a convex body, given as polygons of corner numbers, with fronts outwards, or with all fronts
+    /// inwards.
     fn push(&mut self, corners: &[Point], polygons: &[&[usize]], is_inwards: bool) {
         for polygon in polygons {
             let mut outline: Vec<Point> = polygon.iter().map(|&k| corners[k]).collect();
@@ -192,7 +193,7 @@ fn open_edges_are_named() {
     let mut bodies = Bodies::default();
     bodies.cuboid([[0, 0, 0], [2, 2, 2]], false);
     bodies.cuboid([[5, 5, 5], [9, 9, 9]], false);
-    // Without the top of the second: polygon 7 of 12.
+    // Without the top of the second body: polygon 7 of 12.
     bodies.0.remove(7);
     let tree = bodies.tree(Heuristic::Auto);
     let open: Vec<(usize, usize)> = tree.open_edges().collect();
@@ -211,7 +212,7 @@ fn open_edges_are_named() {
     assert_eq!(tree.winding_number([6.0, 7.0, 8.0]), Ok(Some(1)));
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
-    // The same faces a second time: each edge is open twice.
+    // If the same faces are given a second time, each edge is open twice.
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 6);
 }

@@ -30,7 +30,7 @@ fn frame(axis: u32, second: u32, third: u32) -> u32 {
     axis << 30 | second << 15 | third
 }
 
-/// A coordinate that is twice as far out as the grid is wide.
+/// Puts a coordinate far outside the grid.
 fn put_far(file: &mut File, at: usize, sign: i64) {
     file.put_bytes(at, &(sign << 52).to_le_bytes());
 }

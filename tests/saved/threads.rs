@@ -21,7 +21,7 @@ fn any_number_of_threads_reads_the_same_tree() {
     let tree = BspTree::build(scene::terrain(30_000, 3).polygons()).expect("a tree");
     let file = File::of(&tree);
     let faces = file.len(FACES - 8);
-    // Faces of several parts, and nodes beside them.
+    // Faces in several parts, which threads read while others read nodes.
     enough!(faces > 20_000; "{faces}");
     let corners = FACES + 12 * faces;
     // Triangles without numbers and without moved corners; none is dropped.

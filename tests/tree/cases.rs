@@ -1,4 +1,4 @@
-//! Cases from the tests of other libraries, re-expressed.
+//! Cases from the tests of other libraries, rewritten.
 
 use testkit::judge::judge;
 use testkit::prelude::*;

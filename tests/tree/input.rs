@@ -7,7 +7,7 @@ use testkit::snapshot::polygons;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Viewpoints without a picture, and some that are merely awkward.
+/// Viewpoints without a picture, and viewpoints that are only hard to decide.
 fn viewpoints() -> Vec<Viewpoint> {
     let odd =
         [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 5e-324];

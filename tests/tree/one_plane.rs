@@ -15,13 +15,13 @@ type Card = [DVec3; 4];
 
 struct Cards {
     all: Vec<Card>,
-    /// The number of the first cards that lie in one plane, and the plane's axes.
+    /// The number of cards in one plane, which come first, and the plane's axes.
     level: usize,
     axes: [DVec3; 3],
 }
 
-/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance, and possibly
-/// others that cross it.
+/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance. There may be
+/// other cards that cross this plane.
 fn cards(dice: &mut Dice, others: usize) -> Cards {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let mut turn = || {

@@ -96,8 +96,8 @@ fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     eyes.into_iter().chain(missed).map(|eye| View::eye(faces, eye)).collect()
 }
 
-/// Eyes from one extent away to where only their direction counts: along the axes, along planes and edges
-/// of a face, and anywhere.
+/// Eyes from one extent away to so far away that only their direction counts. Directions are along axes,
+/// along planes and edges of a face, and anywhere.
 fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let axis = DVec3::AXES[dice.below(3)];

@@ -34,7 +34,8 @@ fn go_through(scene: &Scene, options: BuildOptions) -> binspace::Stats {
     })
 }
 
-/// A mean depth of a few times the logarithm, which bounds the work by n log n; and no long list.
+/// Asserts that the mean depth is at most a few times the logarithm of the size, so that the work is O(n log
+/// n), and that no list is long.
 fn assert_shallow(stats: &binspace::Stats) {
     let log = (stats.fragments.max(2) as f64).log2();
     assert!(stats.depth_mean <= 2.0 * log, "{stats:?}");

@@ -13,8 +13,8 @@ use testkit::shapes;
 use testkit::snapshot::order;
 use testkit::views::View;
 
-/// A culled order, after checks that it is a part of the whole order, and that it is the same from both ends,
-/// read one by one and walked.
+/// Returns a culled order. Checks that it is a part of the whole order, and that all forms agree: read from
+/// both ends, one by one, and walked.
 fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     let mut found = vec![3; 5];
     tree.order(viewpoint).culled(culling).write_into(&mut found);

@@ -88,7 +88,7 @@ fn planes_belong_to_the_polygons_that_they_name() {
                     let largest = exact.normal.iter().map(Signed::abs).max().unwrap();
                     let unit = exact.normal.each_ref().map(|c| (c / &largest).to_f64().value());
                     let unit = DVec3::from(unit).normalize();
-                    // The grid moves a corner by a step, and a thin triangle turns by more.
+                    // The grid moves a corner by up to a step, which turns thin triangles by a larger angle.
                     let [u, v] = [b - a, c - a];
                     let height = u.cross(v).length() / u.length().max(v.length());
                     let turned = 4.0 * step / height + 1e-15;
