@@ -1,6 +1,6 @@
-//! A build on one thread and on two, against the surface area heuristic of the `bvh` crate on two threads, on
-//! the same polygons as triangles. The boxes of `bvh` are computed beforehand, in `f32` as most of its users
-//! would.
+//! Compares a build on one thread and on two threads with a build of the `bvh` crate by its surface area
+//! heuristic, on two threads. `bvh` gets the same polygons as triangles. The boxes of `bvh` are computed
+//! beforehand, in `f32` as most of its users would.
 
 use binspace::BspTree;
 use binspace::scene::Scene;

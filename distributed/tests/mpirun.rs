@@ -16,8 +16,8 @@ struct Run {
     err: String,
 }
 
-/// Runs the program on some ranks, in a folder. Each run has its own folder for temporary files: Otherwise
-/// all runs of Open MPI share one folder, and a run that ends removes it while another run begins.
+/// Runs the program on some ranks, in a folder. Each run has its own folder for temporary files. Otherwise
+/// all runs of Open MPI would share one folder, which a run that ends removes while another run begins.
 fn run(folder: &Path, ranks: usize, arguments: &str) -> Run {
     let temporary = tempfile::tempdir().unwrap();
     let mut command = Command::new("timeout");

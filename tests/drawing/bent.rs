@@ -173,7 +173,7 @@ struct Score {
     crossed: [usize; 3],
     /// Places where polygons touch.
     touched: usize,
-    /// Places where both are bent.
+    /// Places where both polygons are bent.
     both: usize,
     unsure: usize,
 }

@@ -26,9 +26,9 @@ fn halves([a, b]: [[i64; 2]; 2]) -> impl Iterator<Item = [i64; 2]> {
     (0..count).map(move |i| [0, 1].map(|axis: usize| a[axis] + (2 * i + 1) * way[axis]))
 }
 
-/// The halves of edges in the picture, by the edge and the middle, and whether they are visible. A half of an
-/// edge is in the picture, or visible, if half of a square beside it is, and this half is covered by a sheet
-/// with the edge.
+/// The halves of edges in the picture, by edge and middle, and whether each is visible. The sheet of an edge
+/// covers half of a square beside each half of the edge. The half of the edge is in the picture, or visible,
+/// if this half of the square is.
 fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), bool> {
     let mut found = BTreeMap::new();
     for (i, sheet) in sheets.iter().enumerate() {

@@ -142,7 +142,7 @@ fn border(area: &Area) -> [usize; 2] {
     [length, corners]
 }
 
-/// Outlines that go around an area, and only around it.
+/// Checks that outlines go around an area, and along no line inside it.
 fn expect_border(outlines: &[Outline], area: &Area, pixels: f64, what: &str) {
     let [expected, corners] = border(area);
     let length: f64 = sides(outlines).map(length).sum();

@@ -108,7 +108,7 @@ pub(crate) fn area(outline: &[Point2]) -> Rational {
     total(outline.iter().zip(next).map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0]))
 }
 
-/// Whether a point is inside a convex outline of either orientation, and not on it.
+/// Whether a point is strictly inside a convex outline of either orientation.
 pub(crate) fn covers(outline: &[DVec2], rounded: DVec2, at: &Point2) -> bool {
     // The unrounded numbers decide exactly whether the point is in the bounding box.
     let [low, high] =

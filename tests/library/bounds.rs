@@ -74,8 +74,8 @@ fn shifted(mut triangle: Triangle, place: &Place, axis: usize) -> Option<Triangl
     triangle.iter().flatten().all(|c| c.abs() <= EDGE).then_some(triangle)
 }
 
-/// The rounded distance of a place that is not in front of the plane, if this distance is positive. The unit
-/// is π, the sum of the products in the plane's normal.
+/// The rounded distance of a place from a triangle's plane, in units of π, the sum of the products in the
+/// plane's normal. The exact place is not in front of the plane, so a positive distance is an error.
 fn distance(triangle: &Triangle, place: &Place) -> f64 {
     let faces = faces(&[*triangle]);
     let prepared = PreparedPlane::new(&faces, PlaneId::face(1));

@@ -132,7 +132,7 @@ fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     assert!(tree.len() > 5);
 }
 
-/// In an earlier version, it listed all faces of the tree.
+/// In an earlier version, the debug output listed all faces of the tree.
 #[test]
 fn debug_output_is_about_the_fragment_alone() {
     let tree = BspTree::build([sheet(2, 0.0, 4.0), sheet(2, 1.0, 4.0)]).unwrap();

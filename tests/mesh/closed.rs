@@ -21,7 +21,7 @@ fn boxes(count: usize) -> Vec<Vec<DVec3>> {
         .collect()
 }
 
-/// Checks a body that is cut at least `cuts` times.
+/// Checks that the welded mesh of a body is closed. Returns the number of open edges without welding.
 fn check(name: &str, polygons: &[Vec<DVec3>], heuristic: Heuristic, tolerance: Tolerance) -> usize {
     let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     options.tolerance = tolerance;

@@ -63,7 +63,7 @@ fn folders_and_devices_are_refused() {
     }
 }
 
-/// An unnamed pipe, as a shell passes to a program, has a writer.
+/// An unnamed pipe, which a shell passes to a program, has a writer, so the pipe is read.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_pipe_without_a_name_is_read() {

@@ -226,8 +226,8 @@ mod tests {
         Look { colour, opacity: 0.2 + 0.1 * (polygon % 7) as f32 }
     }
 
-    /// Two squares that fill a picture, the nearer one red with opacity 0.5, the further one green with
-    /// opacity 0.25; and white behind them.
+    /// Two squares that fill a picture. The nearer square is red with opacity 0.5, the further square is
+    /// green with opacity 0.25, and the background is white.
     #[test]
     fn blends_without_an_order_match_hand_computation() {
         let square = |z: f64| [[-9., -9., z], [9., -9., z], [9., 9., z], [-9., 9., z]];

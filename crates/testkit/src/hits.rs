@@ -143,7 +143,7 @@ fn parts(value: f64) -> (i64, i32) {
     (if value < 0.0 { -digits } else { digits }, exponent)
 }
 
-/// The least exponent of some numbers. Zeros have a large exponent.
+/// The least exponent of some numbers. Zeros count as a number with the exponent 2000.
 fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     let exponent = |value: f64| {
         let (digits, exponent) = parts(value);
@@ -152,7 +152,7 @@ fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     values.into_iter().map(exponent).min().expect("numbers")
 }
 
-/// A number in units of a power of two, of which it is a multiple.
+/// A number in units of a power of two. The number must be a multiple of this unit.
 fn whole(value: f64, unit: i32) -> IBig {
     let (digits, exponent) = parts(value);
     if digits == 0 {
@@ -265,8 +265,7 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// Creates the oracle of an overlay's hits. It contains the faces of the tree and of the overlay's
-    /// polygons.
+    /// Creates the oracle of an overlay's hits, from the faces of the tree and of the overlay's polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }

@@ -84,7 +84,7 @@ pub fn main_axis<T: Number + Ord>(vector: &Vector<T>) -> usize {
     (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
 }
 
-/// A plane: positive in front.
+/// A plane. Its value at a point is positive in front.
 #[derive(Clone, Debug)]
 pub struct Plane<T> {
     pub normal: Vector<T>,

@@ -24,7 +24,7 @@ fn tree(scene: &Scene) -> BspTree {
     BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap()
 }
 
-/// The pieces are exactly the same if the boxes find the casters, and if every face is tried.
+/// Trying every face as a caster gives exactly the same pieces as the casters that the boxes find.
 #[test]
 fn skipped_faces_throw_no_shadow() {
     let over = [DVec3::new(0.3, 0.2, 4.0), DVec3::new(0.1, -0.2, 4.0)];

@@ -64,7 +64,7 @@ impl Scene {
     }
 }
 
-/// Returns a point as input of the library; exact.
+/// Converts a point exactly to an input of the library.
 pub fn world(p: Point) -> DVec3 {
     DVec3::from_array(p.map(|c| c as f64))
 }
