@@ -35,7 +35,7 @@ fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
             let flap = distance([at(0.0), at(1.0)]);
             let expected = distance([at(-2.0), at(2.0)]) - flap;
             assert!((length - expected).abs() < 1e-3, "{order:?}, {by}: {length}, {expected}");
-            // The flap only touches the others.
+            // The flap only touches the floor and the wall.
             assert!(all.iter().all(|run| run.polygon == floor.min(wall) && run.kind == kind));
         }
     }

@@ -79,7 +79,7 @@ pub(crate) fn copies(
         let part = with_area(one(dice));
         count += part.len();
         size = part.iter().flatten().flatten().map(|c| c.abs()).fold(size, i64::max);
-        // The same scene again, next to it, rotated.
+        // A rotated copy of the same scene, next to the first.
         for _ in 0..1 + dice.below(3) {
             count += part.len();
             parts.push(part.clone());

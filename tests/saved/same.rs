@@ -48,7 +48,7 @@ proptest! {
         let tree = scene.build(by).unwrap();
         let mut eyes = EYES.to_vec();
         if !tree.is_empty() {
-            // Eyes on corners and planes as well.
+            // Eyes are also on corners and planes.
             let (mut dice, rays) = (Dice(seed), Rays::new(&tree));
             eyes.extend((0..4).map(|_| views::some_view(tree.faces(), &rays, &mut dice).viewpoint));
         }

@@ -128,7 +128,7 @@ fn colour(number: usize) -> [u8; 3] {
 
 /// A picture by gl2ps.
 struct Theirs {
-    /// The time of its page.
+    /// The time that `gl2ps` takes for a page.
     time: Duration,
     /// The filled triangles, in paint order.
     filled: Vec<Filled>,

@@ -20,7 +20,7 @@ pub const SHORTENED: f64 = 1e-6;
 pub struct Patch {
     /// The corners.
     pub corners: [DVec3; 4],
-    /// The number of its quad.
+    /// The number of the quad that the patch is a part of.
     pub quad: usize,
 }
 

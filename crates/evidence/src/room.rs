@@ -23,7 +23,7 @@ const GREEN: [f64; 3] = [0.126, 0.441, 0.104];
 const RED: [f64; 3] = [0.513, 0.059, 0.062];
 const OF_LAMP: [f64; 3] = [0.78; 3];
 
-/// The room with light in it.
+/// The room, divided into patches, and the light between them.
 #[derive(Debug)]
 pub struct Room {
     /// The patches of all surfaces.

@@ -238,7 +238,7 @@ impl Tree {
                 stack.push(Pending { pieces, depth: depth + 1, parent: Some((node, is_front)) });
             }
         }
-        // Subtrees end where their last node does.
+        // A subtree ends where its last node ends.
         for node in (0..tree.nodes.len()).rev() {
             let Node { front, back, .. } = &tree.nodes[node];
             let last = match (front, back) {

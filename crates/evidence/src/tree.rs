@@ -28,13 +28,13 @@ pub(crate) struct Node {
     pub(crate) plane: PlaneId,
     /// The number of nodes on the path from the root to this node, including this node.
     pub(crate) depth: usize,
-    /// Whether it is in front of its parent.
+    /// Whether the node is in front of its parent.
     pub(crate) is_front: bool,
-    /// The fragments on its plane.
+    /// The fragments on the node's plane.
     pub(crate) on: Range<u32>,
     pub(crate) front: Side,
     pub(crate) back: Side,
-    /// The fragments of its whole subtree.
+    /// The fragments of the node's whole subtree.
     pub(crate) all: Range<u32>,
 }
 

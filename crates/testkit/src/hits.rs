@@ -46,7 +46,7 @@ struct Face {
     normal: Vector,
     offset: IBig,
     corners: Vec<Vector>,
-    /// The two axes of its projection.
+    /// The two axes of the face's projection.
     seen: [usize; 2],
     polygon: usize,
 }
@@ -532,7 +532,7 @@ impl Rough {
         Self { corners, centre, radius }
     }
 
-    /// A ball around others.
+    /// A ball around other balls.
     fn around(others: &[Self]) -> Self {
         let centre = others.iter().map(|other| other.centre).sum::<DVec3>() / others.len() as f64;
         let reach = |other: &Self| other.centre.distance(centre) + other.radius;

@@ -58,14 +58,14 @@ impl Page {
 /// A layer of a page: the rectangle from −`half` to `half` and its matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageLayer {
-    /// Half its width and height.
+    /// Half the width and half the height of the layer.
     pub half: [f64; 2],
     /// From the layer's own x and y (z is 0) to homogeneous screen coordinates.
     pub matrix: DMat4,
 }
 
 impl PageLayer {
-    /// Its corners on the screen with their depths, after the division by w.
+    /// Returns the layer's corners on the screen with their depths, after the division by w.
     pub fn outline(&self) -> [[f64; 3]; 4] {
         let [x, y] = self.half;
         [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| {

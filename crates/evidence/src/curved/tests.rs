@@ -124,7 +124,7 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
 fn shared_edges_are_as_fine_as_either_patch_needs() {
     let view = PlainView::new(SIZE);
     let [bent, _] = Patch::pair();
-    // The same edge, and beyond it a much flatter patch, in which each row is a moved copy of the edge.
+    // A much flatter patch on the other side of the edge, in which each row is a moved copy of the edge.
     let edge = bent.0[3];
     let flat = Patch(std::array::from_fn(|i| edge.map(|[x, y, z]| [x, y, z - 4 * i as i64])));
     let points = |patches: &[Patch], which: usize| {

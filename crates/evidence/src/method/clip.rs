@@ -68,7 +68,7 @@ impl Clipper {
         Self { planes, kept: Vec::new(), spare: Vec::new() }
     }
 
-    /// The part inside; it may be empty.
+    /// The part of a polygon inside; an empty list if there is none.
     pub(super) fn clip(&mut self, corners: impl IntoIterator<Item = Vertex>) -> &[Vertex] {
         self.kept.clear();
         self.kept.extend(corners);

@@ -53,7 +53,7 @@ enum Next {
 pub(super) struct Cell {
     /// The portals of this cell, each with the side of its plane on which the cell lies.
     pub(super) portals: Vec<(usize, usize)>,
-    /// The parts of polygons on its walls.
+    /// The parts of polygons on the walls of the cell.
     pub(super) surfaces: Vec<Surface>,
 }
 

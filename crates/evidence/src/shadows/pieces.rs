@@ -19,7 +19,7 @@ use binspace::internals::Faces;
 /// hides it. Corners are exact: each is the point where two of these planes meet the plane of the face.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// The face that it is a part of.
+    /// The face that the piece is a part of.
     pub face: u32,
     /// For each tested point of the lamp, whether the piece sees it.
     pub sees: Vec<bool>,

@@ -10,7 +10,7 @@ pub(super) struct Scale {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) ticks: Vec<f64>,
-    /// Whether it runs from large to small.
+    /// Whether the axis runs from large to small.
     pub(super) falls: bool,
 }
 

@@ -66,7 +66,7 @@ impl<'s> Targets<'s> {
         Self { scene, planes, balls }
     }
 
-    /// Returns a plane by its name, from the corners as given.
+    /// Returns the plane with a name, computed from the given corners.
     pub fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
         let faces = tree.faces();
         match id.kind() {

@@ -11,7 +11,7 @@ pub(super) const TOUCH: f64 = 1e-6;
 pub(super) enum Reason {
     /// P and Q are pieces of one face.
     OneFace,
-    /// One of the five tests, by its number from 0.
+    /// One of the five tests, numbered from 0.
     Test(usize),
 }
 

@@ -1,4 +1,4 @@
-//! Newell's algorithm against brute force, and its cycles.
+//! Compares Newell's algorithm with brute force, and tests cycles.
 
 use glam::DQuat;
 use testkit::prelude::*;
