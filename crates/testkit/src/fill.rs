@@ -45,7 +45,7 @@ impl Picture {
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         for outline in outlines {
             for (i, a) in outline.iter().enumerate() {
-                // From the centre of the first pixel.
+                // Coordinates are from the centre of the first pixel.
                 let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.mark_near(a, b);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };

@@ -1,4 +1,4 @@
-//! Compares which faces hide which with rays, permutations and pictures.
+//! Tests `Hiding` against rays, permutations and pictures.
 
 use binspace::internals::{Eye, SplitMix64};
 use binspace::raster::{Outline, Painter, Piece, compare, zbuffer};

@@ -51,7 +51,7 @@ impl Filled {
         let mut near: Vec<usize> = Vec::new();
         for outline in outlines {
             for (i, a) in outline.iter().enumerate() {
-                // From the centre of the first pixel.
+                // Coordinates are from the centre of the first pixel.
                 let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.find_near(a, b, &mut near);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use binspace_evidence::{EYE_OF_EIGHT, eight};
 
-/// Pixels of a unit of the plan.
+/// The length of a unit of the plan, in pixels.
 const UNIT: f64 = 32.0;
 /// The plan's width and depth.
 const EXTENT: [f64; 2] = [11.0, 13.0];
