@@ -25,8 +25,8 @@ struct Score {
 /// Outlines nearer to a point than this, in pixels, are not compared.
 const NEAR: f64 = 0.01;
 
-/// Marks a scene whose corners may be nearer to each other than rounding errors: its outlines cannot be
-/// classified.
+/// The value of `through` for scenes whose corners may be nearer to each other than rounding errors. There,
+/// no outline can be classified.
 const UNTOLD: f64 = -1.0;
 
 /// Whether a path covers a point, with its inside or with an outline no further than `through`. `None` if an

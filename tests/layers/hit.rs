@@ -38,7 +38,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
     enough!(tried > 3000; "{tried}");
 }
 
-/// A page on another screen equals a page made for it.
+/// A page that gets another viewport equals a page made for this viewport.
 #[test]
 fn another_viewport_makes_another_page() {
     let layers: Vec<Layer> = layers_of(Page::Carousel, 12, 3).iter().map(Given::layer).collect();

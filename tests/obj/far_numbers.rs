@@ -36,7 +36,8 @@ fn peak() -> usize {
     line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
 }
 
-/// Vertices may come after the faces that name them. Each of these vertices is one corner.
+/// Vertices may come after the faces that name them. Each vertex is a corner once, however many faces name
+/// it.
 #[test]
 fn vertices_that_come_later_are_corners() {
     let mut text = String::new();
@@ -54,8 +55,8 @@ fn vertices_that_come_later_are_corners() {
     assert!(stream.corners().map(|corner| corner.x).eq((0..600).map(f64::from)));
 }
 
-/// The faces before do not matter: the number is one more than the highest number so far, or than the number
-/// of vertices.
+/// Tests numbers one above the highest number so far, and one above the number of vertices, after different
+/// faces.
 #[test]
 fn a_number_one_past_the_last_vertex_is_an_error() {
     for (name, vertices, faces) in

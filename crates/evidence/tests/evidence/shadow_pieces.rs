@@ -16,7 +16,8 @@ fn whole(point: [f64; 3]) -> Point {
     })
 }
 
-/// The side of a point given by multiples of its coordinates, and the factor.
+/// The side of a plane on which a point lies. The point is given by its coordinates times a factor, and this
+/// factor.
 fn side(plane: &Plane<IBig>, [point @ .., factor]: &[IBig; 4]) -> Ordering {
     (scalar(&plane.normal, point) - &plane.offset * factor).cmp(&IBig::ZERO)
 }

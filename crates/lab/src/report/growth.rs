@@ -67,7 +67,7 @@ pub(super) fn run(
     scenes.iter().try_for_each(|scene| each(scene.name(), Heuristic::Auto, scene))
 }
 
-/// A scene of a size.
+/// A scene with a given size.
 struct Case {
     subject: Subject,
     size: u32,

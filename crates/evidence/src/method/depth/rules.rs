@@ -18,7 +18,7 @@ pub struct DepthRules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nearer {
     /// The smaller: stored numbers run from 0 at the near plane to the format's largest number at the far
-    /// one.
+    /// plane.
     Smaller,
     /// The larger: stored numbers run in the opposite direction.
     Larger,

@@ -5,7 +5,7 @@ use crate::panes::{panes, world_polygons};
 use crate::plain::PlainView;
 use testkit::prelude::*;
 
-/// Texture coordinates of a parallelogram's corners, and a colour that is linear on it.
+/// Texture coordinates of a parallelogram's corners, and a colour that is linear on the parallelogram.
 const CORNERS: [[i64; 3]; 4] = [[0, 0, 10], [8, 0, 200], [8, 8, 250], [0, 8, 60]];
 
 #[test]

@@ -1,4 +1,4 @@
-//! Pixels painted without need.
+//! Overdraw: pixels that are painted more than once.
 
 use binspace::BspTree;
 use binspace::glam::{DVec3, dvec3};
