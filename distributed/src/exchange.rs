@@ -98,7 +98,7 @@ fn buffer(len: usize) -> Vec<u8> {
     Vec::with_capacity(len.max(1))
 }
 
-/// Where parts of these lengths begin.
+/// The offsets at which parts of these lengths begin.
 fn starts(counts: &[i32]) -> Vec<i32> {
     let mut next = 0;
     let start = |&count: &i32| {

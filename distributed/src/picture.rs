@@ -21,7 +21,7 @@ pub(crate) struct Layer {
     /// The number of the pixel, row by row from the top left.
     pub(crate) pixel: u32,
     pub(crate) colour: [u8; 3],
-    /// From 0 to 1.
+    /// The opacity, from 0 to 1.
     pub(crate) opacity: f32,
 }
 

@@ -9,7 +9,7 @@ pub(crate) struct Given {
     /// The polygon's number in the whole scene.
     pub(crate) number: u64,
     pub(crate) colour: [u8; 3],
-    /// From 0 to 1.
+    /// The opacity, from 0 to 1.
     pub(crate) opacity: f32,
     /// See [`Polygon::precision`].
     pub(crate) precision: f64,

@@ -55,8 +55,7 @@ fn vertices_that_come_later_are_corners() {
     assert!(stream.corners().map(|corner| corner.x).eq((0..600).map(f64::from)));
 }
 
-/// Tests numbers one above the highest number so far, and one above the number of vertices, after different
-/// faces.
+/// The number is one above the number of vertices, whatever faces come before it.
 #[test]
 fn a_number_one_past_the_last_vertex_is_an_error() {
     for (name, vertices, faces) in

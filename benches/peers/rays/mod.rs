@@ -80,7 +80,7 @@ impl Points {
         Self { dice: Dice(support::SEED), bounds }
     }
 
-    /// A point of the box, enlarged.
+    /// A random point of the box, which is enlarged by a factor.
     fn next(&mut self, by: f64) -> DVec3 {
         let [low, high] = self.bounds;
         let share = self.dice.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);

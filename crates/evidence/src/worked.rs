@@ -35,8 +35,8 @@ pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
     })
 }
 
-/// Returns a camera above the eye of the eight walls, so that no wall hides all of another; the order is the
-/// same from any height.
+/// Returns a camera above the eye of the eight walls, so that no wall hides the whole of another wall. The
+/// order is the same from any height.
 ///
 /// # Errors
 ///

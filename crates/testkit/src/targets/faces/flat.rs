@@ -81,7 +81,7 @@ pub(super) fn winds_once(
     Ok(())
 }
 
-/// Whether a polygon winds around any of some points between its corners, in a projection along any axis.
+/// Whether a polygon winds around one of some points between its corners, in a projection along some axis.
 pub(super) fn goes_around_something(corners: &[[f64; 3]], dice: &mut Dice) -> bool {
     (0..POINTS).any(|_| {
         let mut some = || DVec3::from(corners[dice.below(corners.len())]);
