@@ -191,8 +191,8 @@ impl Place {
         self.coordinates.each_ref().map(|c| float(c) / weight)
     }
 
-    /// The largest difference between the coordinates of a position and this point's, within a few roundings.
-    /// It is infinite if the position is NaN or further off than any scene reaches.
+    /// The largest difference between the coordinates of a position and of this point, within a few
+    /// roundings. It is infinite if the position is NaN or further away than any useful error.
     pub(crate) fn drift(&self, position: [f64; 3]) -> f64 {
         let weight = float(&self.weight);
         let off = |i: usize| {
