@@ -1,5 +1,5 @@
-//! Changes one tuning constant at a time (off, halved, doubled), and measures fragments and build time over all
-//! scenes. Prints the table of ABLATION.md.
+//! Changes one tuning constant at a time (off, halved, doubled), and measures fragments and build time over
+//! all scenes. Prints the table of ABLATION.md.
 //!
 //! ```sh
 //! cargo bench -p binspace-benches --bench ablation
@@ -36,11 +36,12 @@ const TURNED: [&str; 6] =
 const FILES: [&str; 6] =
     ["bunny.obj", "spider.obj", "person.obj", "dragon.obj", "level.obj", "level_large.obj"];
 
-/// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`] times.
+/// Builds of a scene with one tuning are repeated until they take this long together, or [`MOST_BUILDS`]
+/// times.
 const ENOUGH: Duration = Duration::from_millis(12);
 const MOST_BUILDS: usize = 9;
 
-/// A change to the tuning, with the name of the changed field and the kind of change.
+/// The name of the changed field, the kind of change, and the function that makes the change.
 type Change = (&'static str, &'static str, fn(&mut Tuning));
 
 /// For each field, the name of its change and the new value.
@@ -111,7 +112,7 @@ fn main() {
     let columns = ["field", "change", "fragments", "most", "on", "time", "longest", "on"];
     let table = Table::new("Ablation", &columns);
     ablate(&table, &Tuning::DEFAULT, &CHANGES, &scenes);
-    // The fields that only frames have, over pages of layers.
+    // Fields that only frames use, measured over pages of layers.
     ablate(&table, &Tuning::FRAMES, &OF_FRAMES, &pages());
 }
 
@@ -152,7 +153,8 @@ fn compare(scene: &Scene, tunings: [&Tuning; 2]) -> [f64; 2] {
     let (mut spent, mut builds) = (Duration::ZERO, 0);
     while builds == 0 || builds < MOST_BUILDS && spent < ENOUGH {
         for turn in 0..2 {
-            // The first build of a turn finds other caches.
+            // The first build of a turn finds other data in the caches, so the tunings take turns in being
+            // first.
             let i = (turn + builds) % 2;
             let start = Instant::now();
             let (faces, preparation) = Faces::new(scene.polygons(), None).expect("finite");

@@ -59,7 +59,7 @@ def cells(line):
 
 
 def read_tables(text):
-    """The tables of figures.md by title: lists of rows, the names of the columns first."""
+    """Returns the tables of figures.md by title: lists of rows, of which the first has the names of the columns."""
     tables = {}
     for title, body in re.findall(r"^## (.+)\n\n((?:\|.*\n)+)", text, re.MULTILINE):
         head, _, *rows = body.splitlines()
@@ -90,7 +90,7 @@ def value(cell):
 
 
 def span(found, unit=""):
-    """The least and the greatest of some cells."""
+    """Returns the least and the greatest of some cells."""
     least, greatest = min(found, key=value), max(found, key=value)
     if least == greatest:
         return least + unit
@@ -138,7 +138,7 @@ def rendered(tables, title, columns):
 
 
 def filled(tables, text):
-    """A document with the tables of figures.md behind its comments."""
+    """Returns a document in which each comment is followed by its table of figures.md."""
     return re.sub(r"(<!-- figures: (.+?)(?: \| (.+?))? -->)\n*(?:\|.*\n)*\n*",
                   lambda m: f"{m[1]}\n\n{rendered(tables, m[2], m[3])}\n", text).rstrip("\n") + "\n"
 

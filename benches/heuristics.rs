@@ -145,8 +145,8 @@ const COLUMNS: [&str; 10] = [
 /// The number of decimals of a figure, and the figure of a row.
 type Figure = (usize, fn(&Row) -> f64);
 
-/// Prints the figures of each heuristic, divided by the figures of `auto`: geometric means, and the scenes with
-/// the smallest and the largest ratio. Scenes whose builds were given up are left out.
+/// Prints the figures of each heuristic, divided by the figures of `auto`: geometric means, and the scenes
+/// with the smallest and the largest ratio. Scenes whose builds were given up are left out.
 fn summary(title: &str, measured: &[&(&str, Vec<Row>)]) {
     let figures: [Figure; 3] = [
         (2, |row| row.fragments as f64),

@@ -1,4 +1,5 @@
-//! Bytes of a finished tree, and the peak while it is built; and of what peers keep. Prints a table of figures.md.
+//! Measures the bytes of a finished tree, the peak while it is built, and the bytes that peers keep. Prints a
+//! table of figures.md.
 
 #![allow(missing_docs, reason = "a program")]
 
@@ -27,8 +28,8 @@ const SCENES: [&str; 11] = [
     "engine.obj",
     "level_large.obj",
 ];
-/// `plane-split` takes time quadratic in the polygons of a sphere, takes quads and triangles, and recurses as
-/// deep as its tree is.
+/// The largest sphere for `plane-split`. Its time is quadratic in the polygons of a sphere, it accepts only
+/// quads and triangles, and its recursion is as deep as its tree.
 const MOST_SPLIT: usize = 11_000;
 const THEIR_STACK: usize = 4 << 30;
 
@@ -49,7 +50,7 @@ fn main() {
     );
     for name in SCENES {
         let scene = scene(name);
-        // Counts allocations from here on: the scene is not included.
+        // Allocations are counted from here on, so the scene is not included.
         let profiler = Profiler::builder().testing().build();
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         let built = HeapStats::get();
@@ -81,7 +82,7 @@ fn main() {
     }
 }
 
-/// The bytes that are kept of what a function returns.
+/// The bytes that the result of a function keeps.
 fn bytes_of<T>(make: impl FnOnce() -> T) -> usize {
     let _profiler = Profiler::builder().testing().build();
     let kept = make();

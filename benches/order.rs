@@ -10,7 +10,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// All forms of an order must be one permutation.
+/// Checks that all forms of an order are the same permutation.
 fn check(tree: &BspTree, viewpoint: Viewpoint) {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
@@ -49,8 +49,8 @@ fn bench(criterion: &mut Criterion) {
     }
 }
 
-/// A level of which a tenth is in view, with ten doors: one culled order of both, against the whole order
-/// filtered by hand.
+/// A level with a tenth in view, and ten doors in an overlay: the culled order of both, against the whole
+/// order filtered by hand.
 fn level(criterion: &mut Criterion) {
     let tree = BspTree::build(city(100_000, 1).polygons()).expect("within budget");
     let [low, high] = tree.bounds().expect("polygons");
@@ -86,7 +86,7 @@ fn level(criterion: &mut Criterion) {
         b.iter(|| order().culled(&culling).write_into(&mut numbers));
     });
     group.finish();
-    // By hand, the doors are not culled; all of them are in view.
+    // The filter by hand keeps all doors, because all are in view.
     assert_eq!(numbers, filtered);
     assert!(numbers.len() > list.len() + 9 && list.len() > tree.len() / 50, "{}", list.len());
 }

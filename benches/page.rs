@@ -1,4 +1,4 @@
-//! Pictures a second of a page of the program in Chromium. Measures the processor alone: no graphics card
+//! Pictures per second of a page of the program in Chromium. Measures the processor alone: no graphics card
 //! paints.
 
 #![allow(missing_docs, reason = "a program")]

@@ -1,4 +1,4 @@
-//! Deciding where pieces lie against a plane, and cutting them: exactly, and by rounded numbers.
+//! Deciding the side of a plane on which pieces lie, and cutting pieces: exactly, and by rounded numbers.
 
 #![allow(missing_docs, reason = "criterion's macros make functions without any")]
 
@@ -9,7 +9,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// The numbers of faces in front of a plane, behind, on it, across.
+/// The numbers of faces in front of a plane, behind the plane, on the plane, and across it.
 fn count(sides: impl Iterator<Item = Side>) -> [usize; 4] {
     let mut counts = [0; 4];
     sides.for_each(|side| counts[side as usize] += 1);
@@ -58,7 +58,7 @@ fn bench(criterion: &mut Criterion) {
     assert_eq!(counts, classify_rounded());
     let parts = cut(&faces, &exact, &across);
     assert_eq!(parts, cut_rounded(&rounded, &pieces_across));
-    // A triangle is cut into a triangle and a quad, or, through a corner, into two triangles.
+    // A triangle is cut into a triangle and a quad, or into two triangles if the cut goes through a corner.
     let vertices = parts[0] + parts[1];
     assert!(vertices <= 7 * across.len() && vertices >= 6 * across.len());
 

@@ -19,20 +19,21 @@ use binspace::{BspTree, BuildOptions, Error, Fragment, Heuristic, Viewpoint};
 use canvas::{Canvas, Colour};
 
 const SIZE: [usize; 2] = [960, 540];
-/// The direction towards the eye. In a parallel projection, linear functions in space are linear in the picture.
+/// The direction towards the eye. In a parallel projection, linear functions in space are linear in the
+/// picture.
 const TOWARDS_EYE: DVec3 = dvec3(0.45, -0.75, 0.5);
 const CHECKS: f64 = 8.0;
-/// Of each sheet's four corners.
+/// Texture coordinates of each sheet's four corners.
 const UV: [DVec2; 4] = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
 
-/// The attributes of a corner. The attributes of a vertex are weighted sums of these.
+/// The attributes of a corner. The attributes of a vertex are weighted sums of the attributes of corners.
 #[derive(Clone, Copy)]
 struct Attributes {
     uv: DVec2,
     colour: DVec3,
 }
 
-/// A sheet around a point, by its two half sides.
+/// A sheet around a point, from the vectors to the middles of two of its sides.
 fn sheet(middle: DVec3, right: DVec3, up: DVec3) -> [DVec3; 4] {
     [middle - right - up, middle + right - up, middle + right + up, middle - right + up]
 }
@@ -47,12 +48,13 @@ fn sheets() -> [[DVec3; 4]; 5] {
     ]
 }
 
-/// The first sheet's plane cuts all others, and so on: more cuts to look at than by default.
+/// The planes of the sheets are used in input order. The first plane cuts all other sheets, so there are more
+/// cuts than by default.
 fn build() -> Result<BspTree, Error> {
     BuildOptions::DEFAULT.with_heuristic(Heuristic::First).build(sheets())
 }
 
-/// Each corner of a sheet has a colour of its own.
+/// Each corner of a sheet has a different colour.
 fn corner(sheet: usize, corner: usize) -> Attributes {
     let hue = 1.3 * sheet as f64 + 0.55 * corner as f64;
     let colour = dvec3(hue.cos(), (hue - 2.1).cos(), (hue - 4.2).cos()) * 0.38 + 0.6;
@@ -102,7 +104,7 @@ fn paint(tree: &BspTree) -> Canvas {
     canvas
 }
 
-/// As on a graphics card: interpolates in a triangle, and looks up the colour.
+/// Interpolates texture coordinates in a triangle and looks up the colour, like a graphics card.
 fn texture([a, b, c]: [DVec2; 3], of: [Attributes; 3], point: DVec2) -> Colour {
     let area = (b - a).perp_dot(c - a);
     let (s, t) = ((point - a).perp_dot(c - a) / area, (b - a).perp_dot(point - a) / area);

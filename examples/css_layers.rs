@@ -1,5 +1,5 @@
-//! A page as a browser composes it: a carousel of glass cards that cross their neighbours, each with
-//! a badge in its plane, and a plate that goes through all of them.
+//! A page as a browser composes it: a carousel of glass cards that cross their neighbours, each with a badge
+//! in its plane. A plate goes through all cards.
 //!
 //! ```sh
 //! cargo run --release --example css_layers -- docs/css_layers.png
@@ -127,7 +127,7 @@ fn the_page_is_cut_where_it_crosses_and_painted_in_order() {
     let order: Vec<usize> = page.back_to_front().map(|piece| piece.layer()).collect();
     let first = |layer| order.iter().position(|&other| other == layer);
     assert!((0..CARDS).all(|k| first(2 * k) < first(2 * k + 1)));
-    // The badge of the front card is red, and under the mouse.
+    // The badge of the front card is red, and the hit test at its middle returns it.
     let canvas = paint(&layers, &page);
     let badge = page.back_to_front().rfind(|piece| piece.layer() == 1).unwrap();
     let corners: Vec<_> = badge.vertices().map(|vertex| vertex.position.truncate()).collect();

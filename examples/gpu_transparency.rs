@@ -1,6 +1,6 @@
-//! Transparency as an engine draws it: vertices are uploaded once, opaque triangles are drawn by
-//! depth buffer, and translucent ones back to front from an index buffer that is written only when
-//! the order has changed.
+//! Transparency as an engine draws it. Vertices are uploaded once. Opaque triangles are drawn with a depth
+//! buffer. Translucent triangles are drawn back to front, from an index buffer that is written only when the
+//! order has changed.
 //!
 //! ```sh
 //! cargo run --release --example gpu_transparency                    # walks along a path
@@ -38,7 +38,7 @@ struct Vertex {
     opacity: f32,
 }
 
-/// The number of index buffers that were written, and the picture of the last frame, if wanted.
+/// The number of index buffers that were written, and the picture of the last frame, if requested.
 struct Film {
     written: usize,
     picture: Option<Vec<u8>>,
@@ -48,7 +48,7 @@ fn film(with_picture: bool) -> Result<Film, binspace::Error> {
     let scene = scene();
     let tree = BspTree::build(scene.iter().map(|polygon| &polygon.corners))?;
 
-    // Once: a vertex buffer for both passes, and the triangles of each pass.
+    // Done once: a vertex buffer for both passes, and the triangles of each pass.
     let mesh = tree.welded_mesh()?;
     let vertices: Vec<Vertex> = mesh
         .vertices()
@@ -61,7 +61,7 @@ fn film(with_picture: bool) -> Result<Film, binspace::Error> {
     let opaque = mesh.triangles_of(|polygon| scene[polygon].opacity == 1.0)?;
     let translucent = mesh.triangles_of(|polygon| scene[polygon].opacity < 1.0)?;
 
-    // Every frame: nothing, unless the eye has passed a partition plane.
+    // In every frame: nothing to do, unless the eye has passed a partition plane.
     let mut order = Vec::new(); // working space
     let mut indices = vec![0; translucent.indices().len()]; // or mapped memory of a device
     let mut written_for = None;
@@ -165,7 +165,7 @@ fn lit(polygon: &Polygon) -> [f32; 3] {
     polygon.color.map(|channel| channel * light as f32)
 }
 
-/// Stands for the device: a colour and a depth buffer of two by two samples a pixel.
+/// Stands for the device: a colour buffer and a depth buffer with two by two samples per pixel.
 struct Target {
     eye: DVec3,
     axes: [DVec3; 3],
@@ -187,7 +187,7 @@ impl Target {
         Self { eye, axes: [right, ahead.cross(right), ahead], colors, nearness }
     }
 
-    /// Draws triangles with depth test and blending; `writes_depth` is off for translucent ones.
+    /// Draws triangles with depth test and blending; `writes_depth` is off for translucent triangles.
     fn draw(&mut self, vertices: &[Vertex], indices: &[u32], writes_depth: bool) {
         for triangle in indices.chunks_exact(3) {
             let [a, b, c] = [0, 1, 2].map(|k| &vertices[triangle[k] as usize]);
@@ -199,7 +199,8 @@ impl Target {
         }
     }
 
-    /// Steps to the right and down, and nearness: 1 / depth, which is linear on the screen.
+    /// The position on the screen in steps to the right and down, and 1 / depth, which is linear on the
+    /// screen.
     fn project(&self, position: DVec3) -> (i64, i64, f64) {
         let [x, y, z] = self.axes.map(|axis| axis.dot(position - self.eye));
         let scale = 1.35 * Self::HEIGHT as f64 / z;

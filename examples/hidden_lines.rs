@@ -4,9 +4,9 @@
 //! cargo run --release --example hidden_lines -- docs/hidden_lines.svg
 //! ```
 //!
-//! The visibility map returns each edge as visible and hidden runs, with the kind of the edge: a silhouette, or a
-//! crease between two polygons. Edges inside round parts, where polygons meet at a small angle, are left out. Runs
-//! of the same style are joined into polylines.
+//! The visibility map returns each edge as visible and hidden runs, with the kind of the edge: a silhouette,
+//! or a crease between two polygons. Edges inside round parts, where polygons meet at a small angle, are left
+//! out. Runs of the same style are joined into polylines.
 //!
 //! ![A nut with a flange, with its hidden edges dashed](../docs/hidden_lines.svg)
 
@@ -20,7 +20,7 @@ use std::error::Error;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
 
 const SIZE: [u32; 2] = [640, 420];
-/// Quads around the part.
+/// The number of quads around the part.
 const QUADS: usize = 96;
 /// The smallest angle of a crease that is drawn, in radians.
 const CREASE: f64 = 0.3;
@@ -34,7 +34,7 @@ fn circle(radius: f64, z: f64) -> Ring {
     })
 }
 
-/// With flat sides this far from the axis.
+/// A hexagon whose sides are this far from the axis.
 fn hexagon(distance: f64, z: f64) -> Ring {
     let mut ring = circle(distance, z);
     for (k, point) in ring.iter_mut().enumerate() {
@@ -44,7 +44,8 @@ fn hexagon(distance: f64, z: f64) -> Ring {
     ring
 }
 
-/// A nut with a flange and a step in its bore: rings, each joined to the next, and the last to the first.
+/// A nut with a flange and a step in its bore. It consists of rings, each joined to the next, and the last to
+/// the first.
 fn part() -> Vec<[DVec3; 4]> {
     let rings = [
         circle(3.1, 0.0),
@@ -75,7 +76,7 @@ fn runs() -> Result<Vec<EdgeRun>, Box<dyn Error>> {
     Ok(runs)
 }
 
-/// Lines as an SVG, hidden ones below the others.
+/// The lines as an SVG, with hidden lines below visible lines.
 fn svg(runs: &[EdgeRun]) -> Result<String, Box<dyn Error>> {
     const INK: [u8; 3] = [17, 34, 51];
     let mut picture = VectorPicture::new(SIZE).with_background([255; 3]);
@@ -108,7 +109,7 @@ fn outlines_are_closed_and_some_edges_hidden() {
     assert!(runs.iter().all(|run| run.kind != EdgeKind::Border));
     let count = |is_visible: bool| runs.iter().filter(|run| run.is_visible == is_visible).count();
     assert!(count(true) > 300 && count(false) > 300, "{} {}", count(true), count(false));
-    // All of it is in the picture.
+    // The whole part is in the picture.
     for [x, y] in runs.iter().flat_map(|run| run.ends) {
         assert!(x > 5.0 && x < f64::from(SIZE[0]) - 5.0 && y > 5.0 && y < f64::from(SIZE[1]) - 5.0);
     }

@@ -6,12 +6,12 @@
 //! cargo run --release --example plot -- plot.svg
 //! ```
 //!
-//! The surfaces are the polygons of a tree. Lines and points go into an overlay, which cuts each line
-//! where it goes through a surface, so that it is painted before the surface on one side and after it
-//! on the other. A label is a point; its text is written when the order reaches it.
+//! The surfaces are the polygons of a tree. Lines and points go into an overlay, which cuts each line where
+//! it goes through a surface, so that the part behind the surface is painted before it, and the part in front
+//! after it. A label is a point; its text is written when the order reaches it.
 //!
-//! The SVG (`plot/svg.rs`) has one path for each visible quad. Hidden parts of lines are dashed; the visibility
-//! map returns them.
+//! The SVG (`plot/svg.rs`) has one path for each visible quad. Hidden parts of lines are dashed; the
+//! visibility map returns them.
 //!
 //! ![Two surfaces that cross, axes, a curve, markers and labels](../docs/plot.png)
 
@@ -29,7 +29,7 @@ use std::error::Error;
 use std::f64::consts::TAU;
 
 const SIZE: [usize; 2] = [960, 640];
-/// Parallel projection from here.
+/// The direction towards the eye, for a parallel projection.
 const TOWARDS_EYE: DVec3 = dvec3(0.62, -0.78, 0.52);
 /// Pixels for a length of 1.
 const UNIT: f64 = 128.0;
@@ -77,7 +77,7 @@ fn surfaces() -> Vec<[DVec3; 4]> {
     quads(ripple).chain(quads(saddle)).collect()
 }
 
-/// Up around the axis, from share 0 to 1.
+/// A point of the helix around the axis, from share 0 at the lower end to 1 at the upper end.
 fn helix(share: f64) -> DVec3 {
     let angle = TURNS * TAU * share;
     dvec3(1.5 * angle.cos(), 1.5 * angle.sin(), 3.2 * share - 1.6)
@@ -147,7 +147,7 @@ fn dot(canvas: &mut Canvas, at: DVec2, radius: f64, colour: Colour) {
     canvas.fill(&outline, |_| colour);
 }
 
-/// A digit is some of seven strokes: on the left, in the middle and on the right of a box.
+/// Digits consist of seven strokes: on the left, in the middle and on the right of a box.
 const BARS: [[DVec2; 2]; 7] = [
     [dvec2(0.0, 0.0), dvec2(1.0, 0.0)],
     [dvec2(1.0, 0.0), dvec2(1.0, 1.0)],
@@ -246,7 +246,7 @@ impl Plot {
         Ok(canvas)
     }
 
-    /// Of a quad, by its height and its slope.
+    /// The colour of a quad, from its height and its slope.
     fn colour(&self, quad: usize) -> Colour {
         let [a, b, c, d] = self.quads[quad];
         let light = (c - a).cross(d - b).normalize().dot(dvec3(0.2, -0.5, 0.84)).abs();
@@ -301,7 +301,7 @@ fn markers_show_where_no_surface_is_in_front_of_them() {
     let mut found = [0; 2];
     for mark in plot.marks.iter().filter(|mark| mark.text.is_empty()) {
         let Some(hidden) = is_hidden(mark.at) else { continue };
-        // Beside the middle, where the curve may be in front.
+        // Points away from the middle, where the curve may be in front.
         let yellow = (0..8).filter(|&k| {
             let at = project(mark.at) + DVec2::from_angle(TAU * f64::from(k) / 8.0) * 3.5;
             let [red, _, blue] = canvas.pixel(at.to_array().map(|x| x as usize));

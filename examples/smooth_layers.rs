@@ -5,8 +5,9 @@
 //! cargo run --release --example smooth_layers -- page.png
 //! ```
 //!
-//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam shows. So each
-//! piece is filled without antialiasing. Then only the edges of its layer are stroked with antialiasing.
+//! With antialiased fills, two pieces of a card blend with the background where they meet, and a seam is
+//! visible. So each piece is filled without antialiasing. Then only the edges of its layer are stroked with
+//! antialiasing.
 
 #![allow(clippy::print_stdout, reason = "a program")]
 
@@ -21,7 +22,8 @@ const BACKGROUND: [u8; 3] = [18, 20, 28];
 const CARDS: usize = 8;
 const RIBBON: [f64; 2] = [200.0, 34.0];
 
-/// The size of a card. Every second one is lower: where its plane cuts the higher ones, the cut is longer than it.
+/// The size of a card. Every second card is lower. Where its plane cuts a higher neighbour, the cut is longer
+/// than the low card is high.
 fn card_size(k: usize) -> [f64; 2] {
     [300.0, [260.0, 150.0][k % 2]]
 }
@@ -68,7 +70,7 @@ fn paint_piece(pixmap: &mut Pixmap, piece: LayerPiece<'_>, [red, green, blue]: [
         pixmap.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
     }
 
-    // One path for each run of edges between cuts, so that corners are joined.
+    // Each run of edges between cuts is one path, so that corners are joined.
     let first_cut = edges.iter().position(Option::is_none);
     let mut lines = PathBuilder::new();
     let mut is_drawing = false;
@@ -116,8 +118,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Compares the colour of each pixel at which two pieces of one layer meet with the colour of that layer. Pixels near
-/// strokes and near borders of visible parts are skipped. Returns the number of compared pixels.
+/// Compares the colour of each pixel at which two pieces of one layer meet with the colour of that layer.
+/// Pixels near strokes and near borders of visible parts are skipped. Returns the number of compared pixels.
 #[cfg(test)]
 fn compared(layers: &[(Layer, [u8; 3])]) -> usize {
     use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! The tests of the library, in one program that is linked once. README.md is their map.
+//! The tests of the library, in one program that is linked once. README.md describes them.
 
 mod cells;
 mod drawing;

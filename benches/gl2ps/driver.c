@@ -1,5 +1,5 @@
-/* Draws triangles with gl2ps, for the bench `peers`: reads a view and triangles, writes an SVG file
-   and says for how many seconds it ran for that.
+/* Draws triangles with gl2ps, for the bench `peers`: reads a view and triangles, writes an SVG file,
+   and prints the processor time of one page in seconds.
 
    driver bsp|simple FILE.svg < INPUT
 
@@ -14,14 +14,14 @@
 #include <string.h>
 #include <time.h>
 
-/* The page is made again until so many seconds are over, for the mean of its times. */
+/* The page is made repeatedly for this many seconds, and its mean time counts. */
 #define ENOUGH 1.0
 
 typedef struct {
     double corners[3][3];
 } Triangle;
 
-/* For how long this program has run. */
+/* The processor time of this program. */
 static double ran(void) {
     struct timespec time;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -37,8 +37,8 @@ static int read_triangle(Triangle *triangle) {
     return 1;
 }
 
-/* Seven bits of a number as a share of a colour, in the middle of two steps of its byte: where gl2ps cuts
-   triangles, it rounds colours anew. */
+/* Seven bits of a number as a share of a colour, in the middle between two steps of its byte, because
+   gl2ps rounds colours again where it cuts triangles. */
 static float share(size_t number, int from) {
     return (float)(2 * ((number >> from) & 127) + 1) / 255.0f;
 }
@@ -54,7 +54,7 @@ static void draw(const Triangle *triangles, size_t count) {
     glEnd();
 }
 
-/* The page from its beginning to the file, with memory for the triangles in OpenGL's buffer. */
+/* Makes the page, from its beginning to the file, with memory for the triangles in OpenGL's buffer. */
 static int page(const char *name, GLint sort, const Triangle *triangles, size_t count,
                 GLint size[2]) {
     GLint viewport[4] = {0, 0, size[0], size[1]};

@@ -1,5 +1,6 @@
-//! A build on one thread and on two, against the surface area heuristic of the `bvh` crate on two threads, on
-//! the same polygons as triangles. Its boxes are computed beforehand, in `f32` as most of its users would.
+//! Compares a build on one thread and on two threads with a build of the `bvh` crate by its surface area
+//! heuristic, on two threads. `bvh` gets the same polygons as triangles. The boxes of `bvh` are computed
+//! beforehand, in `f32` as most of its users would.
 
 use binspace::BspTree;
 use binspace::scene::Scene;
@@ -61,7 +62,7 @@ pub(crate) fn run() {
     }
 }
 
-/// The same statistics, and the same fragments bit for bit in the same places.
+/// Asserts that two trees have the same statistics and, bit for bit, the same fragments in the same places.
 fn assert_same(a: &BspTree, b: &BspTree) {
     assert_eq!(a.stats(), b.stats());
     for (a, b) in a.fragments().zip(b.fragments()) {

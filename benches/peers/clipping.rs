@@ -1,5 +1,5 @@
-//! The use of clipping to the viewport: pages with a floor that reaches behind the eye. There divided
-//! coordinates have no bound, and with them the scene's extent and its default tolerance.
+//! The use of clipping to the viewport: pages with a floor that reaches behind the eye. Without clipping,
+//! coordinates after the division have no bound, so the scene's extent and its default tolerance have none.
 
 use crate::frames::{Painted, judge};
 use binspace::glam::{DMat4, DVec3, dvec3};
@@ -11,10 +11,11 @@ use support::{SEED, Table, best_of, time};
 use testkit::pages::{Page, PageLayer, SCREEN, camera};
 
 const COUNT: usize = 30;
-/// The least number of points of the screen where layers must lie over each other, so that a table shows
-/// something.
+/// The least number of judged points of the screen, at which layers lie over each other. With fewer points, a
+/// table would show nothing.
 const LEAST_JUDGED: usize = 10;
-/// Without clipping, a layer is cut off at such a w. Where w is 1, a pixel is a pixel.
+/// Without clipping, a layer is cut off where w is below this. Where w is 1, a pixel of the layer is a pixel
+/// of the screen.
 const NEAR: [f64; 3] = [1e-2, 1e-6, 1e-9];
 
 pub(crate) fn run() {
@@ -48,7 +49,7 @@ fn by_layers(layers: &[PageLayer], empty: Layers) -> (Duration, Vec<Painted>) {
         .map(|layer| Layer::new([layer.half.map(|side| -side), layer.half], layer.matrix))
         .collect();
     let mut page = empty;
-    // Emptied in between, so that no frame is an unchanged one.
+    // The page is emptied before each frame, so that no frame counts as unchanged.
     let frame = (0..9).map(|_| {
         page.update(&[]).expect("no layers");
         let begin = Instant::now();
@@ -63,7 +64,7 @@ fn by_layers(layers: &[PageLayer], empty: Layers) -> (Duration, Vec<Painted>) {
     (frame, page.back_to_front().map(painted).collect())
 }
 
-/// The way of a program that uses only the tree, with its default tolerance.
+/// Paints like a program that uses only the tree, with the tree's default tolerance.
 fn by_tree(layers: &[PageLayer], near: f64) -> (Duration, Vec<Painted>) {
     let (frame, tree) = best_of(3, || {
         BspTree::build(layers.iter().map(|layer| divided(layer, near))).expect("within budget")
@@ -94,7 +95,7 @@ fn divided(layer: &PageLayer, near: f64) -> Vec<DVec3> {
     kept.into_iter().map(|corner| corner.truncate() / corner.w).collect()
 }
 
-/// The depth of each layer that covers a point, by Cramer's rule; not too near to its edges.
+/// The depth of each layer that covers a point, by Cramer's rule; `None` too near to its edges.
 fn depths(layers: &[PageLayer], [x, y]: [f64; 2]) -> Vec<Option<f64>> {
     let depth = |layer: &PageLayer| {
         let row = |k: usize| {

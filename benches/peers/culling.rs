@@ -74,8 +74,8 @@ pub(crate) fn run() {
 /// The size of the picture, in pixels.
 const PICTURE: [u32; 2] = [320, 180];
 
-/// The numbers of fragments that are in view, that show their front, and that own a pixel, each with the time
-/// to find them.
+/// The numbers of fragments that are in view, that also show their front, and that are visible in a pixel,
+/// each with the time to find them.
 fn left_by_steps(tree: &BspTree, camera: &Camera, side: usize) -> [String; 8] {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
@@ -110,19 +110,19 @@ fn left_by_steps(tree: &BspTree, camera: &Camera, side: usize) -> [String; 8] {
     ]
 }
 
-/// An eye in a room, and a direction of view, with such an angle that about a hundredth is in view.
+/// A camera in a room. The angle of view is chosen so that about a hundredth of the level is in view.
 fn camera(side: usize, k: usize) -> Camera {
     let turn = k as f64 / EYES as f64 * std::f64::consts::TAU;
     let middle = DVec3::new(0.5, 0.5, 0.0) * (side as f64 * ROOM) + DVec3::Z * (0.55 * HEIGHT);
     let eye = middle + DVec3::new(turn.cos(), turn.sin(), 0.0) * (0.2 * side as f64 * ROOM);
-    // Looks outwards: to there it is 0.3 sides, and a wedge of 0.115 radians is about a
-    // hundredth of the square.
+    // Looks outwards: the boundary is 0.3 sides away, and a wedge of 0.115 radians is about a hundredth of
+    // the square.
     let target = eye + (eye - middle).with_z(0.0);
     Camera::perspective(eye, target, DVec3::Z, 0.065, PICTURE).expect("a camera")
 }
 
 /// The number of fragments in view; the shortest times of the whole order, of the order of fragments in view,
-/// and of the order without backs as well.
+/// and of the order of fragments in view without back faces.
 fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     let (viewpoint, frustum) = (camera.viewpoint(), camera.frustum());
     let culling = Culling::NONE.with_frustum(frustum.clone());
@@ -145,14 +145,14 @@ fn measure(tree: &BspTree, camera: &Camera) -> (usize, [Duration; 3]) {
     (seen.len(), shortest)
 }
 
-/// The list is the whole order without the fragments whose vertices are all outside of one plane. A fragment
-/// may be in the list if it is so near to a plane that rounding decides.
+/// Checks that the list is the whole order without the fragments whose vertices are all outside one plane. A
+/// fragment so near to a plane that rounding decides may be in the list.
 fn check(tree: &BspTree, frustum: &Frustum, order: &[u32], seen: &[u32]) {
     let [low, high] = tree.bounds().expect("a level");
     let margin = 1e-6 * (high - low).max_element();
     let mut seen = seen.iter().peekable();
     for &fragment in order {
-        // The polygons are flat along axes, so their boxes are outside if they are.
+        // The polygons are perpendicular to axes, so the box of a polygon is outside if the polygon is.
         let vertices: Vec<DVec3> = tree.fragment(fragment).vertices().collect();
         let (low, high) = vertices
             .iter()

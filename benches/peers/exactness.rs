@@ -1,6 +1,6 @@
 //! The cost of exactness: trees by `sampled(16)` with exact decisions, and a textbook tree with the same
-//! candidates by `f64` and an epsilon. The textbook tree is not tuned: a ratio above 1 does not mean that exact
-//! decisions take no time.
+//! candidates by `f64` and an epsilon. The textbook tree is not tuned: a ratio above 1 does not mean that
+//! exact decisions take no time.
 
 use binspace::internals::Faces;
 use binspace::{BuildOptions, Heuristic, Tolerance};
@@ -11,7 +11,7 @@ use support::{Table, check, ratio, rulings, scene, threads, time};
 /// The epsilon, and the tolerance of the exact tree, as a share of the extent.
 const EPSILON: f64 = 1e-9;
 
-/// In rulings many planes hold one line, so that most decisions are ties.
+/// In rulings, many planes contain one line, so most decisions are ties.
 const SCENES: [&str; 10] = [
     "rulings:60",
     "rulings:600",
@@ -36,7 +36,7 @@ pub(crate) fn run() {
             Some(strips) => rulings(strips.parse().expect("a number")),
             None => scene(name),
         };
-        // The same tolerance for both trees, on scenes from files too.
+        // Both trees have the same tolerance, also on scenes from files.
         let tolerance = Tolerance::Relative(EPSILON);
         let options = BuildOptions::DEFAULT
             .with_heuristic(Heuristic::Sampled { candidates: 16 })

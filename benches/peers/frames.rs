@@ -1,5 +1,5 @@
-//! Frames of a compositor: every frame builds, orders and reads every outline, on one thread, against
-//! `plane-split`, which WebRender uses for CSS 3D layers.
+//! Frames of a compositor, against `plane-split`, which WebRender uses for CSS 3D layers. Every frame builds,
+//! orders, and reads every outline, on one thread.
 
 use binspace::{BuildOptions, FrameBuilder, Viewpoint};
 use euclid::default::Point3D;
@@ -13,7 +13,8 @@ type Outline = [[f64; 3]; 4];
 const COUNTS: [usize; 4] = [12, 30, 100, 200];
 /// Points on the screen at which both orders are judged.
 const SAMPLES: [usize; 2] = [48, 27];
-/// Depths that differ by less, in pixels, are not judged; nor are points so near to an edge.
+/// Depths that differ by less than this, in pixels, are not judged. Points nearer to an edge than this are
+/// not judged either.
 const MARGIN: f64 = 1e-3;
 
 pub(crate) fn run() {
@@ -47,7 +48,7 @@ fn measure(table: &Table, name: String, outlines: &[Outline]) {
     let (mut ours, mut theirs) = (Duration::MAX, Duration::MAX);
     let mut splitter = BspSplitter::<usize>::new();
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
-    // In turns, so that a slow moment of the machine affects both.
+    // Both take turns, so that a slow moment of the machine affects both.
     for _ in 0..4 {
         ours = ours.min(best_of(3, || our_frame(outlines, &mut builder, &mut order)).0);
         theirs = theirs.min(best_of(3, || their_frame(outlines, &mut splitter)).0);
@@ -124,8 +125,8 @@ fn their_pieces(outlines: &[Outline]) -> Vec<Painted> {
 }
 
 /// Paints at points of a grid, given the depths of the layers there. Returns the number of points that at
-/// least two layers cover, and the number of those at which the layers' order differs from the order of their
-/// depths.
+/// least two layers cover. Also returns at how many of these points the order of the layers differs from the
+/// order of their depths.
 pub(crate) fn judge(
     depths: impl Fn([f64; 2]) -> Vec<Option<f64>>,
     pieces: &[Painted],

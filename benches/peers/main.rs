@@ -1,5 +1,5 @@
-//! The library against its peers: the crates that its users would take instead, on the same work, in the same
-//! run. Prints tables of figures.md.
+//! Compares the library with its peers, the crates that users would take instead, on the same work in the
+//! same run. Prints tables of figures.md.
 //!
 //! ```sh
 //! cargo bench -p binspace-benches --bench peers                          # all sections

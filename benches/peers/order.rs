@@ -1,6 +1,6 @@
-//! An order of a frame from the tree, against the sort of an engine: one depth a polygon, by `radsort`. The
-//! time of the sort includes the depths, from centroids that are computed once. Both orders are painted from
-//! one camera and compared with the exact depth buffer.
+//! An order of a frame from the tree, against the sort of an engine: by one depth for each polygon, with
+//! `radsort`. The time of the sort includes the depths, from centroids that are computed once. Both orders
+//! are painted from one camera and compared with the exact depth buffer.
 
 use binspace::glam::{DVec3, Vec3};
 use binspace::paint::paint_tree;
@@ -110,7 +110,8 @@ fn times(tree: &BspTree, scene: &Scene, viewpoint: Viewpoint) -> (Duration, Dura
     (ordering, sorting)
 }
 
-/// The number of pixels that show something, of wrong ones by the tree, and of wrong ones by the sort.
+/// The number of pixels that show a polygon, the number of wrong pixels by the tree, and the number of wrong
+/// pixels by the sort.
 fn wrong_pixels(tree: &BspTree, scene: &Scene, name: &str) -> [usize; 3] {
     let (low, high) = scene.bounds().expect("polygons");
     let camera = Camera::looking_at_all([low, high], up(name), SIZE).expect("a camera");

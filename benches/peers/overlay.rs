@@ -20,11 +20,11 @@ const SCENES: [&str; 7] = [
 const MOVERS: usize = 200;
 const FRAMES: usize = 20;
 
-/// Lines of this many segments, and points.
+/// The number of lines, the number of segments in each, and the number of points.
 const LINES: usize = 200;
 const SEGMENTS: usize = 50;
 const POINTS: usize = 1000;
-/// Faces of a body, about.
+/// The approximate number of faces of a body.
 const BODY: u32 = 10_000;
 
 pub(crate) fn run() {
@@ -87,7 +87,7 @@ fn moving() {
     }
 }
 
-/// Squares of a hundredth of the extent, on their ways through the scene, turning.
+/// Squares of a hundredth of the extent that move through the scene and turn.
 fn movers(low: DVec3, high: DVec3, frame: usize) -> Vec<[DVec3; 4]> {
     let size = (high - low).max_element() * 0.005;
     let mut dice = Dice(SEED);
@@ -104,7 +104,7 @@ fn movers(low: DVec3, high: DVec3, frame: usize) -> Vec<[DVec3; 4]> {
     (0..MOVERS).map(mover).collect()
 }
 
-/// The shortest times of a replacement, of the tree's own order, and of both parts' order.
+/// The shortest times of replacing the contents, of the tree's own order, and of the order of both.
 fn orders(
     overlay: &mut Overlay,
     tree: &BspTree,
@@ -129,7 +129,7 @@ fn orders(
     (replacing, ordering)
 }
 
-/// Both forms of the order agree, with each piece once.
+/// Checks that both forms of the order agree, and that each piece occurs once.
 fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     let mut order = Vec::new();
     overlay.order(tree, eye).expect("its own tree").write_into(&mut order);
@@ -139,7 +139,7 @@ fn judge(overlay: &Overlay, tree: &BspTree, eye: Viewpoint) {
     assert!(order.into_iter().eq(0..(tree.len() + overlay.len()) as u32));
 }
 
-/// The cost of an overlay of one kind, where its shapes are anywhere in a scene, or all in one leaf.
+/// The cost of an overlay with shapes of one kind, which are anywhere in a scene, or all in one leaf.
 fn lines_and_bodies() {
     let table = Table::new(
         "Moving lines, points and bodies",

@@ -1,5 +1,5 @@
-//! Building and ordering by `plane-split`, which takes triangles and quads one after the other. Both
-//! on one thread, built as often.
+//! Building and ordering by `plane-split`, which gets triangles and quads one after the other. Both libraries
+//! run on one thread and build the same number of times.
 
 use binspace::scene::Scene;
 use binspace::{BspTree, Viewpoint};
@@ -12,7 +12,7 @@ const NAMES: [&str; 3] = ["random", "city", "sphere"];
 const COUNTS: [u32; 3] = [100, 1000, 10_000];
 const DIRECTION: [f64; 3] = [0.3, 0.5, -0.8];
 
-/// It recurses as deep as its tree is, and a sphere makes that a list.
+/// The stack for `plane-split`. Its recursion is as deep as its tree, which is a list for a sphere.
 const THEIR_STACK: usize = 4 << 30;
 
 pub(crate) fn run() {
@@ -34,7 +34,7 @@ pub(crate) fn run() {
         if count == 100 {
             measure(&table, &scene("random quads:100"));
         }
-        // Of 10 000 random triangles there are 2 million fragments, and 8 million of its pieces.
+        // 10 000 random triangles become 2 million fragments here, and 8 million pieces in `plane-split`.
         for name in NAMES.into_iter().filter(|&name| name != "random" || count < 10_000) {
             measure(&table, &scene(&format!("{name}:{count}")));
         }

@@ -9,10 +9,11 @@ use support::{Table, check, scene, time};
 const SCENES: [&str; 5] =
     ["terrain:10000", "sphere:10000", "city:10000", "random:300", "layers:12"];
 
-/// Frames of a path; one of 60 a second.
+/// The number of frames of a path, at 60 frames per second.
 const FRAMES: usize = 1200;
 
-/// Through the middle third of a scene at eye height, this many extents a frame; and once around it.
+/// Paths through the middle third of a scene at eye height, with the speed in extents per frame; and a path
+/// once around the scene.
 const PATHS: [(&str, Path); 3] =
     [("slow walk", Path::Walk(2e-5)), ("fast walk", Path::Walk(5e-4)), ("orbit", Path::Orbit)];
 
@@ -27,7 +28,7 @@ impl Path {
     fn eye(self, frame: usize) -> DVec3 {
         let frame = frame as f64;
         match self {
-            // Steps to the side now and then; the head moves up and down.
+            // The walker sometimes steps to the side, and the head moves up and down.
             Self::Walk(step) => {
                 let gone = frame * step;
                 DVec3::new(
@@ -70,7 +71,8 @@ pub(crate) fn run() {
     }
 }
 
-/// The number of frames that keep the order of an earlier one, and the times of the test and of the order.
+/// The number of frames that keep the order of an earlier frame, the time of the test, and the time of an
+/// order.
 fn walk(tree: &BspTree, eye: impl Fn(usize) -> Viewpoint) -> (usize, Duration, Duration) {
     let (mut order, mut other) = (Vec::new(), Vec::new());
     let (mut asking, mut ordering) = (Duration::ZERO, Duration::ZERO);

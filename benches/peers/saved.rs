@@ -1,4 +1,4 @@
-//! A tree read from a file, checks included, against building it.
+//! Reading a tree from a file, with all checks, against building the tree.
 
 use binspace::BspTree;
 use std::time::{Duration, Instant};
@@ -68,7 +68,7 @@ fn order(tree: &BspTree, viewpoint: binspace::Viewpoint) -> Vec<u32> {
     order
 }
 
-/// The same statistics, and the same fragments bit for bit in the same places.
+/// Asserts that two trees have the same statistics and, bit for bit, the same fragments in the same places.
 fn assert_same(a: &BspTree, b: &BspTree) {
     assert_eq!(a.stats(), b.stats());
     assert_eq!(a.preparation(), b.preparation());

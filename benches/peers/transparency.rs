@@ -59,7 +59,7 @@ pub(crate) fn run() {
         let rays = Rays::new(&camera, faces).expect("a picture");
         let layers = Layers::new(&rays, faces);
         let truth = by_layers(faces, &layers, look, BACKGROUND);
-        // Pixels of fewer layers are right by every method.
+        // Every method is right in pixels with fewer layers.
         let judged: Vec<bool> = layers.pixels().map(|layers| layers.len() > 1).collect();
         let error = |picture: Vec<Colour>| Error::of(&picture, &truth, &judged);
 
@@ -83,16 +83,16 @@ pub(crate) fn run() {
     }
 }
 
-/// A quarter opaque, in the polygon's colour.
+/// An opacity of a quarter, in the polygon's colour.
 fn look(polygon: usize) -> Look {
     Look { colour: colour_of(polygon).map(|c| f32::from(c) / 255.0), opacity: 0.25 }
 }
 
 /// The differences from the true picture in the judged pixels.
 struct Error {
-    /// The share of pixels with a channel that differs by more than 1 of 255.
+    /// The share of pixels in which a channel differs by more than 1/255.
     wrong: f64,
-    /// The mean difference of a channel, of 255.
+    /// The mean difference of a channel, in units of 1/255.
     mean: f64,
 }
 

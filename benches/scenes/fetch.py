@@ -22,7 +22,7 @@ FILES = HERE / "files"
 MODELS = "usr/share/assimp/models"
 DOOM = "usr/share/games/doom"
 
-# The scene; the package manager, the package, the file in it; its conversion; the file's SHA-256.
+# Each row: the scene; the package manager, the package and the file in it; the conversion; the file's SHA-256.
 SCENES = [
     ("bunny", "npm", "bunny@1.0.1", "index.js", "mesh_of_script",
      "4c428649f2cabf3c11a0225f58367c503d181b7e2a59223a610c88a5308412b3"),
@@ -41,7 +41,7 @@ SCENES = [
     ("level_large", "apt", "freedoom", f"{DOOM}/freedoom2.wad", "MAP12",
      "c72de2af7e2d0c17f6213e751a167e2f1913278aaf37ae6957854fe3cd6588ca"),
 ]
-# It divides a level's floors into convex polygons.
+# The program that divides a level's floors into convex polygons.
 NODE_BUILDER = ["glbsp", "libglbsp3"]
 
 

@@ -19,7 +19,7 @@ use testkit::shapes::fan;
 /// The seed of every generated scene.
 pub const SEED: u64 = 1;
 
-/// A scene by name: built in, made here, or a file of `benches/scenes`.
+/// Returns a scene by name: a built-in scene, a scene of this module, or a file of `benches/scenes`.
 pub fn scene(name: &str) -> Scene {
     let count = |text: &str| text.parse().expect("a number");
     let round = |number: &str, height: f64| {
@@ -58,8 +58,8 @@ pub fn up(name: &str) -> DVec3 {
     }
 }
 
-/// Random triangles that shrink as their number grows, so that each meets about as many others: edges of 2 to
-/// 6 tenths of the mean distance between neighbours.
+/// Random triangles that shrink as their number grows, so that each meets about the same number of others.
+/// Edges are 0.2 to 0.6 of the mean distance between neighbours.
 pub fn small_triangles(count: u32) -> Scene {
     let shrink = 2.0 * f64::from(count).powf(-1.0 / 3.0);
     map(&random_triangles(count, SEED), format!("small triangles:{count}"), |[a, b, c]| {
@@ -73,7 +73,7 @@ pub fn random_quads(count: u32) -> Scene {
     map(&random_triangles(count, SEED), name, |[a, b, c]| vec![a, b, b + (c - a), c])
 }
 
-/// Random turned boxes that cross each other.
+/// Random rotated boxes that cross each other.
 pub fn boxes(count: u32) -> Scene {
     let mut dice = Dice(SEED);
     let mut scene = Scene::new(format!("boxes:{count}"), DVec3::Z);
@@ -97,8 +97,8 @@ pub fn boxes(count: u32) -> Scene {
     scene
 }
 
-/// Strips along both families of lines of z = x y: many planes hold one line, and many lines meet in one point.
-/// `strips`: a multiple of 4.
+/// Strips along both families of lines of z = x y: many planes contain one line, and many lines meet in one
+/// point. `strips` must be a multiple of 4.
 pub fn rulings(strips: i32) -> Scene {
     let half = strips / 4;
     let mut scene = Scene::new(format!("rulings:{strips}"), DVec3::Z);
@@ -126,7 +126,7 @@ pub fn triangles_in_cubes(count: u32) -> Scene {
     scene
 }
 
-/// A scene's polygons as fans of triangles. Fans of polygons that are not convex lie over themselves.
+/// A scene's polygons as fans of triangles. Fans of polygons that are not convex overlap themselves.
 pub fn triangulated(scene: &Scene) -> Scene {
     let mut triangles = Scene::new(scene.name(), scene.up());
     for corners in scene.polygons() {
@@ -137,7 +137,7 @@ pub fn triangulated(scene: &Scene) -> Scene {
     triangles
 }
 
-/// The box of a triangle, in `f32` as most users of `bvh` would have it.
+/// The box of a triangle, in `f32`, which most users of `bvh` would take.
 #[derive(Clone)]
 pub struct Boxed {
     bounds: Aabb<f32, 3>,
@@ -179,16 +179,16 @@ fn map(scene: &Scene, name: String, polygon: impl Fn([DVec3; 3]) -> Vec<DVec3>) 
     mapped
 }
 
-/// Work is repeated for at most this long, or this many times: more would give the same shortest
-/// time.
+/// Work is repeated for at most this time, and at most this many times. More repetitions would give the same
+/// shortest time.
 const ENOUGH: (Duration, u32) = (Duration::from_secs(1), 200);
 
-/// The shortest time of several, three at least, and the last result.
+/// Runs a function at least three times. Returns the shortest time and the last result.
 pub fn best<T>(run: impl FnMut() -> T) -> (Duration, T) {
     best_of(3, run)
 }
 
-/// The shortest time of several, and the last result.
+/// Runs a function at least `at_least` times. Returns the shortest time and the last result.
 pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     let start = Instant::now();
     let mut shortest = Duration::MAX;
@@ -204,10 +204,10 @@ pub fn best_of<T>(at_least: u32, mut run: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-/// The most exact decisions that are made to check a tree: some seconds.
+/// The largest number of exact decisions to check a tree, which take some seconds.
 const MOST_CHECKS: f64 = 3e8;
 
-/// A tree whose time is reported must be right: every face in it, and valid, if that can be checked
+/// Panics if a tree is wrong. Every face must be in the tree. The tree must be valid, if this can be checked
 /// in seconds.
 pub fn check(tree: &BspTree, scene: &Scene) {
     let stats = tree.stats();
@@ -231,7 +231,7 @@ pub fn viewpoints(scene: &Scene) -> Vec<Viewpoint> {
 pub struct Table(Vec<usize>);
 
 impl Table {
-    /// Prints the head. The last columns are wide enough for figures; the first for names.
+    /// Prints the head of the table. The first column is wide enough for names, and the others for figures.
     pub fn new(title: &str, columns: &[&str]) -> Self {
         println!("\n## {title}\n");
         let width =
@@ -278,7 +278,7 @@ pub fn time(time: Duration) -> String {
     }
 }
 
-/// The date, the commit and the machine, as the head of a document.
+/// Prints the head of a document: the date, the commit and the machine.
 pub fn print_head(title: &str, command: &str) {
     println!("# {title}\n");
     println!("- command: `{command}`");
@@ -304,7 +304,7 @@ fn machine() -> String {
     format!("{model}, {threads} threads, {} {}", env::consts::OS, env::consts::ARCH)
 }
 
-/// The sections named on the command line, or all.
+/// Returns whether the command line names this section, or names no section.
 pub fn wanted(section: &str) -> bool {
     let mut named = env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     named.peek().is_none() || named.any(|name| name == section)

@@ -8,8 +8,8 @@ use mpi::traits::{Communicator, CommunicatorCollectives};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Failure;
 
-/// The values of all ranks, if all have one. Otherwise the first rank without a value reports why. Every rank
-/// has to call this, at the same place.
+/// Returns the value of this rank, if all ranks have one. Otherwise the first rank without a value reports
+/// its error. Every rank must call this function at the same place.
 pub(crate) fn together<T>(
     world: &SimpleCommunicator,
     result: Result<T, String>,
@@ -27,7 +27,7 @@ pub(crate) fn together<T>(
     }
 }
 
-/// From now on, a panic on one rank ends all of them: the others would wait for it.
+/// From now on, a panic on one rank ends all ranks. Without this, the other ranks would wait for it.
 pub(crate) fn abort_on_panic() {
     let print = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -44,7 +44,7 @@ mod tests {
 
     use super::abort_on_panic;
 
-    /// The work of a rank in the test below. Alone, it is one rank of one, and does nothing.
+    /// The work of a rank in the test below. Outside `mpirun`, it is the only rank and does nothing.
     #[test]
     #[ignore = "it is run by mpirun"]
     fn one_rank_of_several_panics() {
@@ -52,7 +52,7 @@ mod tests {
         let world = universe.world();
         abort_on_panic();
         assert_ne!(world.rank(), 1, "a panic on one rank");
-        // The others would wait for it.
+        // The other ranks would wait for this rank.
         world.barrier();
         assert_eq!(world.size(), 1, "nobody gets here");
     }

@@ -19,8 +19,8 @@ const FIELD_OF_VIEW: f64 = 40.0 * std::f64::consts::PI / 180.0;
 #[derive(Debug, Parser)]
 #[command(name = "binspace-mpi", version)]
 pub(crate) struct Arguments {
-    /// cloud:N or lump:N, of N generated triangles; an OBJ file; or a folder of OBJ files, which the
-    /// ranks share
+    /// cloud:N or lump:N, with N generated triangles; an OBJ file; or a folder of OBJ files, which the ranks
+    /// share
     pub(crate) scene: String,
     /// PNG file to write
     #[arg(short, long, value_name = "FILE")]
@@ -40,10 +40,10 @@ pub(crate) struct Arguments {
     /// Give up if a cell has more fragments than this
     #[arg(long, value_name = "N")]
     max_fragments: Option<usize>,
-    /// Print what each rank has done, as CSV
+    /// Print the work, time and memory of each rank as CSV
     #[arg(long)]
     pub(crate) figures: bool,
-    /// One rank: one tree of all, without cells
+    /// For one rank: paint one tree of the whole scene, without cells
     #[arg(long)]
     pub(crate) alone: bool,
 }
@@ -94,14 +94,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_said_is_understood() {
+    fn arguments_are_parsed() {
         let found = parsed("cloud:9 -o a.png --size 20x10 --eye -1,2,3 --figures").unwrap();
         assert_eq!((found.size, found.eye), ([20, 10], Some(DVec3::new(-1.0, 2.0, 3.0))));
         assert!(found.figures && !found.alone && found.scene == "cloud:9");
     }
 
     #[test]
-    fn what_is_wrong_is_refused() {
+    fn wrong_arguments_are_refused() {
         for line in ["", "a.obj", "-o b", "a b -o c", "a -o", "a -o b --size 3", "a -o b --eye 1,2"]
         {
             assert!(parsed(line).is_err_and(|error| error.use_stderr()), "{line}");

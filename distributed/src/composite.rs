@@ -1,8 +1,8 @@
 //! Direct send: each pixel has an owner, which receives the layers of all cells there, and blends them.
 //!
-//! Blending "over" is associative in real numbers, but not in rounded ones. Cells that were blended
-//! separately, and then with each other, would differ from the picture of one process in the last bits. So
-//! ranks send layers before blending: the owner paints layer over layer, as one process does.
+//! Blending "over" is associative in real numbers, but not in rounded ones. If cells were blended separately,
+//! and then with each other, the last bits would differ from the picture of one process. So ranks send layers
+//! that are not yet blended, and the owner blends layer over layer, as one process does.
 
 use binspace::raster::blend;
 use mpi::topology::SimpleCommunicator;
@@ -11,8 +11,8 @@ use mpi::traits::Communicator;
 use crate::exchange;
 use crate::picture::{BACKGROUND, LAYER, Layer};
 
-/// The picture, on rank 0, of the layers that each rank paints of its cell, with the cells in an order, the
-/// furthest first. Also returns the number of bytes of layers that this rank has sent to others.
+/// Blends the layers of all ranks' cells, given the order of the cells, the furthest first. Returns the
+/// picture on rank 0, and the number of bytes of layers that this rank has sent to others.
 pub(crate) fn blended(
     world: &SimpleCommunicator,
     size: [u32; 2],
@@ -21,7 +21,7 @@ pub(crate) fn blended(
 ) -> (u64, Option<Vec<u8>>) {
     let pixels = size[0] as usize * size[1] as usize;
     let (rank, ranks) = (world.rank() as usize, world.size() as usize);
-    // Rows in turn: neighbours differ little in the amount of blending.
+    // Ranks own rows in turn, because neighbouring rows need about the same amount of blending.
     let owner = |pixel: u32| (pixel / size[0]) as usize % ranks;
     let mut outgoing = vec![Vec::new(); ranks];
     for layer in &layers {

@@ -6,8 +6,8 @@ use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, CommunicatorCollectives, Root};
 
-/// The most bytes that go from one rank to all others at a time. Too large: more memory, and counts that do
-/// not fit MPI's `int`. Too small: more rounds.
+/// The largest number of bytes that one rank sends to all others at a time. Too large: more memory, and
+/// counts that do not fit MPI's `int`. Too small: more rounds.
 const AT_ONCE: usize = 1 << 26;
 
 /// The sum of a number over all ranks.
@@ -20,7 +20,7 @@ pub(crate) fn sum(world: &SimpleCommunicator, own: u64) -> u64 {
 /// Merges the extents of all shares into the scene's extent.
 pub(crate) fn merge(world: &SimpleCommunicator, extent: &mut Extent) {
     let [low, high] = [extent.low, extent.high].map(|corner| corner.to_array());
-    // The reduction takes the minimum of each.
+    // The reduction takes the minimum of each number.
     let own = [low[0], low[1], low[2], -high[0], -high[1], -high[2], -extent.precision];
     let mut all = own;
     world.all_reduce_into(&own[..], &mut all[..], SystemOperation::min());
@@ -98,7 +98,7 @@ fn buffer(len: usize) -> Vec<u8> {
     Vec::with_capacity(len.max(1))
 }
 
-/// Where parts of these lengths begin.
+/// The offsets at which parts of these lengths begin.
 fn starts(counts: &[i32]) -> Vec<i32> {
     let mut next = 0;
     let start = |&count: &i32| {

@@ -9,28 +9,28 @@ use crate::exchange;
 /// The figures of one rank.
 #[derive(Debug, Default)]
 pub(crate) struct Figures {
-    /// Polygons of its share, polygons that it received, and polygons that reach into its cell.
+    /// Polygons of the rank's share, polygons that it received, and polygons that reach into its cell.
     pub(crate) given: u64,
     pub(crate) received: u64,
     pub(crate) polygons: u64,
     pub(crate) fragments: u64,
     /// Layers of pixels.
     pub(crate) layers: u64,
-    /// Sent to other ranks.
+    /// Bytes sent to other ranks.
     pub(crate) polygon_bytes: u64,
     pub(crate) layer_bytes: u64,
     /// Processor time, without waiting for others.
     pub(crate) read: Duration,
     pub(crate) build: Duration,
     pub(crate) paint: Duration,
-    /// By the clock, with waiting for others.
+    /// Time by the clock, including waiting for other ranks.
     pub(crate) exchange: Duration,
     pub(crate) composite: Duration,
     pub(crate) all: Duration,
 }
 
 impl Figures {
-    /// Prints the figures of all ranks, one a line, if they are wanted.
+    /// Prints the figures of all ranks, one rank per line, if they are requested.
     pub(crate) fn report(&self, world: &SimpleCommunicator, is_wanted: bool) {
         let counts = [
             self.given,
@@ -49,7 +49,7 @@ impl Figures {
             .chain(times.into_iter().map(|time| time.as_secs_f64()))
             .collect();
         let Some(all) = exchange::gather(world, &own).filter(|_| is_wanted) else { return };
-        // If standard output is closed, nobody reads them.
+        // An error is ignored: if standard output is closed, nobody reads the figures.
         let _ = print(&all, own.len(), counts.len());
     }
 }

@@ -1,7 +1,7 @@
 //! Draws scenes that are spread over many processes, in exact order.
 //!
-//! Each MPI rank reads or generates a share of the polygons. All agree on the extent and, from samples, on
-//! the planes between cells, one cell a rank. Polygons go to the ranks whose cells they reach; each rank
+//! Each MPI rank reads or generates a share of the polygons. All ranks agree on the extent and, from samples,
+//! on the planes between cells, one cell per rank. Polygons go to the ranks whose cells they reach. Each rank
 //! builds the tree of its cell, and paints it. The visible layers of a pixel go to the rank that owns the
 //! pixel, which blends them in the order of the cells.
 
@@ -31,8 +31,8 @@ use figures::{Figures, processor_time};
 use polygon::Given;
 use share::Share;
 
-/// The approximate number of samples that choose the planes between cells. Too large: time. Too small: cells
-/// differ in size.
+/// The approximate number of samples that choose the planes between cells. Too large: choosing takes longer.
+/// Too small: cells differ in size.
 const SAMPLES: u64 = 1 << 16;
 
 fn main() -> ExitCode {
@@ -44,15 +44,15 @@ fn main() -> ExitCode {
     agree::abort_on_panic();
     match run(&world) {
         Ok(()) => ExitCode::SUCCESS,
-        // The rank where it occurred has reported it.
+        // The rank with the error has reported it.
         Err(Failure) => ExitCode::from(2),
     }
 }
 
-/// The work of a rank. After an error on any rank, all of them return.
+/// The work of a rank. After an error on any rank, all ranks return.
 fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
     let arguments = match Arguments::try_parse() {
-        // Requested output, such as help, is no error: rank 0 prints it.
+        // Requested output, such as help, is not an error: rank 0 prints it.
         Err(answer) if !answer.use_stderr() => {
             if rank(world) == 0 {
                 print!("{answer}");
@@ -61,7 +61,7 @@ fn run(world: &SimpleCommunicator) -> Result<(), Failure> {
         }
         parsed => together(world, parsed.map_err(|error| plain(&error)))?,
     };
-    // Noticed before the work, not after it.
+    // The error is reported before the work, not after it.
     let is_writer = rank(world) == 0;
     together(world, if is_writer { picture::check(&arguments.output) } else { Ok(()) })?;
     let mut figures = Figures::default();
@@ -122,7 +122,7 @@ fn ranks(world: &SimpleCommunicator) -> usize {
     world.size() as usize
 }
 
-/// The cells, one a rank: made by rank 0 of samples, and sent to all.
+/// The cells, one for each rank. Rank 0 makes them from samples, and sends them to all ranks.
 fn divide(
     world: &SimpleCommunicator,
     options: &BuildOptions,
@@ -148,8 +148,8 @@ fn divide(
     together(world, Partition::read(&bytes[..]).map_err(|error| error.to_string()))
 }
 
-/// A hash of a number: for any pattern of numbers, about the same share of hashes are multiples of a given
-/// divisor.
+/// A hash of a number. For any pattern of numbers, the share of hashes that are multiples of a divisor is
+/// about the same.
 fn mixed(number: u64) -> u64 {
     let bits = (number ^ number >> 31).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32
@@ -168,7 +168,7 @@ fn send_polygons(
         partition.reached_by(given, &mut reached);
         reached.iter().for_each(|&cell| given.write(&mut outgoing[cell]));
     }
-    // The share is freed before other polygons arrive.
+    // The memory of the share is freed before other polygons arrive.
     drop(share);
     let own = outgoing[rank(world)].len();
     let sent = outgoing.iter().map(Vec::len).sum::<usize>() - own;
@@ -192,7 +192,7 @@ fn camera_and_rays(
     Ok((camera, rays))
 }
 
-/// The picture as the library paints it of one tree, without cells: to compare with. For one rank.
+/// The picture that the library paints from one tree without cells, for comparison. Only for one rank.
 fn alone(world: &SimpleCommunicator, arguments: &Arguments, share: &Share) -> Result<(), Failure> {
     let draw = || -> Result<(), String> {
         if ranks(world) > 1 {

@@ -1,4 +1,4 @@
-//! A rank's painting of its cell, and pictures in files.
+//! Paints the cell of a rank, and writes pictures into files.
 
 use std::fs::{self, Permissions};
 use std::io;
@@ -18,10 +18,10 @@ pub(crate) const BACKGROUND: [u8; 3] = [255; 3];
 /// The contribution of one polygon to one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layer {
-    /// Its number, row by row from the top left.
+    /// The number of the pixel, row by row from the top left.
     pub(crate) pixel: u32,
     pub(crate) colour: [u8; 3],
-    /// From 0 to 1.
+    /// The opacity, from 0 to 1.
     pub(crate) opacity: f32,
 }
 
@@ -68,7 +68,7 @@ struct Painted {
     layers: Vec<Layer>,
     /// For each pixel, the place of the first layer that is not hidden.
     first: Vec<usize>,
-    /// The number of layers at which the hidden ones are removed.
+    /// The number of layers at which hidden layers are removed.
     sweep_at: usize,
 }
 
@@ -91,16 +91,17 @@ impl Painted {
             place += 1;
             place > first[layer.pixel as usize]
         });
-        // The remaining layers of each pixel show.
+        // The remaining layers of each pixel are visible.
         self.first.fill(0);
     }
 }
 
-/// The way of a picture to its place.
+/// The way to write a picture to its place.
 enum Place {
-    /// It is written into a device or a pipe.
+    /// The picture is written into a device or a pipe.
     Into,
-    /// It is written beside this name, and replaces an existing file when it is complete.
+    /// The picture is written to a temporary file beside this one, and replaces this file when it is
+    /// complete.
     Beside(PathBuf),
 }
 
@@ -109,7 +110,8 @@ impl Place {
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
             Ok(found) if !found.is_file() => Ok(Self::Into),
-            // The target of a link is replaced, not the link. (A link without a target is replaced itself.)
+            // The target of a link is replaced, not the link. (If a link has no target, the link itself is
+            // replaced.)
             Ok(_) => fs::canonicalize(path).map(Self::Beside),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
@@ -128,11 +130,11 @@ fn unwritable(path: &Path, error: &io::Error) -> String {
     format!("{}: cannot be written: {error}", path.display())
 }
 
-/// An error if a picture cannot be written to a file, as far as this can be told before.
+/// Returns an error if it is already certain that a picture cannot be written to a file.
 pub(crate) fn check(path: &Path) -> Result<(), String> {
     let check = || match Place::of(path)? {
         Place::Into => Ok(()),
-        // It has no name, so nothing remains if the program ends at once.
+        // The temporary file has no name, so nothing remains if the program is killed.
         Place::Beside(path) => tempfile::tempfile_in(folder_of(&path)).map(drop),
     };
     check().map_err(|error| unwritable(path, &error))
@@ -147,7 +149,7 @@ pub(crate) fn write(path: &Path, size: [u32; 2], pixels: &[u8]) -> Result<(), St
             }
             Place::Beside(target) => target,
         };
-        // The system's mask decides who can read it, as for other files.
+        // The system's mask decides who can read the file, as for other files.
         let file = tempfile::Builder::new()
             .permissions(Permissions::from_mode(0o666))
             .tempfile_in(folder_of(&target))?;
@@ -184,14 +186,14 @@ mod tests {
         write(&folder.path().join("link"), [2, 1], &[9; 6]).unwrap();
         assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
-        // The mask is unknown, but its owner can write it in any.
+        // The mask of the test is unknown, but under any mask the owner can write the file.
         assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o600, 0o600);
         write(Path::new("/dev/null"), [2, 1], &[9; 6]).unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 
     #[test]
-    fn what_cannot_be_written_is_known_before() {
+    fn unwritable_files_are_reported_before_the_work() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::write(path("file"), "kept").unwrap();
@@ -216,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_hidden_goes_and_the_rest_keeps_its_order() {
+    fn hidden_layers_are_removed_and_the_rest_keeps_its_order() {
         for sweep_at in [1, 2, 3, 100] {
             let mut painted = Painted { layers: vec![], first: vec![0; 4], sweep_at };
             let given =

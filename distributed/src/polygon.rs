@@ -1,19 +1,19 @@
-//! Polygons on their way between ranks.
+//! Polygons as messages between ranks.
 
 use binspace::Polygon;
 use binspace::glam::DVec3;
 
-/// A polygon with its looks.
+/// A polygon with its colour and opacity.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
-    /// Its number in the whole scene.
+    /// The polygon's number in the whole scene.
     pub(crate) number: u64,
     pub(crate) colour: [u8; 3],
-    /// From 0 to 1.
+    /// The opacity, from 0 to 1.
     pub(crate) opacity: f32,
     /// See [`Polygon::precision`].
     pub(crate) precision: f64,
-    /// At least one.
+    /// The corners; at least one.
     pub(crate) corners: Vec<DVec3>,
 }
 
@@ -35,7 +35,7 @@ const HEAD: usize = 28;
 const CORNER: usize = 24;
 
 impl Given {
-    /// Appends it to some bytes.
+    /// Appends the polygon to some bytes.
     pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
         let [r, g, b] = self.colour;
         bytes.extend(self.number.to_le_bytes());
@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn written_data_are_read_again() {
         let given = |number: u64, corners: usize| Given {
             number,
             colour: [1, 200, number as u8],

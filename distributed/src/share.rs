@@ -10,7 +10,7 @@ use binspace::scene::ObjStream;
 
 use crate::polygon::Given;
 
-/// Some of a scene's polygons.
+/// A part of a scene's polygons.
 #[derive(Debug, Default)]
 pub(crate) struct Share {
     pub(crate) polygons: Vec<Given>,
@@ -20,11 +20,12 @@ pub(crate) struct Share {
 #[derive(Clone, Copy, Debug)]
 struct Generated {
     polygons: u64,
-    /// Whether nearly all are in a small part of the room.
+    /// Whether nearly all polygons are in a small part of the room.
     is_lump: bool,
 }
 
-/// The bits of a number that hold the place in a file; the bits above hold the number of the file.
+/// The number of low bits of a polygon's number that contain the place in a file. The bits above contain the
+/// number of the file.
 const IN_FILE: u32 = 32;
 
 /// The prefixes of the names of generated scenes, and whether they are lumps.
@@ -35,8 +36,8 @@ fn is_generated(scene: &str) -> bool {
 }
 
 impl Share {
-    /// The share of a rank: `cloud:N` and `lump:N` are generated; any other name is an OBJ file, or a folder
-    /// of them, of which rank k of n reads numbers k, k + n, …, in the order of their names.
+    /// Loads the share of a rank. `cloud:N` and `lump:N` are generated. Any other name is an OBJ file or a
+    /// folder of OBJ files. Rank k of n reads the files k, k + n, … in the order of their names.
     pub(crate) fn load(scene: &str, rank: usize, ranks: usize) -> Result<Self, String> {
         for (name, is_lump) in KINDS {
             if let Some(count) = scene.strip_prefix(name) {
@@ -68,12 +69,13 @@ impl Share {
         let stream = ObjStream::open(path).map_err(about)?;
         let (precision, mut number) = (stream.scene().precision(), (file as u64) << IN_FILE);
         let flow = stream.read(|corners, material| {
-            // Fewer remain if the file changes while it is read, which is an error at its end.
+            // If the file changes while it is read, fewer polygons may remain. This is an error at the end of
+            // the file.
             let look = stream.scene().materials().get(material as usize);
             let colour = look.map_or([0.0; 3], |look| look.color);
             let colour = colour.map(|channel| (channel * 255.0).round() as u8);
             let (opacity, corners) = (look.map_or(1.0, |look| look.opacity), corners.to_vec());
-            // Faces without corners show nowhere.
+            // Faces without corners are not visible.
             if !corners.is_empty() {
                 self.polygons.push(Given { number, colour, opacity, precision, corners });
             }
@@ -84,8 +86,8 @@ impl Share {
     }
 }
 
-/// The error of a tree of some of a scene's polygons. It names the polygon as the scene has it: a generated
-/// one by its number, one of a file by its place there.
+/// The message for an error in a tree of a part of a scene. It names the polygon by its number in a generated
+/// scene, or by its place in a file.
 pub(crate) fn about(scene: &str, polygons: &[Given], error: Error) -> String {
     let Some(given) = error.polygon().and_then(|place| polygons.get(place)) else {
         return error.to_string();
@@ -122,7 +124,7 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
     }
 }
 
-/// The opacity of three of four generated polygons.
+/// The opacity of three in four generated polygons.
 const TRANSLUCENT: f32 = 0.6;
 
 impl Generated {
@@ -137,8 +139,8 @@ impl Generated {
         Some(Share { polygons })
     }
 
-    /// A triangle at a random place. Its size leaves each triangle about the same number of neighbours for
-    /// any number of triangles.
+    /// A triangle at a random place. Its size depends on the number of triangles, so that each triangle
+    /// always has about the same number of neighbours.
     fn polygon(self, number: u64) -> Given {
         let mut dice = Dice(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let mut point = || DVec3::from_array([0; 3].map(|_| dice.share() - 0.5));

@@ -1,7 +1,7 @@
 //! Runs the program by `mpirun`: pictures are the same, bit for bit, on any number of ranks, and an error
 //! on one rank ends all.
 //!
-//! They are ignored, as they need Open MPI: `cargo test --test mpirun -- --ignored` runs them.
+//! The tests are ignored because they need Open MPI; `cargo test --test mpirun -- --ignored` runs them.
 
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -16,8 +16,8 @@ struct Run {
     err: String,
 }
 
-/// Runs the program on some ranks, in a folder. Each run has its own folder for temporary files: Open MPI's
-/// runs share one otherwise, which a run that ends removes while another one begins.
+/// Runs the program on some ranks, in a folder. Each run has its own folder for temporary files. Otherwise
+/// all runs of Open MPI would share one folder, which a run that ends removes while another run begins.
 fn run(folder: &Path, ranks: usize, arguments: &str) -> Run {
     let temporary = tempfile::tempdir().unwrap();
     let mut command = Command::new("timeout");
@@ -91,8 +91,8 @@ fn ranks_without_polygons_do_their_part() {
     }
 }
 
-/// All polygons in the cell of one rank: they share their first corners, so all samples are in one place. The
-/// exception is a far one, of a face without area, which makes the room large.
+/// All polygons are in the cell of one rank: their first corners are equal, so all samples are in one place.
+/// One far sample, of a face without area, makes the extent large.
 #[test]
 #[ignore = "needs mpirun of Open MPI"]
 fn a_scene_in_one_cell_of_many_is_the_same() {
@@ -183,7 +183,7 @@ fn an_error_on_one_rank_ends_all() {
         (2, "cloud:30 --eye 1,2,3 --target 1,2,3 -o p.png", "rank 0"),
         (2, "cloud:30 -o /", "rank 0: /: cannot be written"),
         (2, "cloud:18446744073709551615 -o p.png", "no memory for so many polygons"),
-        // Noticed before the scene is read.
+        // These errors are reported before the scene is read.
         (2, "no_such_file.obj -o none/p.png", "rank 0: none/p.png: cannot be written"),
         (2, "cloud:30", "Usage"),
         (2, "no_such_file.obj -o p.png", "no_such_file.obj"),
@@ -208,7 +208,7 @@ fn figures_have_a_line_for_each_rank() {
     let rows = figures(&run);
     assert_eq!(rows.len(), 3, "{run:?}");
     let sum = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>();
-    // Each is given once, and reaches into one cell or more.
+    // Each polygon is given once, and reaches into one cell or more.
     assert_eq!(sum(1), 2000.0);
     assert!(sum(2) >= sum(3) && sum(3) > 2000.0 && sum(4) >= sum(3), "{run:?}");
 }

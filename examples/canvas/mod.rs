@@ -66,7 +66,7 @@ fn span(outline: &[[f64; 2]], y: f64) -> [f64; 2] {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for (i, &a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];
-        // From the upper end, so that both polygons at an edge compute the same.
+        // Each edge is computed from its upper end, so that both polygons at the edge get the same x.
         let [a, b] = if a[1] <= b[1] { [a, b] } else { [b, a] };
         if a[1] <= y && y < b[1] {
             let x = a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));

@@ -15,7 +15,7 @@ pub(crate) struct Door {
 impl Door {
     /// The door of the doorway that is nearest to a point; `None` if the level has none.
     pub(crate) fn nearest(level: &[(Kind, Quad)], point: DVec3) -> Option<Self> {
-        // The piece of wall above a doorway, from its lower corners.
+        // A doorway is found by the lower corners of the piece of wall above it.
         let lintels = level.iter().filter_map(|&(kind, [a, b, ..])| {
             let height = a.z;
             let on_floor = |p: DVec3| p.with_z(0.0);
@@ -29,7 +29,7 @@ impl Door {
         lintels.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Its leaf, opened by an angle in radians: with 0 it closes the doorway.
+    /// The leaf of the door, opened by an angle in radians. At 0, it closes the doorway.
     pub(crate) fn leaf(&self, angle: f64) -> Quad {
         let (sin, cos) = angle.sin_cos();
         let end = self.hinge + self.across * cos + DVec3::Z.cross(self.across) * sin;

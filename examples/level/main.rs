@@ -7,9 +7,9 @@
 //! The level is a tree that is built once. For each frame
 //!
 //! - **culling**: the tree is walked from front to back. A subtree is skipped if its box is outside the
-//!   camera's frustum, or if a mask shows that all pixels that it may cover are covered. Back faces of
-//!   closed bodies are left out. The remaining fragments own the pixels of the picture. The number of
-//!   visits does not depend on the size of the rest of the level;
+//!   camera's frustum, or if a mask shows that all pixels that it may cover are covered. Back faces of closed
+//!   bodies are left out. Each remaining fragment is visible in at least one pixel. The number of visits does
+//!   not depend on the size of the rest of the level;
 //! - **the door** moves, so it is in an overlay, which splits it by the planes of the tree and returns one
 //!   order of both. The tree is not changed;
 //! - **a sight line** from a guard to the camera is free if neither the level nor the door blocks it. One
@@ -57,7 +57,7 @@ struct Level {
 
 /// The result of a frame.
 struct Frame {
-    /// The fragments that own a pixel, front to back.
+    /// The fragments that are visible in a pixel, front to back.
     seen: Vec<u32>,
     /// The number of subtrees and fragments that the walk visited.
     visits: usize,
@@ -84,15 +84,16 @@ impl Level {
         self.open(angle)?;
         let mut order = Vec::new();
         self.overlay.order(&self.tree, camera.viewpoint())?.write_into(&mut order);
-        // Visible fragments of the tree, and the whole door: if it is behind a wall, the wall covers it.
+        // Visible fragments of the tree, and the whole door. If the door is behind a wall, the wall is
+        // painted over it.
         let mut is_painted = vec![false; self.tree.len()];
         seen.iter().for_each(|&fragment| is_painted[fragment as usize] = true);
         order.retain(|&number| is_painted.get(number as usize).copied().unwrap_or(true));
         Ok(Frame { seen, visits, order })
     }
 
-    /// The fragments of the tree that own a pixel, front to back, and the number of visited parts. Fragments
-    /// that only the door hides are included.
+    /// The fragments of the tree that are visible in a pixel, front to back, and the number of visited parts.
+    /// Fragments that only the door hides are included.
     fn walk(&self, camera: &Camera) -> Result<(Vec<u32>, usize), Box<dyn Error>> {
         let Self { polygons, tree, .. } = self;
         let frustum = camera.frustum();
@@ -108,7 +109,7 @@ impl Level {
                     }
                 }
                 Part::Fragment(fragment) => {
-                    // Walls are thin, and seen from both sides.
+                    // Walls are thin and visible from both sides, so their back faces are kept.
                     let is_thin = polygons[fragment.polygon()].0 == Kind::Wall;
                     let is_drawn = is_thin || fragment.facing(camera.viewpoint()) == Facing::Front;
                     if is_drawn && mask.cover(&fragment) {
@@ -121,12 +122,12 @@ impl Level {
         Ok((seen, visits))
     }
 
-    /// Whether two points see each other past the door in its current position.
+    /// Whether neither the level nor the door in its current position blocks the line between two points.
     fn is_in_sight(&self, from: DVec3, to: DVec3) -> Result<bool, binspace::Error> {
         Ok(!self.overlay.is_occluded(&self.tree, Ray::between(from, to))?)
     }
 
-    /// Somebody beyond the closed door, as high as a camera.
+    /// A guard behind the closed door, at the height of the camera.
     fn guard(&self) -> DVec3 {
         let [hinge, end, ..] = self.door.leaf(0.0);
         let behind = (end - hinge).cross(DVec3::Z).normalize();
@@ -134,7 +135,7 @@ impl Level {
     }
 }
 
-/// The camera of a frame: from room to room, a step at a time, and looking around.
+/// The camera of a frame. It walks from room to room, one step per frame, and looks around.
 fn camera(frame: usize) -> Result<Camera, Box<dyn Error>> {
     let along = frame as f64 / (FRAMES - 1) as f64;
     let eye = dvec3(2.5 + 3.0 * along, 4.5, 0.0) * ROOM + DVec3::Z * 1.7;
@@ -187,7 +188,7 @@ fn a_frame_visits_few_parts_and_misses_none() {
         let camera = camera(number).unwrap();
         let frame = level.frame(&camera, angle(number)).unwrap();
         assert!(frame.visits * 5 < parts, "{} of {parts}", frame.visits);
-        // The whole order paints no face that the frame has not seen.
+        // The picture of the whole order shows no face that the frame has left out.
         let tree = &level.tree;
         let rays = Rays::new(&camera, tree.faces()).unwrap();
         let whole = binspace::paint::paint_tree(tree, camera.viewpoint(), &rays);
@@ -204,7 +205,7 @@ fn a_frame_visits_few_parts_and_misses_none() {
     assert!((0..480).step_by(60).all(|y| canvas.pixel([300, y]) != background));
 }
 
-/// The pixels in which the door shows, if outlines are painted one over the other.
+/// The pixels in which the door is visible, if outlines are painted one over the other.
 #[cfg(test)]
 fn door_pixels(camera: &Camera, outlines: impl Iterator<Item = (bool, Vec<DVec3>)>) -> Vec<bool> {
     let mut canvas = Canvas::new(VIEW.map(|side| side as usize), [0.0; 3]);
@@ -238,7 +239,7 @@ fn the_door_shows_where_it_would_in_a_tree_of_its_own_frame() {
             .back_to_front(camera.viewpoint())
             .map(|fragment| (is_door(fragment.polygon()), fragment.vertices().collect()));
         let truth = door_pixels(&camera, truth);
-        // Edges of cuts are blended in other ways.
+        // Edges of cuts are blended differently.
         let wrong = painted.iter().zip(&truth).filter(|(a, b)| a != b).count();
         let right = truth.iter().filter(|&&is_door| is_door).count();
         assert!(wrong * 100 <= right, "frame {number}: {wrong} of {right}");
@@ -258,6 +259,6 @@ fn the_guard_sees_into_the_room_when_the_door_is_open() {
     assert!(!level.is_in_sight(guard, room).unwrap());
     level.open(FRAC_PI_2).unwrap();
     assert!(level.is_in_sight(guard, room).unwrap());
-    // Through a wall, whatever the door does.
+    // A sight line through a wall is blocked, whether the door is open or closed.
     assert!(!level.is_in_sight(guard, room + DVec3::Z * 9.0).unwrap());
 }

@@ -33,7 +33,7 @@ pub(crate) fn paint_view(canvas: &mut Canvas, level: &Level, camera: &Camera, fr
         let vertices: Vec<DVec3> = fragment.vertices().collect();
         let middle = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
         let normal = fragment.normal();
-        // Lit from two sides, and darker with the distance.
+        // Faces are lit from two sides, and are darker at a larger distance.
         let light = 0.72 + 0.18 * normal.x.abs() + 0.10 * normal.z.abs();
         let light = light / (1.0 + (middle - eye).length() / 45.0);
         let [r, g, b] = colour.map(|c| c * light);
@@ -76,7 +76,7 @@ pub(crate) fn paint_map(canvas: &mut Canvas, level: &Level, camera: &Camera, fra
     };
     let is_floor = |f: &Fragment<'_>| polygons[f.polygon()].0 == Kind::Floor;
     let seen: Vec<Fragment<'_>> = frame.seen.iter().map(|&index| tree.fragment(index)).collect();
-    // Floors first: on a map, walls stand on them.
+    // Floors are painted first, because on a map, walls stand on floors.
     tree.fragments().filter(is_floor).for_each(|f| draw(f, false));
     seen.iter().filter(|f| is_floor(f)).for_each(|&f| draw(f, true));
     tree.fragments().filter(|f| !is_floor(f)).for_each(|f| draw(f, false));

@@ -7,7 +7,7 @@ use binspace::glam::{DVec2, DVec3};
 use binspace::view::Camera;
 use std::error::Error;
 
-/// The camera of which `project` gives the picture.
+/// The camera whose projection is `project`.
 pub(crate) fn camera() -> Result<Camera, Box<dyn Error>> {
     let ahead = TOWARDS_EYE.normalize();
     let right = DVec3::Z.cross(ahead).normalize();

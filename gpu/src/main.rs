@@ -1,5 +1,5 @@
-//! Transparency on a GPU, with wgpu: opaque polygons are drawn first, by depth test; then translucent
-//! ones, back to front in the order of a BSP tree.
+//! Transparency on a GPU, with wgpu. Opaque polygons are drawn first, with depth test. Then translucent
+//! polygons are drawn back to front, in the order of a BSP tree.
 //!
 //! ```sh
 //! cargo run --release -- picture.png
@@ -7,7 +7,7 @@
 //!
 //! ![Three panes that cross in a column, a tilted one across them, a bubble, a beam and balls](../picture.png)
 //!
-//! Nothing here needs a window. A program with one draws the same two passes to its surface.
+//! This example needs no window. A program with a window draws the same two passes to its surface.
 
 mod scene;
 #[cfg(test)]
@@ -26,11 +26,11 @@ use wgpu::util::DeviceExt;
 use scene::{Polygon, scene};
 
 const BACKGROUND: [f64; 3] = [0.86, 0.90, 0.95];
-/// Not sRGB: colours are blended as bytes, as painters of the library do. Choose what your other colours
-/// need; the order does not depend on it.
+/// Not sRGB: colours are blended as bytes, like in the painters of the library. Choose the format that your
+/// other colours need; the order does not depend on it.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Each pixel has four samples, so edges are smooth. Every GPU can do that.
+/// Each pixel has four samples, so edges are smooth. Every GPU supports four samples.
 const SAMPLES: wgpu::MultisampleState =
     wgpu::MultisampleState { count: 4, mask: !0, alpha_to_coverage_enabled: false };
 
@@ -60,14 +60,14 @@ struct Renderer {
     device: wgpu::Device,
     queue: wgpu::Queue,
     size: [u32; 2],
-    /// Four samples a pixel, the same as one, and depths.
+    /// The picture with four samples per pixel, the picture with one, and depths.
     samples: wgpu::Texture,
     picture: wgpu::Texture,
     depths: wgpu::Texture,
     matrix: wgpu::Buffer,
     opaque: Pass,
     glass: Pass,
-    /// The input of the order of the glass, and lists that are reused.
+    /// The tree and the mesh of the glass, and lists that are reused.
     tree: BspTree,
     triangles: Triangles,
     order: Vec<u32>,
@@ -192,7 +192,7 @@ impl Renderer {
         self.queue.submit([encoder.finish()]);
         let (done, result) = std::sync::mpsc::channel();
         copy.map_async(wgpu::MapMode::Read, .., move |mapped| {
-            // Nobody listens if the wait below has failed.
+            // If the wait below has failed, nobody receives the result, and the error is ignored.
             let _ = done.send(mapped);
         });
         self.device.poll(wgpu::PollType::wait_indefinitely())?;
@@ -238,7 +238,7 @@ impl Pass {
             primitive: Default::default(),
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH,
-                // Opaque polygons hide glass; glass hides nothing.
+                // Opaque polygons hide glass, so they write depth. Glass hides nothing.
                 depth_write_enabled: Some(is_opaque),
                 depth_compare: Some(wgpu::CompareFunction::Less),
                 stencil: Default::default(),

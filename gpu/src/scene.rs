@@ -97,7 +97,7 @@ fn ball(middle: DVec3, radius: f64) -> impl Iterator<Item = Vec<DVec3>> {
     })
 }
 
-/// A colour in the light of a lamp that is far away, brighter than in the shadow on the other side.
+/// A colour in the light of a distant lamp. Sides that face the lamp are brighter.
 fn lit(corners: &[DVec3], color: [f32; 3]) -> [f32; 3] {
     let fan = corners.windows(2).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
     let normal = fan.sum::<DVec3>().normalize();

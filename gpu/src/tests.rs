@@ -1,5 +1,5 @@
-//! The pictures of the GPU against exact layers: the polygons that rays from the eye hit in a tree of all
-//! polygons.
+//! Compares the pictures of the GPU with exact layers: the polygons that rays from the eye hit in a tree of
+//! all polygons.
 
 use std::collections::HashSet;
 
@@ -10,11 +10,11 @@ use super::*;
 const SIZE: [u32; 2] = [200, 125];
 const EYES: [DVec3; 4] =
     [dvec3(2.4, -7.2, 4.2), dvec3(-4.4, -4.9, 1.2), dvec3(-3.0, 5.5, 4.5), dvec3(5.8, 2.9, 2.0)];
-/// Where WebGPU has the four samples of a pixel.
+/// The positions of the four samples of a pixel in WebGPU.
 const SAMPLE_POINTS: [[f64; 2]; 4] =
     [[0.375, 0.125], [0.875, 0.375], [0.125, 0.625], [0.625, 0.875]];
-/// Devices round corners in the picture to a 16th of a pixel or less. The colour of a sample is certain if
-/// it is the same as far as this around it.
+/// Devices round corners in the picture to a 16th of a pixel or less. The colour of a sample is certain if it
+/// is the same at these offsets from the sample.
 const AROUND: [[f64; 2]; 5] =
     [[0.0, 0.0], [-0.07, -0.07], [0.07, -0.07], [-0.07, 0.07], [0.07, 0.07]];
 
@@ -24,8 +24,8 @@ struct Counts {
     pixels: usize,
     /// Pixels with several panes before the first opaque polygon.
     of_several_panes: usize,
-    /// Pairs of polygons of which either is nearer somewhere in one view: two panes, a pane and an opaque
-    /// one. Convex polygons of which that is true cross.
+    /// Pairs of polygons, each of which is nearer than the other somewhere in one view: two panes, and a pane
+    /// and an opaque polygon. Convex polygons with this property cross.
     crossing_panes: usize,
     panes_through_opaque: usize,
 }
@@ -41,9 +41,9 @@ fn hits(tree: &BspTree, camera: &Camera, [x, y]: [f64; 2]) -> impl Iterator<Item
 
 /// Compares the pictures of a scene from each eye, at each pixel whose samples are certain.
 ///
-/// Blending of bytes rounds at each pane. A device may be off by 0.6 steps there, and may round the
-/// colour and the opacity to bytes before, which is another half each at most: less than 2 in all. Each
-/// sample and their mean are rounded once more.
+/// Blending of bytes rounds at each pane. A device may have an error of 0.6 steps at each pane. It may also
+/// round the colour and the opacity to bytes before, which adds at most half a step each: less than 2 steps
+/// in all. Each sample and their mean are rounded once more.
 fn compare(scene: &[Polygon]) -> Counts {
     let tree = BspTree::build(scene.iter().map(|polygon| &polygon.corners)).expect("a tree");
     let mut renderer = Renderer::new(scene, SIZE).expect("a graphics adapter");
@@ -51,7 +51,7 @@ fn compare(scene: &[Polygon]) -> Counts {
     for eye in EYES {
         let camera = camera(eye, SIZE).expect("a camera");
         let picture = renderer.draw(&camera).expect("a picture");
-        // Up to the first opaque polygon.
+        // The layers up to the first opaque polygon.
         let visible = |place: [f64; 2]| {
             let mut layers = vec![];
             for polygon in hits(&tree, &camera, place) {
@@ -111,7 +111,7 @@ fn compare(scene: &[Polygon]) -> Counts {
 fn opaque_pixels_have_the_nearest_polygon() {
     let mut scene = scene();
     scene.retain(Polygon::is_opaque);
-    // Colours that tell polygons apart.
+    // Each polygon has a different colour.
     for (number, polygon) in scene.iter_mut().enumerate() {
         let digits = [number % 9, number / 9 % 9, number / 81];
         polygon.color = digits.map(|digit| (digit as f32) / 10.0);

@@ -9,8 +9,8 @@ use testkit::prelude::*;
 /// A plane between cells: its axis, and the bits of its lattice coordinate.
 type Wall = (usize, u64);
 
-/// The definition of a vertex, independent of its polygon: the ends of an edge as given, in order, and a
-/// plane; or a polygon and two planes.
+/// The definition of a vertex. On an edge: the given ends of the edge, in order, and a plane, so that it does
+/// not depend on the polygon. Inside a polygon: the polygon and two planes.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Name {
     OnEdge([[u64; 3]; 2], Wall),
@@ -56,14 +56,15 @@ fn places(scene: &Divided) -> BTreeMap<Name, Vec<([u64; 3], usize)>> {
     places
 }
 
-/// Returns the number of vertices shared by two cells or more.
+/// Checks that every vertex made by planes of cells has the same place in all its cells. Returns the number
+/// of these vertices on edges, and inside polygons.
 fn check(polygons: Vec<Corners>, cells: usize) -> [usize; 2] {
     let options = BuildOptions::DEFAULT.with_tolerance(0.0);
     let scene = Divided::new(polygons, options, cells).unwrap();
     let mut common = [0; 2];
     for (name, found) in places(&scene) {
         assert!(found.iter().all(|(place, _)| *place == found[0].0), "{name:?}: {found:?}");
-        // A polygon that meets a plane is on both sides of it.
+        // A polygon that meets a plane is on both sides of the plane.
         let in_several = found.iter().any(|(_, cell)| *cell != found[0].1);
         assert!(in_several, "{name:?} is in one cell alone");
         common[usize::from(matches!(name, Name::Inside(..)))] += 1;
@@ -76,7 +77,7 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
     let mut total = [0; 2];
     for cells in 2..10 {
         let mut dice = Dice(cells as u64);
-        // Corners with many digits, so that nothing is exact by chance.
+        // Corners have many digits, so that nothing is exact by chance.
         let odd = |corner: DVec3| corner * 0.1 + DVec3::new(0.003, 0.007, 0.011) * corner.x;
         let polygons = triangles(&mut dice, 60, 30);
         let polygons = polygons.into_iter().map(|p| p.into_iter().map(odd).collect()).collect();
@@ -86,12 +87,12 @@ fn neighbours_have_the_same_vertices_bit_for_bit() {
     enough!(total[0] > 1000, total[1] > 100; "{total:?}");
 }
 
-/// A mesh: faces on both sides of an edge have the vertex in which a plane cuts it.
+/// In a mesh, the faces on both sides of an edge have the same vertex where a plane cuts the edge.
 #[test]
 fn faces_that_share_an_edge_have_the_same_vertices() {
     let mesh = scene::sphere(900);
     let odd = |p: &DVec3| DVec3::new(p.x + 0.1 * p.y, p.y * 0.7 - p.z, p.z + p.x / 3.0);
-    // Triangles, because corners that are moved onto a plane have separate vertices.
+    // Only triangles, because corners that are moved onto a plane have separate vertices.
     let polygons: Vec<Corners> = mesh
         .polygons()
         .flat_map(|quad| {

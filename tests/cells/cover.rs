@@ -1,4 +1,5 @@
-//! Each point of each polygon is in one cell: areas and edges of all cells together, in rationals.
+//! Checks that each point of each polygon is in one cell, by the areas and edges of all cells together, in
+//! rationals.
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use testkit::cell_cover::check;
@@ -38,8 +39,8 @@ fn every_hard_polygon_is_in_all_cells_together_once() {
     enough!(cut > 100; "{cut}");
 }
 
-/// Polygons in the plane between two cells, or within the tolerance of it, belong to the cell on the side
-/// of larger coordinates.
+/// Polygons in the plane between two cells, or within the tolerance of this plane, belong to the cell on the
+/// side of larger coordinates.
 #[test]
 fn polygons_in_a_plane_between_cells_are_in_the_front_cell() {
     let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
@@ -67,7 +68,7 @@ fn cells_may_be_empty() -> Verdict {
     let polygons = triangles(&mut dice, 20, 10);
     let far =
         |p: f64| vec![DVec3::splat(p), DVec3::splat(p) + DVec3::X, DVec3::splat(p) + DVec3::Y];
-    // Most of the scene is in one place, and the samples are in another.
+    // Most of the scene is in one place, and the samples are in another place.
     let away = |p: Corners| p.into_iter().map(|corner| corner - 3e5).collect();
     let all: Vec<Corners> = polygons.into_iter().map(away).chain([far(1e6), far(-1e6)]).collect();
     let samples = vec![DVec3::splat(1e6); 50];

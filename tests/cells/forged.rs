@@ -1,4 +1,4 @@
-//! Forged partitions that are wrong in one plane: refused, with a message that names the plane.
+//! Forged partitions with one wrong plane are refused, with a message that names the plane.
 
 use binspace::partition::{Extent, Partition};
 use testkit::prelude::*;
@@ -8,7 +8,8 @@ const LIMIT: i64 = 1 << 51;
 /// The number of planes of the partition.
 const PLANES: usize = 3;
 
-/// Four cells, by planes of any axis and place: over all, over two of them, over the other two.
+/// Four cells, by planes of any axis and place: the first divides all, the second two of the cells, the third
+/// the other two.
 fn with_planes(planes: [(u32, i64); PLANES]) -> Result<Partition, String> {
     let mut extent = Extent::default();
     extent.include(&[DVec3::splat(-1.0), DVec3::splat(1.0)]);
@@ -60,7 +61,7 @@ fn planes_are_within_the_sets_that_they_divide() {
         assert!(message.contains("plane 1 is outside the part that it divides"), "{message}");
         let message = at(8, 9).expect_err("behind the first");
         assert!(message.contains("plane 2 is outside the part that it divides"), "{message}");
-        // On another axis it may be anywhere.
+        // On another axis, the plane may be anywhere.
         let other = (axis + 1) % 3;
         assert!(with_planes([(axis, 10), (other, 11), (other, 9)]).is_ok());
     }

@@ -1,5 +1,4 @@
-//! The orders of cells, one after the other, are an order of the scene: compared with rays, in big
-//! integers.
+//! Checks with rays in big integers that the orders of cells, one after the other, are an order of the scene.
 
 use crate::cells::polygons::{stars, tiles, triangles};
 use proptest::prelude::*;
@@ -35,7 +34,7 @@ fn hard_scenes_come_far_before_near() {
     });
     enough!(total.scenes >= 100, total.pairs > 3_000, total.apart > 500; "{total:?}");
     enough!(total.empty_cells > 20; "{total:?}");
-    // The tolerance excuses few pairs, also in different cells.
+    // The tolerance excuses few pairs, even of pairs in different cells.
     assert!(total.excused * 50 < total.apart, "{total:?}");
 }
 

@@ -15,8 +15,8 @@ fn fragments(tree: &BspTree, number: impl Fn(usize) -> usize) -> Vec<(usize, Vec
     tree.fragments().map(|f| (number(f.polygon()), f.vertices().collect())).collect()
 }
 
-/// Polygons that are not listed for a cell have no part in it. Few are listed unnecessarily, although these
-/// are large for their cells.
+/// Polygons that are not listed for a cell have no part in the cell. Few polygons are listed unnecessarily,
+/// although the polygons are large compared with the cells.
 #[test]
 fn a_cell_needs_the_polygons_that_reach_it_and_no_others() {
     let (mut listed, mut had) = (0, 0);
@@ -66,7 +66,7 @@ fn the_order_of_samples_and_the_number_of_threads_do_not_count() {
     assert_eq!(Snapshot::of(&build(1)), Snapshot::of(&build(4)));
 }
 
-/// Samples in each cell, for a scene without clusters.
+/// Checks the number of samples in each cell, for a scene without clusters.
 #[test]
 fn cells_have_about_as_many_samples() {
     let mut dice = Dice(1);
@@ -85,7 +85,7 @@ fn cells_have_about_as_many_samples() {
     }
 }
 
-/// Degenerate samples: none, one, all in one place, some NaN.
+/// Degenerate samples: no sample, one sample, all in one place, or some NaN.
 #[test]
 fn odd_samples_give_as_many_cells() {
     let polygons = tiles(&mut Dice(3), 30);
@@ -105,7 +105,7 @@ fn odd_samples_give_as_many_cells() {
     }
 }
 
-/// Samples in four places: planes go through the places, and leave some on both sides.
+/// Samples in four places. Planes go through these places, and have samples on both sides.
 #[test]
 fn planes_go_through_places_that_many_samples_share() {
     let options = BuildOptions::DEFAULT;
@@ -160,7 +160,7 @@ fn preparations_count_each_polygon_once() {
 
 /// Extents of shares merge to the extent of the whole, in any order.
 #[test]
-fn extents_of_shares_are_that_of_the_whole() {
+fn merged_extents_of_shares_are_the_extent_of_the_whole() {
     let polygons = triangles(&mut Dice(31), 30, 9);
     let coarse = [[0.5_f32, 1.0, 2.0], [7.0, 3.0, 1.0], [3.0, 9.0, 0.0]];
     let mut whole = extent(&polygons);
@@ -190,7 +190,7 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     wrong.include(&[[0.0, f64::NAN, 0.0]]);
     assert!(wrong.low.y.is_nan() && wrong.high.y.is_nan());
     assert!(options.partition(&wrong, none, 2).is_err());
-    // In any order, merged or not.
+    // The polygons in any order, and their extents merged or not.
     let mut wrong_too = Extent::default();
     wrong_too.merge(&wrong);
     wrong_too.merge(&all);
@@ -208,7 +208,7 @@ fn an_extent_that_cannot_be_divided_is_an_error() {
     assert!(reached.is_empty());
 }
 
-/// A tree of a cell remains one when polygons are added.
+/// The tree of a cell remains the tree of this cell when polygons are added.
 #[test]
 fn added_polygons_are_cut_to_the_cell() {
     let options = BuildOptions::DEFAULT;
@@ -282,7 +282,7 @@ fn the_tolerance_of_bounds_far_out_is_that_of_one_tree() {
 }
 
 #[test]
-fn a_tree_is_of_its_own_cell_alone() {
+fn a_tree_belongs_to_one_cell_of_one_partition() {
     let square = |x: f64| -> Corners { sheet(0, x, 1.0).map(DVec3::from).to_vec() };
     let squares: Vec<Corners> = (0..9).map(|x| square(f64::from(x))).collect();
     let whole = BspTree::build(&squares).unwrap();
@@ -300,7 +300,7 @@ fn a_tree_is_of_its_own_cell_alone() {
     }
 }
 
-/// It must not be treated as the last one.
+/// The number of a missing cell must not be treated as the last cell.
 #[test]
 fn a_cell_behind_the_last_is_refused() {
     let square = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
@@ -326,7 +326,7 @@ fn a_cell_behind_the_last_is_refused() {
     }
 }
 
-/// Two squares far apart in a corner of the extent: bounds that contain more.
+/// Two squares in a corner of much larger bounds.
 #[test]
 fn bounds_of_the_options_are_held_too() {
     let square = |z: f64| -> Corners { sheet(2, z, 1.0).map(DVec3::from).to_vec() };
@@ -337,7 +337,7 @@ fn bounds_of_the_options_are_held_too() {
     assert!(options.build_cell(&scene.partition, 1, [square(99.0)]).is_ok());
 }
 
-/// Meshes, boxes and hits of a cell contain only its polygons' parts.
+/// Meshes, boxes and hits of a cell contain only the parts of polygons in the cell.
 #[test]
 fn a_cell_is_a_tree_as_any_other() {
     let terrain = scene::terrain(400, 3);
@@ -373,7 +373,7 @@ fn a_cell_is_a_tree_as_any_other() {
     enough!(hits[1] > 20; "{hits:?}");
 }
 
-/// More polygons or fragments than allowed, endless polygons among them, and a cancelled build.
+/// More polygons or fragments than allowed, also endless polygons, and a cancelled build.
 #[test]
 fn budgets_and_cancels_count_in_cells() {
     use std::ops::ControlFlow;

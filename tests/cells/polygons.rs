@@ -8,8 +8,8 @@ pub(crate) fn triangles(dice: &mut Dice, count: usize, n: u32) -> Vec<Corners> {
     (0..count).map(|_| vec![corner(), corner(), corner()]).collect()
 }
 
-/// Squares in planes x, y or z = integer, side by side and one above the other: all of them lie in planes
-/// of cells at some division.
+/// Squares in planes x, y or z = integer, side by side and one above the other. Each of them lies in a plane
+/// of cells for some division.
 pub(crate) fn tiles(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let tile = |_| {
         let axis = dice.below(3);
@@ -26,7 +26,7 @@ pub(crate) fn tiles(dice: &mut Dice, count: usize) -> Vec<Corners> {
     (0..count).map(tile).collect()
 }
 
-/// Stars that are not convex, so that they are triangulated, turned any way.
+/// Stars in any orientation. They are not convex, so they are triangulated.
 pub(crate) fn stars(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let star = |_| {
         let mut some = || dice.whole_point(8);

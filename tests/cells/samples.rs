@@ -17,11 +17,11 @@ fn samples_that_are_not_finite_choose_nothing() {
         for axis in 0..3 {
             let mut point = DVec3::splat(4.0);
             point[axis] = bad;
-            // More of them than of the others, in front, between and behind.
+            // More bad samples than good ones: in front, between and behind.
             let mut samples = vec![point; 7];
             samples.extend(good.iter().flat_map(|&good| [good, point]));
             assert_eq!(chosen(samples), expected, "{bad} along {axis}");
-            // Only these: as if there were none.
+            // Only bad samples count as no samples.
             assert_eq!(chosen(vec![point; 9]), chosen(vec![]));
         }
     }

@@ -18,7 +18,7 @@ fn divided(seed: u64, cells: usize) -> Divided {
 }
 
 #[test]
-fn what_is_written_is_read_again() {
+fn written_data_are_read_again() {
     for cells in 1..8 {
         let scene = divided(cells as u64, cells);
         let file = written(&scene.partition);
@@ -49,7 +49,7 @@ fn damaged_partitions_are_errors() {
     }
 }
 
-/// Forged bytes with a right checksum: a partition that is read can be used.
+/// Forged bytes with a right checksum: if a partition is read, it can be used.
 #[test]
 fn forged_partitions_are_errors_or_partitions() {
     let scene = divided(4, 4);

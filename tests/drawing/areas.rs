@@ -1,4 +1,4 @@
-//! Areas: the cells of a closed room add up to the picture.
+//! The areas of the cells of a closed room add up to the picture.
 
 use super::scenes::cameras;
 use super::{map_of, map_with};
@@ -42,7 +42,7 @@ fn areas_add_up_to_the_picture() {
         let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
         let sum: f64 = map.polygons().map(|shown| shown.area).sum();
         assert!((sum / whole - 1.0).abs() < 1e-9, "{size:?} {sum}");
-        // Through triangles the walls show all over.
+        // Through translucent triangles, the walls are visible everywhere.
         let glass = |polygon: usize| if polygon < 6 { 1.0 } else { 0.3 };
         let map = map_with(&tree, &camera, glass);
         let walls: f64 = map.polygons().filter(|s| s.polygon < 6).map(|s| s.area).sum();
@@ -52,7 +52,7 @@ fn areas_add_up_to_the_picture() {
         pictures += 1;
     }
     assert_eq!(pictures, 9);
-    // From outside the room, no more than the picture.
+    // From outside the room, the areas are at most the picture.
     for camera in cameras(&scene, 3, [200, 150]) {
         let map = map_of(&tree, &camera);
         let sum: f64 = map.polygons().map(|shown| shown.area).sum();

@@ -1,4 +1,5 @@
-//! Polygons that are not planar, crossed along the edge where they are bent, against rays in rationals.
+//! Polygons that are not planar, and that others cross along the edge where they are bent. Compared with rays
+//! in rationals.
 
 use super::on_grid;
 use super::overlay::{between, place_in};
@@ -10,7 +11,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::rational::Point;
 
-/// A quad that is bent along its shorter diagonal, which a wall goes through.
+/// A wall goes through the shorter diagonal of a quad, along which the quad is bent.
 #[test]
 fn a_wall_through_the_bend_of_a_quad_crosses_it() {
     let roof = [[-3.0, 0.0, -1.0], [0.0, -2.0, 0.0], [3.0, 0.0, -1.0], [0.0, 2.0, 0.0]];
@@ -31,7 +32,7 @@ fn a_wall_through_the_bend_of_a_quad_crosses_it() {
     }
 }
 
-/// A wall goes through an L along an edge that its triangulation made.
+/// A wall goes through an L-shaped polygon, along an edge that the triangulation of the L made.
 #[test]
 fn a_line_along_an_inner_edge_is_visible_or_hidden_once() {
     let l = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
@@ -76,10 +77,11 @@ fn vector(dice: &mut Dice, most: f64) -> DVec3 {
 fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons = vec![];
     for i in 0..count {
-        // Quarters and eighths of it are numbers of few bits.
+        // Quarters and eighths of `along` are numbers of few bits.
         let (from, along) = (vector(dice, 1.0), vector(dice, 0.25) * 2.0);
         let at = |share: f64| from + along * share;
-        // On either side of the line, further apart than it is long: it is the shorter diagonal.
+        // Corners on both sides of the line, whose distance is larger than the length of the line. So the
+        // line is the shorter diagonal.
         let mut sides = || {
             let away = vector(dice, 0.5);
             let away = away + away.signum() * 0.25;
@@ -88,12 +90,12 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
         let ([a, b], [c, d]) = (sides(), sides());
         polygons.push(vec![at(0.0), a, at(1.0), b]);
         let other = match i % 4 {
-            // Through the line, beyond its ends or not.
+            // The other polygon goes through the line, to beyond its ends or not.
             0 => vec![at(-0.25) + c - d, at(1.25) + c - d, at(1.25) - c + d, at(-0.25) - c + d],
             1 => vec![at(0.25) + c - d, at(0.75) + c - d, at(0.5) - c + d],
-            // As far as the line.
+            // The other polygon ends at the line.
             2 => vec![at(0.0), at(0.75), c],
-            // Also bent along it.
+            // The other polygon is also bent along the line.
             _ => vec![at(0.125), c, at(1.0), d],
         };
         polygons.push(other);
@@ -101,8 +103,8 @@ fn pairs(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     polygons
 }
 
-/// The directions in which a polygon leaves a line at a point of it: two, or fewer if the polygon ends there
-/// or does not contain the point.
+/// The directions in which a polygon leaves a line at a point of the line. There are two, or fewer if the
+/// polygon ends there or does not contain the point.
 pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Point> {
     let mut sides = vec![];
     for face in faces.iter().filter(|face| face.plane.at(point).is_zero()) {
@@ -131,7 +133,7 @@ pub(crate) fn sides_at(faces: &[&Face], along: &Point, point: &Point) -> Vec<Poi
 
 /// A direction in two coordinates, as seen along a line.
 fn flat(along: &Point, way: &Point) -> [Rational; 2] {
-    // Any direction that is not the line's spans the plane across it.
+    // Any direction that is not parallel to the line spans the plane perpendicular to it.
     let axis = (0..3).find(|&i| !along[i].is_zero()).unwrap();
     let mut other = [(); 3].map(|()| Rational::zero());
     other[(axis + 1) % 3] = Rational::from(1);
@@ -147,7 +149,7 @@ fn by_angle(a: &[Rational; 2], b: &[Rational; 2]) -> Ordering {
     is_upper(b).cmp(&is_upper(a)).then(Rational::zero().cmp(&turn))
 }
 
-/// Whether two polygons go through one another at a line; `None` if one lies on the other there.
+/// Whether two polygons go through each other at a line; `None` if one polygon lies on the other there.
 pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> {
     if a.len() < 2 || b.len() < 2 {
         return Some(false);
@@ -167,11 +169,11 @@ pub(crate) fn do_cross(along: &Point, [a, b]: &[Vec<Point>; 2]) -> Option<bool> 
 
 #[derive(Debug, Default)]
 struct Score {
-    /// By the number of polygons in front: 0, 1, or more.
+    /// Counts by the number of polygons in front: 0, 1, or more.
     crossed: [usize; 3],
     /// Places where polygons touch.
     touched: usize,
-    /// Places where both are bent.
+    /// Places where both polygons are bent.
     both: usize,
     unsure: usize,
 }
@@ -237,7 +239,7 @@ fn check(tree: &BspTree, camera: &Camera, opacity: f64, score: &mut Score) {
 }
 
 #[test]
-fn crossings_along_bends_are_those_that_rays_meet() {
+fn crossings_along_bends_agree_with_rays() {
     let (mut dice, mut score) = (Dice(14), Score::default());
     let exact = BuildOptions::DEFAULT.with_tolerance(0.0);
     for (count, rounds, options) in [
@@ -274,7 +276,7 @@ fn shown(runs: &[EdgeRun]) -> BTreeMap<(usize, usize), f64> {
     lengths
 }
 
-/// The tolerance leaves the ends of polygons and their bends open.
+/// Within the tolerance, the ends of polygons and their bends are undecided.
 #[test]
 fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     let (mut dice, mut compared) = (Dice(15), 0);
@@ -289,7 +291,7 @@ fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
             let found = shown(&map.crossings(Hidden::Keep).unwrap());
             for (pair, length) in &expected {
                 let other = found.get(pair).copied().unwrap_or_default();
-                // (Slivers near their ends are the one's alone.)
+                // (Slivers near the ends of crossings may occur in only one of the two results.)
                 assert!((length - other).abs() < 0.05, "{pair:?}: {length} and {other}");
                 compared += 1;
             }
@@ -298,8 +300,8 @@ fn visible_crossings_are_the_same_with_and_without_hidden_ones() {
     enough!(compared > 300; "{compared}");
 }
 
-/// Neighbours have their common edges in the picture at the given corners, so nothing is visible between
-/// them, although the tree moved corners onto the planes of their quads.
+/// In the picture, neighbours have their common edges at the given corners, although the tree moved corners
+/// onto the planes of their quads. So nothing is visible between neighbours.
 #[test]
 fn a_closed_globe_of_bent_quads_has_no_gaps() {
     let scene = Builtin::Sphere.build(Some(2_000), 1);

@@ -13,7 +13,7 @@ use testkit::shapes::rectangle;
 /// The counts of comparisons.
 #[derive(Debug, Default)]
 struct Score {
-    /// Paths before points of lines, and after them.
+    /// Paths painted before points of lines, and paths painted after them.
     below: usize,
     above: usize,
     marker_below: usize,
@@ -25,11 +25,12 @@ struct Score {
 /// Outlines nearer to a point than this, in pixels, are not compared.
 const NEAR: f64 = 0.01;
 
-/// Where corners may be nearer to one another than rounding, no outline can be classified.
+/// The value of `through` for scenes whose corners may be nearer to each other than rounding errors. There,
+/// no outline can be classified.
 const UNTOLD: f64 = -1.0;
 
-/// Whether a path covers a point, with its inside or an outline; `None` if one of its outlines is too near to
-/// tell: further than `through`.
+/// Whether a path covers a point, with its inside or with an outline no further than `through`. `None` if an
+/// outline is further than `through`, but too near to decide.
 fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
     let (mut winding, mut nearest) = (0, f64::INFINITY);
     for outline in path.outlines() {
@@ -53,8 +54,8 @@ fn covers(path: &Path<'_>, [x, y]: [f64; 2], through: f64) -> Option<bool> {
     (is_on_outline || nearest >= NEAR).then_some(is_on_outline || winding != 0)
 }
 
-/// Judges the order of a drawing at points of its lines, a number for each part, and at its points: see
-/// `covers`.
+/// Judges the order of a drawing at some points of each part of its lines, and at its points. For `through`,
+/// see `covers`.
 fn check(
     tree: &BspTree,
     camera: &Camera,
@@ -76,12 +77,12 @@ fn check(
     let drawing =
         Drawing::translucent(tree, camera, &ViewOptions::DEFAULT, Some(&overlay)).map_err(text)?;
     let paths: Vec<Path<'_>> = drawing.paths().collect();
-    // The number of paths required before a point, and not before it.
+    // The number of paths that must come before a point, and the number that must not.
     let judge = |point: &Point, at: [f64; 2], below: usize| -> Result<[usize; 2], String> {
         let before = sightlines.polygons_before(point);
         let mut judged = [0; 2];
         for (number, path) in paths.iter().enumerate() {
-            // Bent polygons may be behind a line with one face and in front of it with another.
+            // One face of a bent polygon may be behind a line, and another face in front of it.
             if covers(path, at, through) != Some(true)
                 || sightlines.faces_of(path.polygon()).len() > 1
             {
@@ -128,7 +129,7 @@ fn check(
         }
     }
     assert_eq!(below, paths.len());
-    // Everything that the picture shows of lines and points is there.
+    // All visible parts of lines and points are drawn.
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).map_err(text)?;
     assert_eq!(map.markers(&overlay).map_err(text)?.len(), markers);
     let length = |runs: &[LineRun]| -> f64 {
@@ -148,8 +149,9 @@ fn check(
     Ok(())
 }
 
-/// Through three walls, one behind another, a line is in four parts; in front of them, on the first, or
-/// behind all it is in one, also where some do not reach.
+/// A line through three walls, one behind another, is in four parts. A line in front of the walls, on the
+/// first, between two or behind all is in one part. If the line goes through the planes of two walls beyond
+/// their edges, it is cut only by the third wall.
 #[test]
 fn a_line_is_cut_only_where_it_goes_through() {
     let walls = [-1.0, 0.0, 1.0].map(|z| rectangle([-2.0, -2.0], [2.0, 2.0], z));
@@ -163,7 +165,7 @@ fn a_line_is_cut_only_where_it_goes_through() {
         ([[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]], &[2]),
         ([[-3.0, 0.0, -2.0], [3.0, 0.0, -2.0]], &[0]),
         ([[-1.9, 0.0, -1.9], [1.9, 0.0, 1.9]], &[0, 1, 2, 3]),
-        // Where it goes through the others, they do not reach.
+        // The line passes the other two walls beyond their edges.
         ([[-7.0, 0.0, -3.5], [1.0, 0.0, 0.5]], &[1, 2]),
     ] {
         let mut overlay = Overlay::new(&tree);
@@ -190,9 +192,9 @@ fn a_line_is_cut_only_where_it_goes_through() {
     }
 }
 
-/// Two squares side by side in the picture, on both sides of a wall that is seen edge-on, and a line and a
-/// point on their common border: one square is behind them and the other in front. Nothing else requires
-/// that the one behind comes first.
+/// Two squares are side by side in the picture, on both sides of a wall that is seen edge-on. A line and a
+/// point are on their common border: one square is behind both, and the other is in front. Nothing else
+/// requires that the square behind comes first.
 #[test]
 fn lines_and_points_come_between_polygons_that_touch() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
@@ -218,8 +220,9 @@ fn lines_and_points_come_between_polygons_that_touch() {
     enough!(score.below > 12 * trees, score.above > 12 * trees; "{score:?}");
 }
 
-/// All edges of three of the polygons lie on one line of the picture, along which they are cut: two pieces of
-/// one of them, one on each side, are before the line, and so they may not be joined with pieces behind it.
+/// All edges of three of the polygons lie on one line of the picture, and polygons are cut along it. One
+/// polygon has a piece on each side that is painted before the line. These pieces must not be joined with
+/// pieces that are painted after it.
 #[test]
 fn lines_come_between_pieces_that_were_cut_along_them() {
     let polygons = [
@@ -277,6 +280,6 @@ fn lines_come_between_triangles() {
     });
     enough!(score.below > 1000, score.above > 2000; "{score:?}");
     enough!(score.marker_below > 20, score.marker_above > 40; "{score:?}");
-    // Most segments pass several triangles, and are cut more seldom.
+    // Most segments pass several triangles, and are cut fewer times.
     assert!(score.runs > score.segments && score.runs < 4 * score.segments, "{score:?}");
 }

@@ -1,4 +1,4 @@
-//! Edges over a grid, many of them along borders of the picture and of its tiles, and on cuts of other polygons.
+//! Edges over a grid. Many lie along borders of the picture and of its tiles, and on cuts of other polygons.
 
 use super::sheets::{Sheet, from_above, stack, tree_of};
 use super::{map_of, map_with};
@@ -26,9 +26,9 @@ fn halves([a, b]: [[i64; 2]; 2]) -> impl Iterator<Item = [i64; 2]> {
     (0..count).map(move |i| [0, 1].map(|axis: usize| a[axis] + (2 * i + 1) * way[axis]))
 }
 
-/// The halves of edges in the picture, by the edge and the middle, and whether they are visible. A half is
-/// in the picture, or visible, if a half of a square beside the edge is, covered by one of the sheets with
-/// the edge.
+/// The halves of edges in the picture, by edge and middle, and whether each is visible. The sheet of an edge
+/// covers half of a square beside each half of the edge. The half of the edge is in the picture, or visible,
+/// if this half of the square is.
 fn expected(sheets: &[Sheet], picture: [i64; 2]) -> BTreeMap<(Ends, [i64; 2]), bool> {
     let mut found = BTreeMap::new();
     for (i, sheet) in sheets.iter().enumerate() {
@@ -66,8 +66,8 @@ fn edges_over_a_grid_are_hidden_only_by_polygons_over_them() {
             sheets.iter_mut().for_each(|sheet| sheet.high = sheet.low.map(|c| c + 1));
         }
         let tree = tree_of(&sheets.iter().map(Sheet::corners).collect::<Vec<_>>());
-        // Pictures of the whole grid and of its middle. Only polygons whose rays are not rounded end on the
-        // border.
+        // Pictures of the whole grid and of its middle. Polygons end exactly on the border only if rays are
+        // not rounded.
         let (height, side) = [(8, 64), (4, 64), (4, 1), (8, 1), (12, 37), (2, 4)][round % 6];
         let camera = from_above(f64::from(height), [side; 2]);
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
@@ -94,8 +94,8 @@ fn edges_over_a_grid_are_hidden_only_by_polygons_over_them() {
     assert!(visible > 10_000 && hidden > 5_000, "{visible} {hidden}");
 }
 
-/// A roof, and a plank that goes through it along its ridge. Where the ridge is on a border of the picture, that has one
-/// side of it.
+/// A roof, and a plank that goes through it along its ridge. If the ridge is on a border of the picture, the
+/// picture shows only one side of it.
 #[test]
 fn a_crossing_along_a_border_is_not_in_the_picture() {
     let roof = [[2.0, 2.0, 0.0], [4.0, 8.0, -1.0], [2.0, 5.0, 0.0], [0.0, 8.0, -1.0]];

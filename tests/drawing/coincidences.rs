@@ -55,7 +55,7 @@ fn for_each_view(
     let tree = scene.build(heuristic)?;
     let Some(bounds) = scene.bounds() else { return Ok(()) };
     for camera in views(bounds, DVec3::Z, 3, [48, 36], seed).into_iter().flatten() {
-        // Some scenes are flat: a camera inside is too near for pixels to be told apart.
+        // Some scenes are flat: a camera inside is too near to distinguish pixels.
         if Rays::new(&camera, tree.faces()).is_ok() {
             check(&tree, &camera)?;
         }

@@ -13,7 +13,8 @@ fn crossings(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     map_of(tree, camera).crossings(Hidden::Skip).unwrap()
 }
 
-/// A third polygon begins on the line in which two cross: its edge also cuts the part beyond its ends.
+/// An edge of a third polygon lies on a part of the line in which two polygons cross. The rest of the line is
+/// still a crossing.
 #[test]
 fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
     let floor = vec![[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [2.0, 2.0, 0.0], [-2.0, 2.0, 0.0]];
@@ -34,24 +35,25 @@ fn crossings_go_on_where_an_edge_of_a_third_polygon_lies_on_them() {
             let flap = distance([at(0.0), at(1.0)]);
             let expected = distance([at(-2.0), at(2.0)]) - flap;
             assert!((length - expected).abs() < 1e-3, "{order:?}, {by}: {length}, {expected}");
-            // The flap only touches the others.
+            // The flap only touches the floor and the wall.
             assert!(all.iter().all(|run| run.polygon == floor.min(wall) && run.kind == kind));
         }
     }
 }
 
-/// A pane goes through a wall, and in the picture edges of two others lie on parts of the line.
+/// A pane goes through a wall. In the picture, edges of two other polygons lie on parts of the crossing.
 #[test]
 fn crossings_show_beside_edges_that_lie_on_them_in_the_picture() {
     let wall = vec![[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 0.0, 2.0], [-2.0, 0.0, 2.0]];
     let pane = vec![[-2.0, -2.0, -2.0], [2.0, -2.0, -2.0], [2.0, 2.0, 2.0], [-2.0, 2.0, 2.0]];
     let flap = vec![[-1.0, -3.0, 0.0], [0.0, -3.0, 0.0], [0.0, -3.0, 2.0]];
-    // From below, on another part of the line.
+    // This flap is on another part of the line, from below.
     let other = vec![[0.5, -3.0, 0.0], [1.0, -3.0, 0.0], [0.5, -3.0, -2.0]];
     let polygons = [wall, pane, flap, other];
     let eye = DVec3::new(0.0, -10.0, 0.0);
     let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.5, [320, 240]).unwrap();
-    // Of four units those that the edges of the flaps, at seven tenths of the distance, do not cover.
+    // The parts of four units that the edges of the flaps do not cover. The flaps are at seven tenths of the
+    // distance.
     let at = |x: f64| camera.project(DVec3::new(x, 0.0, 0.0)).unwrap()[0];
     let hidden = |from: f64, to: f64| at(to / 0.7) - at(from / 0.7);
     let expected = at(2.0) - at(-2.0) - hidden(-1.0, 0.0) - hidden(0.5, 1.0);
@@ -75,7 +77,7 @@ fn crossings_show_beside_edges_that_lie_on_them_in_the_picture() {
     }
 }
 
-/// A pane that lies on a board goes through it nowhere, though a third polygon goes through both there.
+/// A pane that lies on a board does not cross the board, although a third polygon goes through both.
 #[test]
 fn polygons_of_one_plane_do_not_cross() {
     let square = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
@@ -89,7 +91,7 @@ fn polygons_of_one_plane_do_not_cross() {
     }
 }
 
-/// Three planes through one line: each pair goes through one another there.
+/// Three planes through one line: each pair crosses there.
 #[test]
 fn planes_through_one_line_cross_in_it() {
     let card = |x: f64, y: f64| [[-x, -y, -1.0], [x, y, -1.0], [x, y, 1.0], [-x, -y, 1.0]];
@@ -101,7 +103,7 @@ fn planes_through_one_line_cross_in_it() {
         let camera = Camera::perspective(eye, DVec3::ZERO, DVec3::Z, 0.8, [320, 240]).unwrap();
         for (by, tree) in trees(&cards) {
             let runs = crossings(&tree, &camera);
-            // Two of the cards are visible at the line, one on each side, along its whole part in the
+            // Two of the cards are visible at the line, one on each side, along the whole line in the
             // picture.
             let pairs: Vec<_> = runs.iter().map(|run| (run.polygon, run.kind)).collect();
             assert_eq!(pairs.len(), 1, "{turn}, {by}: {runs:?}");
@@ -111,7 +113,7 @@ fn planes_through_one_line_cross_in_it() {
     assert!(seen > 16 * Heuristic::ALL.len());
 }
 
-/// Two upright cards that cross, and a bar before the middle of their crossing.
+/// Two upright cards cross, and a bar is in front of the middle of their crossing.
 #[test]
 fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
     let cards = [
@@ -135,8 +137,8 @@ fn cards_cross_in_a_line_and_a_bar_hides_its_middle() {
     }
 }
 
-/// A wall through a floor of tiles: a run for each tile, and one for two walls in a line with a gap
-/// between them.
+/// A wall through a floor of tiles has a run for each tile. Two walls in a line with a gap between them have
+/// one run each.
 #[test]
 fn a_wall_crosses_every_tile_of_a_floor() {
     let count = 2_000;

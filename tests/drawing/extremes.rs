@@ -12,7 +12,8 @@ fn square([x, y]: [f64; 2], half: f64, z: f64) -> Vec<DVec3> {
     rectangle([x - half, y - half], [x + half, y + half], z)
 }
 
-/// A hundred thousand squares behind a wall of ten; a million with an effort of ten, in some 20 seconds.
+/// A hundred thousand squares behind a wall of ten squares. With an effort of ten, a million squares, which
+/// take some 20 seconds.
 #[test]
 fn ten_of_a_million_polygons_show() {
     let layers = times(10).min(100) as u32;
@@ -32,7 +33,7 @@ fn ten_of_a_million_polygons_show() {
     let map = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
     assert_eq!(map.drawing().unwrap().paths().len(), 10);
-    // Nothing is visible through the wall either if the squares behind are translucent.
+    // If the squares behind are translucent, still nothing is visible through the wall.
     let glass = |polygon: usize| if polygon < 10 { 1.0 } else { 0.5 };
     let map = map_with(&tree, &camera, glass);
     assert_eq!(map.polygons().map(|shown| shown.polygon).collect::<Vec<_>>(), all);
@@ -89,8 +90,9 @@ fn opacities_are_numbers_from_0_to_1() {
     }
 }
 
-/// An eye on a polygon sees it edge-on: nothing of it; one behind everything sees nothing. The number of
-/// visible polygons is stated for two panes in front of walls, and for walls alone, which hide more.
+/// An eye on a polygon sees the polygon edge-on, so nothing of it. An eye behind everything sees nothing. The
+/// number of visible polygons is stated for two panes in front of walls, and for walls alone, which hide
+/// more.
 #[test]
 fn eyes_on_polygons_and_away_from_all() {
     let polygons = [
@@ -131,7 +133,7 @@ fn eyes_on_polygons_and_away_from_all() {
     assert!(map.regions().unwrap().is_empty() && map.drawing().unwrap().paths().len() == 0);
 }
 
-/// Without hidden runs, visible ones are as they were; polygons of which little is visible have no paths.
+/// Without hidden runs, the visible runs do not change. Polygons of which little is visible have no paths.
 #[test]
 fn hidden_runs_and_small_polygons_are_left_out_on_request() {
     let scene = Builtin::Random.build(Some(60), 4);

@@ -1,10 +1,11 @@
-//! Many triangles around one vertex: cells grow with their number, not with its square.
+//! Many triangles around one vertex. The number of cells is linear in the number of triangles, not quadratic.
 
 use super::map_of;
 use testkit::prelude::*;
 use testkit::shapes::fan;
 
-/// Views of a vertex above the origin: one in which it is in the middle of the picture, others in which it is not.
+/// Views of a vertex above the origin. It is in the middle of the picture in some views, and elsewhere in
+/// others.
 fn cameras(height: f64) -> Vec<Camera> {
     let tip = DVec3::new(0.0, 0.0, height);
     let from =
@@ -16,7 +17,7 @@ fn cameras(height: f64) -> Vec<Camera> {
     views.map(|(from, at)| Camera::perspective(at + from, at, up, 0.7, size).unwrap()).collect()
 }
 
-/// The largest number of cells of a picture for each visible polygon; each of these is one path, and whole.
+/// The largest number of cells per visible polygon in a picture. Each visible polygon is one whole path.
 fn most_cells(polygons: &[Vec<DVec3>], height: f64) -> f64 {
     let tree = BspTree::build(polygons).unwrap();
     let cells = |camera: &Camera| {
@@ -40,7 +41,7 @@ fn cells_of_fans_and_cones_grow_with_their_triangles() {
     }
 }
 
-/// A globe whose poles are vertices of as many triangles as it has slices.
+/// A globe. Each pole is a vertex of one triangle per slice.
 #[test]
 fn cells_of_poles_grow_with_their_triangles() {
     for slices in [100, 400, 2_000] {

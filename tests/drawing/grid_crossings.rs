@@ -1,5 +1,5 @@
-//! Crossings of polygons whose corners are on a small grid, so that nearly everything coincides somewhere: edges on
-//! planes, corners on edges, polygons in one plane, eyes in planes; against rationals.
+//! Crossings of polygons whose corners are on a small grid, so that nearly everything coincides somewhere:
+//! edges on planes, corners on edges, polygons in one plane, eyes in planes. Compared with rationals.
 
 use super::bent::{at, do_cross, sides_at};
 use super::overlay::between;
@@ -17,7 +17,7 @@ fn corner(dice: &mut Dice) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| dice.range(0.0, GRID).floor()))
 }
 
-/// Triangles, parallelograms, and quads that are bent; some with corners of others.
+/// Triangles, parallelograms, and bent quads. Some share corners with others.
 fn polygons(dice: &mut Dice, count: usize) -> Vec<Vec<DVec3>> {
     let mut polygons: Vec<Vec<DVec3>> = vec![];
     while polygons.len() < count {
@@ -56,7 +56,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         Origin::Along(way) => rational::scalar(&face.plane.normal, way).is_zero(),
     };
     let world = |point: &Point| lattice.to_world(point.each_ref().map(|c| c.to_f64().value()));
-    // Lines along which polygons cross, or may cross.
+    // The lines along which polygons cross, or may cross.
     let mut lines: Vec<([usize; 2], [DVec3; 2])> = vec![];
     for (i, (p, a)) in sightlines.faces.iter().enumerate() {
         for (q, b) in &sightlines.faces[i + 1..] {
@@ -84,7 +84,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
                 let Some(place) = sightlines.place_of(&point) else { continue };
                 let here: Vec<_> = at(&all, pair, place).collect();
                 if !is_crossed {
-                    // Another of their crossings may be seen there.
+                    // Another crossing of the same polygons may be visible there.
                     score.touched += usize::from(here.is_empty());
                     continue;
                 }
@@ -104,7 +104,7 @@ fn check(tree: &BspTree, camera: &Camera, score: &mut Score) {
         }
     }
     score.runs += all.len();
-    // Nothing but crossings: the line of sight through the middle of a run meets one.
+    // All runs are crossings: the line of sight through the middle of a run meets a crossing.
     for run in &all {
         let middle = [0, 1].map(|i: usize| 0.5 * (run.ends[0][i] + run.ends[1][i]));
         let Ray::Endless { from, direction } = ray(camera, middle) else { panic!("no end") };

@@ -1,4 +1,4 @@
-//! Polygons that are just hidden, and just visible.
+//! Polygons that are just hidden, and polygons that are just visible.
 
 use super::map_of;
 use testkit::fill::{Score, check};
@@ -14,8 +14,8 @@ fn sized([x, y]: [f64; 2], [w, h]: [f64; 2], z: f64) -> Vec<DVec3> {
     rectangle([x, y], [x + w, y + h], z)
 }
 
-/// A checkerboard, its other squares further back and larger so that they fill the gaps exactly as
-/// seen from the eye: they share only corners and edges in the picture.
+/// A checkerboard whose squares of one colour are further back, and larger, so that all squares together fill
+/// the picture without gaps. In the picture, squares share only corners and edges.
 #[test]
 fn polygons_behind_a_checkerboard_are_hidden_until_a_square_is_missing() {
     let eye = DVec3::new(0.0, 0.0, 16.0);
@@ -23,7 +23,7 @@ fn polygons_behind_a_checkerboard_are_hidden_until_a_square_is_missing() {
     let mut squares = Vec::new();
     for i in -4..4 {
         for j in -4..4 {
-            // Twice as far from the eye is twice as large.
+            // Squares at twice the distance from the eye are twice as large.
             let (z, scale) = if (i + j) % 2 == 0 { (8.0, 0.5) } else { (0.0, 1.0) };
             squares.push(sized([i, j].map(|c| f64::from(c) * scale), [scale; 2], z));
         }
@@ -38,7 +38,7 @@ fn polygons_behind_a_checkerboard_are_hidden_until_a_square_is_missing() {
         squares.remove(missing);
         let tree = BspTree::build(&squares).unwrap();
         let is_shown = shown(&tree, &camera).contains(&(hidden - 1));
-        // The first square is beyond the one behind.
+        // The first square reaches beyond the square behind it.
         assert_eq!(is_shown, missing != 0, "{missing}");
         check(&tree, &camera, &mut Score::default()).unwrap();
     }
@@ -58,7 +58,7 @@ fn the_narrowest_gap_shows_polygons_behind() {
     }
 }
 
-/// A wall cut into many pieces by polygons in front of it hides everything behind it.
+/// A wall hides everything behind it, although polygons in front of the wall cut it into many pieces.
 #[test]
 fn a_wall_in_pieces_hides_all_behind_it() {
     let mut polygons = vec![sized([-50.0, -50.0], [100.0; 2], 0.0)];

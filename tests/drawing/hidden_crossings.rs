@@ -25,7 +25,7 @@ fn is_between([p, q]: [[f64; 2]; 2], [from, to]: [[f64; 2]; 2]) -> bool {
     (arm - (to - from) * share).length() < 1e-5
 }
 
-/// Two cards that cross, behind bars: the runs between their ends, each with its layers.
+/// Two cards that cross behind bars. Each run between the ends of bars has its number of layers.
 #[test]
 fn bars_before_the_crossing_of_two_cards_are_counted() {
     let cards = [
@@ -36,7 +36,7 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
         cards.iter().map(|card| card.map(DVec3::from).to_vec()).collect();
     polygons.push(rectangle([-3.0, -1.5], [3.0, 1.0], 3.0));
     polygons.push(rectangle([-3.0, -0.5], [3.0, 0.5], 4.0));
-    // It is behind all cards, and one of them goes through no part of it.
+    // This polygon is behind both cards, and no card crosses it.
     polygons.push(rectangle([-3.0, -3.0], [3.0, 3.0], -3.0));
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 8.0, [80, 80]).unwrap();
     let tree = BspTree::build(&polygons).unwrap();
@@ -45,7 +45,7 @@ fn bars_before_the_crossing_of_two_cards_are_counted() {
     runs.sort_by(|a, b| a.ends[0][1].min(a.ends[1][1]).total_cmp(&b.ends[0][1].min(b.ends[1][1])));
     let found: Vec<(Option<u32>, f64)> =
         runs.iter().map(|run| (run.layers, (length(run) * 1e6).round() / 1e6)).collect();
-    // From the top: y goes down in the picture.
+    // Runs are listed from the top, because y points down in the picture.
     let expected = [(0, 10.0), (1, 5.0), (2, 10.0), (1, 10.0), (0, 5.0)];
     assert_eq!(found, expected.map(|(layers, length)| (Some(layers), length)));
     for run in &runs {
@@ -72,7 +72,7 @@ fn crossings_have_as_many_layers_as_rays_meet() {
         let faces: Vec<Face> =
             (0..tree.faces().len() as u32).map(|face| Face::new(tree.faces(), face)).collect();
         assert_eq!(faces.len(), polygons.len());
-        // Rationals are slow: only for triangles whose boxes have points in common.
+        // Rationals are slow, so only triangles whose boxes overlap are compared.
         let boxes: Vec<[DVec3; 2]> =
             polygons.chunks(1).map(|corners| bounds(corners).expect("corners")).collect();
         let mut crossing: Vec<(usize, usize, [Point; 2])> = vec![];
@@ -140,7 +140,8 @@ fn crossings_have_as_many_layers_as_rays_meet() {
     assert!(unsure * 20 < judged.iter().sum::<usize>(), "{unsure} {judged:?}");
 }
 
-/// A floor in the middle plane of many walls that cross it, all behind a screen: halving the walls loses none.
+/// A floor in the middle plane of many walls that cross it, all behind a screen. No wall is lost when the set
+/// of walls is halved.
 #[test]
 fn a_floor_in_the_middle_of_walls_crosses_all_of_them() {
     let quad = |corners: [[f64; 3]; 4]| corners.map(DVec3::from).to_vec();

@@ -15,7 +15,7 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     let map = map_of(tree, camera);
     let runs = map.edges(Hidden::Keep).unwrap();
     let layered = map.edges(Hidden::Count).unwrap();
-    // They are the same runs, cut further.
+    // These are the same runs, divided further.
     let mut rest = layered.iter();
     for run in &runs {
         assert_eq!(run.layers, None);
@@ -34,13 +34,13 @@ fn in_layers(tree: &BspTree, camera: &Camera) -> Vec<EdgeRun> {
     layered
 }
 
-/// Squares one before another, each smaller: behind k of them there are k layers.
+/// Squares one before another, each smaller. Behind k squares there are k layers.
 #[test]
 fn squares_before_one_another_are_counted() {
     let side = |k: u32| f64::from(5 - k);
     let squares: Vec<Vec<DVec3>> =
         (0..4).map(|k| rectangle([-side(k), -0.5], [side(k), 0.5], f64::from(k))).collect();
-    // Behind all of them.
+    // The edge is behind all squares.
     let bar = rectangle([-6.0, -0.25], [6.0, 0.25], -1.0);
     let tree = BspTree::build(squares.iter().chain([&bar])).unwrap();
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 16.0, [160, 160]).unwrap();
@@ -53,7 +53,7 @@ fn squares_before_one_another_are_counted() {
     let expected = [0, 1, 2, 3, 4, 3, 2, 1, 0];
     let lengths = [10.0, 10.0, 10.0, 10.0, 40.0, 10.0, 10.0, 10.0, 10.0];
     assert_eq!(edge, expected.into_iter().zip(lengths).collect::<Vec<_>>());
-    // Their ends are hidden only where more than the edge itself lies before them.
+    // The ends of runs are hidden only where a polygon other than the edge's own lies before them.
     let ends = runs.iter().filter(|run| run.polygon == 0 && run.edge == Some(1));
     assert_eq!(ends.map(|run| run.layers.unwrap()).collect::<Vec<_>>(), [0]);
 }
@@ -90,7 +90,8 @@ fn edges_have_as_many_layers_as_rays_meet() {
                     if place_in(run.ends, at) != Some(true) {
                         continue;
                     }
-                    // Polygons that contain the edge are not before it, though they may hide the polygon.
+                    // Polygons that contain the edge are not before it, although they may hide the edge's
+                    // polygon.
                     let mut layers = sightlines.polygons_before(&point).len();
                     // (For example, edges of a town's blocks on its ground, seen from below.)
                     on_walls += usize::from(layers == 0 && !run.is_visible);
@@ -106,8 +107,8 @@ fn edges_have_as_many_layers_as_rays_meet() {
     assert!(on_walls * 4 < judged[1], "{on_walls} {judged:?}");
 }
 
-/// Stars, combs and polygons with corners on their edges, which are triangulated: each edge has its layers from
-/// one end to the other, in its direction.
+/// Stars, combs and polygons with corners on their edges, which are triangulated. Each edge has its layers
+/// from its first end to its second end.
 #[test]
 fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
     let (mut random, mut dice) = (Dice(3), Dice(3));
@@ -152,7 +153,7 @@ fn edges_of_concave_polygons_have_as_many_layers_as_rays_meet() {
         .map(|i| {
             let (at, x, y) =
                 (random.point(-8.0, 8.0), random.point(-1.0, 1.0), random.point(-1.0, 1.0));
-            // On a grid, so that all corners of a polygon are in one plane.
+            // Corners are on a grid, so that all corners of a polygon are in one plane.
             let [at, x, y] = [at, x * 8.0, y * 8.0].map(|v| v.round() / 8.0);
             outlines[i % outlines.len()].iter().map(|[u, v]| at + x * *u + y * *v).collect()
         })

@@ -27,7 +27,7 @@ fn a_cube_shows_nine_edges_and_six_are_its_silhouette() {
         let silhouette: Vec<_> =
             visible.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
         assert_eq!(silhouette.len(), 6);
-        // It is closed: each end belongs to two runs.
+        // The silhouette is closed: each end belongs to two runs.
         for end in silhouette.iter().flat_map(|run| run.ends) {
             let is_there = |other: &[f64; 2]| (0..2).all(|i| (end[i] - other[i]).abs() < 1e-9);
             let ends = silhouette.iter().flat_map(|run| run.ends);
@@ -63,9 +63,9 @@ fn a_bar_hides_the_middle_of_an_edge() {
     assert_eq!(runs.iter().filter(|run| run.polygon == 1 && run.is_visible).count(), 4);
 }
 
-/// Edges that follow one another on one line, of one polygon and of two side by side: each shows where it is.
+/// Consecutive edges on one line, of one polygon and of two polygons side by side. Each edge has its own run.
 #[test]
-fn edges_on_one_line_have_runs_of_their_own() {
+fn edges_on_one_line_have_separate_runs() {
     let wall = [[-3.0, 0.0], [-2.0, 0.0], [0.0, 0.0], [0.0, 2.0], [-3.0, 2.0]];
     let beside = [[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [1.0, 2.0], [0.0, 2.0]];
     let post = [[-1.5, -1.0], [-0.5, -1.0], [-0.5, 3.0], [-1.5, 3.0]];
@@ -88,7 +88,7 @@ fn edges_on_one_line_have_runs_of_their_own() {
             let mut found = [0.0, 0.0];
             for run in &runs {
                 let [a, b] = run.ends;
-                // The two walls have one edge in common: it is reported for the first.
+                // The two walls have a common edge, which is reported for the first wall.
                 if (run.polygon, run.edge) == (polygon, Some(k as u32)) {
                     found[usize::from(!run.is_visible)] += (b[0] - a[0]).hypot(b[1] - a[1]) / 10.0;
                 }
@@ -130,8 +130,8 @@ struct Score {
     unsure: usize,
 }
 
-/// Tests by rays whether points of runs are hidden by polygons that do not have the edge. Points where rays
-/// slightly to the left and to the right do not agree are left out.
+/// Tests by rays whether points of runs are hidden by polygons that do not contain the edge. Points where
+/// rays slightly to the left and to the right do not agree are left out.
 fn check_runs(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],

@@ -1,4 +1,4 @@
-//! Cameras from matrices: pictures and drawings agree with the matrix applied in floats.
+//! Cameras from matrices: compares pictures and drawings with the matrix applied in floats.
 
 use binspace::glam::{DMat4, DVec4};
 use binspace::paint::paint_tree;
@@ -10,12 +10,13 @@ use testkit::scenes::triangles;
 
 const SIZE: [u32; 2] = [90, 60];
 
-/// Pixels are not compared if a triangle's edge or another depth is nearer than this share.
+/// Pixels are not compared if the distance to a triangle's edge, or to another depth, is a smaller share than
+/// this.
 const NEAR: f64 = 1e-6;
 
-/// A triangle as a matrix shows it. The vector (x, y, 1) to a place of the picture, in homogeneous coordinates, is a sum
-/// of those to the corners. Its weights are the products with these vectors, and positive inside of the triangle (Olano
-/// & Greer 1997).
+/// A triangle as a matrix shows it. In homogeneous coordinates, the vector (x, y, 1) of a place of the
+/// picture is a weighted sum of the vectors of the corners. The weights are products of this vector with the
+/// three stored vectors, and are positive inside the triangle (Olano & Greer 1997).
 struct Shown {
     weights: [DVec3; 3],
     depths: [f64; 3],
@@ -31,8 +32,8 @@ impl Shown {
     }
 }
 
-/// The triangle in a place of the picture, or `u32::MAX`; `None` if that is unsure. From an eye, w grows with the
-/// distance; along a direction, z does.
+/// The triangle in a place of the picture, or `u32::MAX`; `None` if this is uncertain. From an eye, w grows
+/// with the distance; along a direction, z does.
 fn shown(triangles: &[Shown], is_parallel: bool, at: DVec3) -> Option<u32> {
     let mut met: Vec<(f64, u32)> = Vec::new();
     for (number, Shown { weights, depths }) in triangles.iter().enumerate() {
@@ -56,7 +57,8 @@ fn shown(triangles: &[Shown], is_parallel: bool, at: DVec3) -> Option<u32> {
     }
 }
 
-/// A map of clip coordinates: oblong, sheared, off-axis, and, from an eye, with a tilted picture.
+/// A map of clip coordinates that stretches, shears and shifts the picture. For an eye, it also tilts the
+/// picture.
 fn skew(dice: &mut Dice, is_parallel: bool) -> DMat4 {
     let [x, y] = [dice.range(0.3, 2.0), dice.range(0.3, 2.0)];
     let [a, b] = [y * dice.range(-0.7, 0.7), x * dice.range(-0.7, 0.7)];

@@ -1,5 +1,5 @@
-//! Walls whose parts meet in hard ways: fans of hundreds at a corner, T-junctions. They hide everything
-//! behind, until a part is missing.
+//! Walls whose parts meet in hard ways: fans of hundreds of triangles at a corner, and T-junctions. They hide
+//! everything behind them, until a part is missing.
 
 use super::map_with;
 use testkit::fill::{Score, check};
@@ -11,7 +11,8 @@ fn camera() -> Camera {
     Camera::perspective(eye, DVec3::ZERO, DVec3::Y, 0.9, [96, 72]).unwrap()
 }
 
-/// The polygons that show of a wall before a square, and whether the square does; cells cover the picture.
+/// Whether a square is visible behind a wall. Checks the visible polygons of the wall, and that cells cover
+/// the picture.
 fn square_shows(wall: &[Vec<DVec3>]) -> bool {
     let square = [[-40.0, -40.0], [40.0, -40.0], [40.0, 40.0], [-40.0, 40.0]]
         .map(|[x, y]| DVec3::new(x, y, -500.0));
@@ -32,7 +33,7 @@ fn square_shows(wall: &[Vec<DVec3>]) -> bool {
     is_shown(&map)
 }
 
-/// Removes some parts, one at a time; those in the middle hide a part of the square.
+/// Removes some parts, one at a time. Parts in the middle hide a part of the square.
 fn check_parts(wall: &[Vec<DVec3>], missing: impl Iterator<Item = usize>) {
     assert!(!square_shows(wall));
     for part in missing {
@@ -42,7 +43,7 @@ fn check_parts(wall: &[Vec<DVec3>], missing: impl Iterator<Item = usize>) {
     }
 }
 
-/// A cone of triangles, whose apex is nearest to the eye, and one whose apex is furthest.
+/// A cone of triangles whose apex is nearest to the eye, and a cone whose apex is furthest.
 #[test]
 fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
     const COUNT: usize = 300;
@@ -50,7 +51,7 @@ fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
         let apex = DVec3::new(7.0, -3.0, depth);
         let rim = |k: usize| {
             let angle = std::f64::consts::TAU * (k % COUNT) as f64 / COUNT as f64;
-            // Whole numbers, and not all in a plane.
+            // The corners are whole numbers, and not all in one plane.
             let z = if k.is_multiple_of(2) { 0.0 } else { 11.0 };
             DVec3::new((600.0 * angle.cos()).round(), (600.0 * angle.sin()).round(), z)
         };
@@ -59,7 +60,7 @@ fn fans_of_hundreds_of_triangles_hide_polygons_behind() {
     }
 }
 
-/// Bricks in a tilted plane, each row shifted against the next: corners end in the middle of edges.
+/// Bricks in a tilted plane. Each row is shifted against the next, so corners are in the middle of edges.
 #[test]
 fn walls_with_t_junctions_hide_polygons_behind() {
     // A rectangle of width 30 and height 20, in a plane with whole numbers.

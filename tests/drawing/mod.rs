@@ -1,5 +1,5 @@
-//! Visibility maps and drawings, compared with pictures whose every pixel is decided by separate integers,
-//! and with rays.
+//! Compares visibility maps and drawings with rays, and with pictures in which separate integers decide every
+//! pixel.
 
 mod areas;
 mod bent;
@@ -36,7 +36,7 @@ fn map_of<'t>(tree: &'t BspTree, camera: &Camera) -> VisibilityMap<'t> {
     map_with(tree, camera, |_| 1.0)
 }
 
-/// The same for polygons with opacities.
+/// The visible parts of a tree whose polygons have opacities.
 fn map_with<'t>(
     tree: &'t BspTree,
     camera: &Camera,
@@ -45,7 +45,7 @@ fn map_with<'t>(
     tree.visibility(camera, &with_opacities(tree, opacity)).unwrap()
 }
 
-/// The point of a tree's grid that is next to a place.
+/// The point of a tree's grid that is nearest to a place.
 fn on_grid(tree: &BspTree, place: DVec3) -> DVec3 {
     let lattice = tree.faces().lattice();
     lattice.to_world(lattice.to_lattice(place).map(f64::round))

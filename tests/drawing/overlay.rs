@@ -17,12 +17,12 @@ struct Score {
     pictures: usize,
     visible: usize,
     hidden: usize,
-    /// Hidden by more than one.
+    /// Points hidden by more than one polygon.
     deeper: usize,
     runs: usize,
     shown_points: usize,
     hidden_points: usize,
-    /// Too near to the end of a run.
+    /// Points too near to the end of a run.
     unsure: usize,
 }
 
@@ -91,7 +91,7 @@ fn check(
     Ok(())
 }
 
-/// Runs of a segment begin where those before them end, visible and hidden by turns.
+/// Each run of a segment begins where the previous run ends, and visible and hidden runs alternate.
 fn check_tiling(runs: &[LineRun]) -> Result<(), String> {
     for pair in runs.windows(2) {
         let [before, run] = [pair[0], pair[1]];
@@ -111,7 +111,7 @@ pub(crate) fn between([a, b]: &[Point; 2], share: f64) -> Point {
     std::array::from_fn(|i| &a[i] + (&b[i] - &a[i]) * &share)
 }
 
-/// Whether a point is well inside of a run; `None` if it is not in it at all.
+/// Whether a point is well inside a run; `None` if it is outside the run.
 pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     let way = [0, 1].map(|i: usize| ends[1][i] - ends[0][i]);
     let arm = [0, 1].map(|i: usize| at[i] - ends[0][i]);
@@ -121,8 +121,8 @@ pub(crate) fn place_in(ends: [[f64; 2]; 2], at: [f64; 2]) -> Option<bool> {
     (inside > -NEAR).then_some(inside > NEAR)
 }
 
-/// The runs of one line over polygons, as seen from above, ten pixels a unit: how far each goes along x,
-/// and whether it shows.
+/// The runs of one line over polygons, seen from above with ten pixels per unit: the length of each run along
+/// x, and whether it is visible.
 fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
     let tree = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0));
     let tree = tree.with_tolerance(0.0).build(polygons).unwrap();
@@ -141,19 +141,19 @@ fn from_above(polygons: &[Vec<DVec3>], line: &[[f64; 3]]) -> Vec<(f64, bool)> {
 fn lines_are_seen_on_polygons_and_hidden_behind_them() {
     let wall = rectangle([-1.0, -1.0], [1.0, 1.0], 0.0);
     let one = |line: &[[f64; 3]]| from_above(std::slice::from_ref(&wall), line);
-    // On it, above it, below it.
+    // A line on the wall, above the wall, and below the wall.
     assert_eq!(one(&[[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 0.0, 1.0], [2.0, 0.0, 1.0]]), [(4.0, true)]);
     let behind = [(1.0, true), (2.0, false), (1.0, true)];
     assert_eq!(one(&[[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]]), behind);
-    // Through it, and up to it from either side.
+    // A line through the wall, and lines that end on the wall from either side.
     assert_eq!(
         one(&[[-2.0, 0.0, -2.0], [2.0, 0.0, 2.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]
     );
     assert_eq!(one(&[[-2.0, 0.0, -2.0], [0.0, 0.0, 0.0]]), [(1.0, true), (1.0, false)]);
     assert_eq!(one(&[[-2.0, 0.0, 2.0], [0.0, 0.0, 0.0]]), [(2.0, true)]);
-    // Along its edge: on it, and below it, where the edge hides it; and through a corner.
+    // A line on an edge of the wall, a line below the edge, which the edge hides, and a line below a corner.
     assert_eq!(one(&[[-2.0, 1.0, 0.0], [2.0, 1.0, 0.0]]), [(4.0, true)]);
     assert_eq!(one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, -1.0]]), behind);
     assert_eq!(one(&[[0.0, 2.0, -1.0], [2.0, 0.0, -1.0]]), [(2.0, true)]);
@@ -162,20 +162,21 @@ fn lines_are_seen_on_polygons_and_hidden_behind_them() {
         one(&[[-2.0, 1.0, -1.0], [2.0, 1.0, 1.0]]),
         [(1.0, true), (1.0, false), (2.0, true)]
     );
-    // Two segments of one line, and one that is seen end-on.
+    // A line with a vertical segment, and a line that is seen end-on.
     let bent = [[-2.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [3.0, 0.0, -1.0]];
     assert_eq!(one(&bent), [(2.0, true), (1.0, false), (2.0, true)]);
     assert_eq!(one(&[[0.0, 0.0, 5.0], [0.0, 0.0, -5.0]]), []);
 }
 
-/// There is no crack where two walls meet, and a line along the corner of a room is visible on both.
+/// There is no crack where two walls meet. A line along the corner of a room is visible on both walls.
 #[test]
 fn lines_in_cracks_and_corners() {
     let halves =
         [rectangle([-1.0, -1.0], [1.0, 0.0], 0.0), rectangle([-1.0, 0.0], [1.0, 1.0], 0.0)];
     let line = [[-2.0, 0.0, -1.0], [2.0, 0.0, -1.0]];
     assert_eq!(from_above(&halves, &line), [(1.0, true), (2.0, false), (1.0, true)]);
-    // A valley, all of it further back than its upper edges, in every order of its sides and a wall through it.
+    // A valley whose upper edges are nearest to the eye, in every input order of its sides and a wall through
+    // it.
     let [left, right] = [-1.0, 1.0].map(|y| {
         let side = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, y, 1.0], [-1.0, y, 1.0]];
         side.map(DVec3::from).to_vec()
@@ -197,7 +198,7 @@ fn lines_in_cracks_and_corners() {
     }
 }
 
-/// A line from far behind the eye, close by it, to far ahead is straight where it shows.
+/// A line from far behind the eye, close past the eye, to far ahead is straight where it is visible.
 #[test]
 fn lines_across_the_eye_end_with_the_picture() {
     let wall = rectangle([-9.0, -9.0], [9.0, 9.0], -90.0);
@@ -213,7 +214,7 @@ fn lines_across_the_eye_end_with_the_picture() {
     let runs = map.lines(&overlay, Hidden::Keep).unwrap();
     let [seen, hidden] = runs[..] else { panic!("{runs:?}") };
     assert!(seen.is_visible && !hidden.is_visible && seen.line == 0);
-    // From the right end of the picture to the vanishing point, to a thousandth of a pixel.
+    // The line goes from the right end of the picture to the vanishing point, up to a thousandth of a pixel.
     let [_, pixel] = camera.pixel_size();
     let expected = [200.0, 100.0 + 0.001 / 90.0 / pixel, 100.0 + 0.001 / 1e6 / pixel];
     for (at, x) in [seen.ends[0], seen.ends[1], hidden.ends[1]].into_iter().zip(expected) {
@@ -243,8 +244,8 @@ fn overlays_of_other_trees_and_polygons_are_refused() {
     assert_eq!(map.markers(&overlay).unwrap_err(), error);
 }
 
-/// Lines and points that a scene and an eye make hard: along edges and through them, through corners, in
-/// planes, and in line with the eye.
+/// Lines and points that are hard to decide: along and through edges, through corners, in planes, and in line
+/// with the eye.
 pub(crate) fn hard_shapes(
     polygons: &[Vec<DVec3>],
     eye: DVec3,
@@ -284,7 +285,7 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
         let options = options.with_bounds(middle - reach, middle + reach);
         let Ok(tree) = options.build(&scene.polygons) else { return Ok(()) };
         for _ in 0..3 {
-            // On planes of the scene as well, and in the middle of it.
+            // Also on planes of the scene, and in the middle of the scene.
             let off = [(); 3].map(|()| dice.around_zero(3));
             let eye = middle + DVec3::from(off) * size * 0.5;
             let eye = on_grid(&tree, eye);
@@ -305,8 +306,8 @@ fn hard_lines_and_points_are_hidden_as_rays_are() {
     enough!(score.shown_points > 2000, score.hidden_points > 600; "{score:?}");
 }
 
-/// Calls a function with trees of random triangles, a camera before and one among these, and lines and
-/// points, half of them hard ones.
+/// Calls a function with trees of random triangles, a camera before the triangles and a camera among them,
+/// and lines and points. Half of the lines and points are hard to decide.
 pub(crate) fn for_each_crowd(
     seed: u64,
     mut check: impl FnMut(&BspTree, &Camera, &[Vec<DVec3>], &[DVec3], &mut Dice),

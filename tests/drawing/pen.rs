@@ -22,7 +22,7 @@ fn travel<'p>(lines: impl Iterator<Item = &'p [[f64; 2]]>) -> f64 {
     sum
 }
 
-/// Segments of a small grid: of them, the number of lines that are needed.
+/// The least number of lines that draw all segments of a small grid.
 fn fewest(segments: &[Segment]) -> usize {
     let mut corners: Vec<[u64; 2]> =
         segments.iter().flatten().map(|end| end.map(f64::to_bits)).collect();
@@ -79,7 +79,7 @@ fn lines_are_as_few_as_can_be_and_travel_is_short() {
         let count = 1 + dice.roll() % [8, 60, 200][round / 3 % 3];
         let mut end = || [0, 1].map(|_| (dice.roll() % side) as f64 / 7.0);
         let mut segments: Vec<Segment> = (0..count).map(|_| [end(), end()]).collect();
-        // Not one that begins where it ends: the length of its line would be none.
+        // Segments without length are left out: their lines would have no length.
         segments.retain(|[a, b]| a != b);
         let lines = polylines(segments.iter().copied()).unwrap();
         check(&segments, &lines);
@@ -96,7 +96,7 @@ fn lines_are_as_few_as_can_be_and_travel_is_short() {
 
 #[test]
 fn the_straightest_way_is_taken() {
-    // Two long lines that cross in a corner of both.
+    // Two long lines that cross in a common corner.
     let point = |x: f64, y: f64| [x, y];
     let arms = [point(0.0, 1.0), point(2.0, 1.0), point(1.0, 0.0), point(1.0, 2.0)];
     let lines = polylines(arms.map(|arm| [arm, point(1.0, 1.0)])).unwrap();
@@ -139,7 +139,7 @@ fn a_cube_is_two_lines() {
     assert_eq!((visible.len(), lines.len()), (9, 2));
 }
 
-/// A fan of many segments at one corner, and a chain of many, on a thread with little room.
+/// A fan of many segments at one corner, and a chain of many segments, on a thread with a small stack.
 #[test]
 fn corners_of_many_and_long_lines_take_no_stack() {
     let spread = std::thread::Builder::new().stack_size(1 << 18).spawn(|| {

@@ -1,4 +1,5 @@
-//! Vector pictures, as a viewer shows them (resvg): seams, the order of paths, places, names, and odd numbers.
+//! Vector pictures, as a viewer shows them (resvg): seams, the order of paths, places, names, and odd
+//! numbers.
 
 use super::map_of;
 use binspace::drawing::{Paint, Path, Polyline, Stroke, VectorPicture, polylines};
@@ -47,8 +48,8 @@ fn wall() -> Vec<Corners> {
     faces.into_iter().map(corners).collect()
 }
 
-/// Where all polygons have one colour, a picture without seams has that colour; its paths alone, filled one after
-/// another, do not.
+/// If all polygons have one colour, a picture without seams has only this colour. Paths filled one after
+/// another show other colours at seams.
 #[test]
 fn no_background_shows_in_seams() {
     const COLOUR: [u8; 3] = [51, 102, 77];
@@ -80,12 +81,12 @@ fn no_background_shows_in_seams() {
     assert!(inner.len() > 10_000, "{}", inner.len());
     assert!(5 * errors[0] < inner.len() as u32, "{errors:?} in {} pixels", inner.len());
     assert!(10 * errors[0] < errors[1], "{errors:?}");
-    // Nothing comes out of the wall.
+    // Nothing is drawn outside the wall.
     let changed = covered.iter().zip(crisp(&with)).filter(|(a, b)| *a != b).count();
     assert!(changed < 4, "{changed} pixels");
 }
 
-/// Drawings of triangles that go through one another, and of a city.
+/// Drawings of triangles that cross each other, and of a city.
 fn drawings() -> Vec<Drawing> {
     let scenes = [(Builtin::Random, 200), (Builtin::City, 200), (Builtin::Crossing, 6)];
     let drawing = |(scene, count): (Builtin, u32)| {
@@ -134,7 +135,7 @@ fn batches_paint_the_same_picture() {
     assert!(2 * counts[1] < counts[0], "{counts:?}");
 }
 
-/// Trapping adds corners to outlines and changes nothing else; polygons that are not opaque keep theirs.
+/// Trapping only adds corners to outlines. The outlines of polygons that are not opaque do not change.
 #[test]
 fn trapped_outlines_go_through_the_same_corners() {
     let mut extended = 0;
@@ -151,7 +152,7 @@ fn trapped_outlines_go_through_the_same_corners() {
                 extended += usize::from(longer.len() > outline.len());
                 assert!(path.polygon() % 4 > 0 || longer.len() == outline.len());
             }
-            // A side that is as it was has its edge, and one that was extended has none.
+            // An unchanged side has its edge, and an extended side has no edge.
             let sides = |path: Path<'_>| -> BTreeMap<[[u64; 2]; 2], Option<u32>> {
                 let all = path.outlines().zip(path.edges()).flat_map(|(outline, edges)| {
                     assert_eq!(outline.len(), edges.len());
@@ -183,7 +184,7 @@ fn markers_lines_and_labels_are_at_their_places() {
         let line = (x - x.clamp(60.0, 90.0)).hypot(y - 20.5) - 1.5;
         let dash = |from: f64| ((x - from - 5.0).abs() - 5.0).max((y - 60.0).abs() - 2.0);
         let inside = disc.min(line).min(dash(60.0)).min(dash(75.0));
-        // Viewers make curves of few pieces.
+        // Viewers approximate curves by few pieces.
         if inside.abs() > 0.25 {
             assert_eq!(found, if inside < 0.0 { RED } else { [255; 3] }, "{x} {y}");
         }
@@ -194,13 +195,13 @@ fn markers_lines_and_labels_are_at_their_places() {
     let label = document.descendants().find(|node| node.has_tag_name("text")).unwrap();
     assert_eq!(label.text(), Some("a & b"));
     assert_eq!(label.attribute("text-anchor"), Some("middle"));
-    // In units of 1/500 of a pixel: half the height of a capital letter below the point.
+    // In units of 1/500 of a pixel: the baseline is half the height of a capital letter below the point.
     let place =
         ["x", "y"].map(|axis| label.attribute(axis).unwrap().parse::<f64>().unwrap() / 500.0);
     assert!(place[0] == 50.0 && (place[1] - 10.0 - 0.359 * 20.0).abs() < 2e-3, "{place:?}");
 }
 
-/// A stroke follows the polygon and not the additions against seams.
+/// A stroke follows the polygon, not the corners that trapping added.
 #[test]
 fn strokes_follow_the_outlines_of_polygons() {
     let tree = BspTree::build(wall()).unwrap();
@@ -240,12 +241,13 @@ fn strokes_leave_out_the_border_of_the_picture() {
     picture.add_drawing(&drawing, |_| Paint::from([200; 3]).with_stroke(Stroke::new(2.0, [0; 3])));
     let pixels = crisp(&picture);
     let at = |x: usize, y: usize| pixels[40 * y + x];
-    // From the left: the border, the inside, the right edge, the background; and the edges above and below.
+    // The pixels from the left: the border, the inside, the right edge, the background. Then the edges above
+    // and below.
     assert_eq!([0, 15, 29, 35].map(|x| at(x, 20)), [[200; 3], [200; 3], [0; 3], [255; 3]]);
     assert_eq!([10, 29].map(|y| at(0, y)), [[0; 3]; 2]);
 }
 
-/// Areas side by side that are added up have the sum of their coverage, on the background.
+/// Areas side by side that are added up have the sum of their coverages over the background.
 #[test]
 fn areas_that_are_added_up_have_no_seams() {
     let mut picture = VectorPicture::new([40, 30]).with_background([255; 3]);
@@ -303,7 +305,7 @@ fn groups_name_their_shapes() {
     assert_eq!(inner[1].children().filter(Node::is_element).count(), 2);
 }
 
-/// The look of each shape is written once, on it or around it, whatever the groups are.
+/// The style of each shape is written once, on the shape or on a group around it.
 #[test]
 fn every_shape_has_its_look() {
     let mut dice = Dice(5);
@@ -345,7 +347,7 @@ fn fill_at_random(
     }
 }
 
-/// For any numbers, a file is well-formed, and its numbers are finite.
+/// For any input numbers, a file is well-formed, and its numbers are finite.
 #[test]
 fn odd_numbers_make_no_broken_files() {
     const ODD: [f64; 12] = [

@@ -98,7 +98,7 @@ const MAKINGS: [Making; 4] = [
     }),
 ];
 
-/// Checks all calls of an operation: they never go back, and only the last one reports completion.
+/// Checks all calls of an operation: progress never decreases, and only the last call reports completion.
 fn check_calls(name: &str, heard: &[Progress]) {
     enough!(heard.len() > 3; "{name}: {heard:?}");
     let done = heard.iter().map(|progress| progress.done);
@@ -110,8 +110,8 @@ fn check_calls(name: &str, heard: &[Progress]) {
     assert!(done.filter(|&done| 0 < done && done < total).count() > 1, "{name}: {heard:?}");
 }
 
-/// Checks all calls of an operation, and cancels it at the first, at some in between, and at the last: there is
-/// no further call.
+/// Checks all calls of an operation, and cancels it at the first, at some in between, and at the last: there
+/// is no further call.
 fn check(name: &str, listener: &Listener, operation: impl Fn() -> Result<String, Error>) -> String {
     listener.cancel_at(usize::MAX);
     let found = operation().unwrap();
@@ -127,13 +127,13 @@ fn check(name: &str, listener: &Listener, operation: impl Fn() -> Result<String,
     found
 }
 
-/// On one thread, so that two runs have the same calls.
+/// Runs on one thread, so that two runs have the same calls.
 fn alone<T: Send>(act: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(act)
 }
 
 #[test]
-fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
+fn maps_and_drawings_report_progress_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
     let hear = |progress| listener.hear(progress);
     let heard = ViewOptions::DEFAULT.with_progress(&hear);
@@ -145,7 +145,7 @@ fn maps_and_drawings_tell_how_far_they_are_and_can_be_cancelled() {
     });
 }
 
-/// A map keeps its callback; after it was cancelled, it still answers.
+/// A map keeps its callback. After a cancelled query, the map can still be queried.
 #[test]
 fn queries_of_a_map_report_progress_and_can_be_cancelled() {
     let (view, listener) = (view(330), Listener::default());
@@ -168,7 +168,7 @@ fn queries_of_a_map_report_progress_and_can_be_cancelled() {
     });
 }
 
-/// On several threads calls come one at a time, in order, and none after the one that cancels.
+/// On several threads, calls come one at a time and in order, and no call comes after the call that cancels.
 #[test]
 fn threads_report_in_order() {
     let (view, listener) = (view(330), Listener::default());
@@ -191,7 +191,7 @@ fn threads_report_in_order() {
     });
 }
 
-/// Two discs with `corners` corners each that go through one another.
+/// Two discs with `corners` corners each, which cross.
 fn discs(corners: u32) -> View {
     let disc = |tilt: f64| -> Vec<DVec3> {
         let corner = |i: u32| {
@@ -207,8 +207,8 @@ fn discs(corners: u32) -> View {
     View { tree, camera, overlay }
 }
 
-/// A cell that a face of many corners cuts is work for each corner that it has so far: this work is
-/// reported and can be cancelled.
+/// If a face of many corners cuts a cell, the work is proportional to the corners of the cell so far. This
+/// work is reported and can be cancelled.
 #[test]
 fn work_at_many_corners_polls_for_cancellation() {
     let calls = [512, 1024].map(|corners| {

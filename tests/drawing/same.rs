@@ -1,4 +1,4 @@
-//! The same results on any number of threads, and for pictures of every size.
+//! Results are the same on any number of threads, and for pictures of every size.
 
 use super::map_with;
 use super::scenes::cameras;
@@ -61,7 +61,8 @@ fn shown(tree: &BspTree, camera: &Camera) -> Vec<(usize, f64)> {
     map.polygons().map(|shown| (shown.polygon, shown.area)).collect()
 }
 
-/// Scenes in pictures of a pixel and of as many as there can be: the same polygons show, in the same shares.
+/// Scenes in pictures of one pixel and of the largest size: the same polygons are visible, with the same
+/// shares.
 #[test]
 fn pictures_of_all_sizes_show_the_same_polygons() {
     let mut compared = 0;

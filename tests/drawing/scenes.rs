@@ -1,4 +1,4 @@
-//! Scenes large enough for every part: tiles, threads, cycles.
+//! Scenes large enough to reach every part of the code: tiles, threads, cycles.
 
 use super::map_of;
 use binspace::view::views;
@@ -42,7 +42,7 @@ fn drawings_of_whole_scenes_agree_with_rays() {
     enough!(score.clipped > 100, score.rays > 2000; "{score:?}");
 }
 
-/// Fewer and fewer pixels for each polygon: tiles are halved down to a few pixels and below.
+/// More and more polygons per pixel, so that tiles are halved down to a few pixels and less.
 #[test]
 fn many_small_triangles() {
     let mut dice = Dice(1);

@@ -1,5 +1,6 @@
-//! Outlines of regions and paths go around areas, and never along a line within one: nearly everything in these scenes
-//! lies on a grid, so that cuts coincide with edges of others, and edges with borders of the picture's tiles.
+//! Outlines of regions and paths go around areas, and never along a line within an area. Nearly everything in
+//! these scenes lies on a grid. So cuts coincide with edges of other polygons, and edges coincide with
+//! borders of the picture's tiles.
 
 use super::sheets::{Corners, Sheet, from_above, stack, tree_of};
 use super::{map_of, map_with};
@@ -21,7 +22,8 @@ fn length([a, b]: [[f64; 2]; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// The length of the longest seam: the part that two sides of some outlines share in opposite directions.
+/// The length of the longest seam. A seam is the common part of two sides of outlines that run in opposite
+/// directions.
 fn seam(outlines: &[Outline]) -> f64 {
     let mut longest = 0.0_f64;
     for (i, one) in sides(outlines).enumerate().filter(|(_, side)| length(*side) > 1e-3) {
@@ -73,7 +75,7 @@ fn from_the_south() -> Camera {
     Camera::perspective_by_slope(eye, target, DVec3::Z, 0.25, [250, 250]).unwrap()
 }
 
-/// A cut of one polygon lies on an edge of another.
+/// A cut of one polygon lies on an edge of another polygon.
 #[test]
 fn a_region_has_no_seam_along_a_cut_on_an_edge() {
     let polygons = [
@@ -97,7 +99,7 @@ fn a_clipped_path_has_no_seam_along_a_cut_on_an_edge() {
     assert_eq!(fault(&tree, &from_the_south(), &[1.0; 4]), None);
 }
 
-/// A corner lies half a step of a fine grid from both of its places.
+/// A corner lies half a step of a fine grid from each of the two places to which it may be rounded.
 #[test]
 fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     let polygons = vec![
@@ -111,7 +113,7 @@ fn a_corner_that_rounds_both_ways_leaves_a_region_in_one_piece() {
     let tree = tree_of(&polygons);
     let camera = from_above(8.0, [64, 64]);
     let map = map_of(&tree, &camera);
-    // The rectangle, and the triangle, which touches its border with a corner.
+    // The rectangle, and the triangle, which touches the border of the rectangle with a corner.
     let regions = map.regions().unwrap();
     assert_eq!(regions[0].outlines().map(<[_]>::len).collect::<BTreeSet<_>>(), [3, 4].into());
     assert_eq!(fault(&tree, &camera, &[1.0; 2]), None);
@@ -140,7 +142,7 @@ fn border(area: &Area) -> [usize; 2] {
     [length, corners]
 }
 
-/// Outlines that go around an area, and only around it.
+/// Checks that outlines go around an area, and along no line inside it.
 fn expect_border(outlines: &[Outline], area: &Area, pixels: f64, what: &str) {
     let [expected, corners] = border(area);
     let length: f64 = sides(outlines).map(length).sum();
@@ -155,15 +157,15 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
     for round in 0..1500 {
         let sheets: Vec<Sheet> = (0..2 + dice.below(6)).map(|_| Sheet::new(&mut dice)).collect();
         let tree = tree_of(&sheets.iter().map(Sheet::corners).collect::<Vec<_>>());
-        // With borders of pixels on the grid, on halves of squares, and on neither; with borders of the picture
-        // around the scene and in it.
+        // Borders of pixels are on the grid, on halves of squares, or on neither. Borders of the picture are
+        // around the scene or within it.
         let [height, side] = [[8.0, 64.0], [16.0, 37.0], [8.0, 1.0], [9.75, 50.0]][round % 4];
         let camera = from_above(height, [side as u32; 2]);
         let opacity = |polygon: usize| if sheets[polygon].is_opaque { 1.0 } else { 0.5 };
         let map = map_with(&tree, &camera, opacity);
         let opaque = tree.visibility(&camera, &ViewOptions::DEFAULT).unwrap();
-        // The polygons visible over each half of a square, front to back. (In one plane the last one comes
-        // first.)
+        // The polygons visible over each half of a square, front to back. (Of several polygons in one plane,
+        // the last one comes first.)
         let mut stacks: BTreeMap<Vec<usize>, Area> = BTreeMap::new();
         let mut shown: BTreeMap<usize, Area> = BTreeMap::new();
         for at in (0..16).flat_map(|x| (0..16).map(move |y| [x, y])) {
@@ -192,7 +194,7 @@ fn sheets_over_a_grid_have_the_borders_of_their_squares() {
     assert!(regions > 8_000 && clipped > 300, "{regions} {clipped}");
 }
 
-/// The same sheets, and walls, from all around.
+/// The sheets of the test above, and walls, seen from all around.
 #[test]
 fn outlines_over_a_grid_have_no_seams() {
     let mut dice = Dice(7);
@@ -214,7 +216,7 @@ fn outlines_over_a_grid_have_no_seams() {
             0 => Camera::parallel(target - eye, DVec3::Z, target, 12.0, size),
             _ => Camera::perspective_by_slope(eye, target, DVec3::Z, 0.4, size),
         };
-        // An eye right above the target has no up.
+        // If the eye is right above the target, the up vector is invalid.
         let Ok(camera) = camera else { continue };
         let fault = fault(&tree, &camera, &opacities);
         assert_eq!(fault, None, "{round}: {polygons:?}, {opacities:?}, {camera:?}");

@@ -43,14 +43,15 @@ impl Sheet {
         [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(corner).to_vec()
     }
 
-    /// Four times its height over the middle of half a square, if it is there.
+    /// Four times the sheet's height over the middle of half a square, if the sheet covers it.
     fn over(&self, [x, y]: [i64; 2]) -> Option<i64> {
         let is_in = |axis: usize, at: i64| 2 * self.low[axis] <= at && at < 2 * self.high[axis];
         (is_in(0, x) && is_in(1, y)).then(|| self.slope * (2 * x + 1) + 4 * self.height)
     }
 }
 
-/// The sheets over a half of a square, front to back. (In one plane the last one comes first.)
+/// The sheets over a half of a square, front to back. (Of several sheets in one plane, the last one comes
+/// first.)
 pub(crate) fn stack(sheets: &[Sheet], at: [i64; 2]) -> Vec<usize> {
     let over = |(i, sheet): (usize, &Sheet)| sheet.over(at).map(|height| (height, i));
     let mut stack: Vec<_> = sheets.iter().enumerate().filter_map(over).collect();

@@ -17,11 +17,12 @@ struct Score {
     unsure: usize,
 }
 
-/// A side runs along the edge on which its middle lies, and along none if that is on no edge.
+/// Checks that a side runs along the edge that contains the side's middle, and along none if no edge contains
+/// the middle.
 fn check(path: Path<'_>, corners: &[DVec3], camera: &Camera, score: &mut Score) {
     let projected: Option<Vec<DVec2>> =
         corners.iter().map(|&corner| camera.project(corner).map(DVec2::from)).collect();
-    // Polygons that reach behind the eye.
+    // Polygons that reach behind the eye are left out.
     let Some(projected) = projected else { return };
     let edge = |k: usize| [projected[k], projected[(k + 1) % projected.len()]];
     for (outline, edges) in path.outlines().zip(path.edges()) {
@@ -40,9 +41,11 @@ fn check(path: Path<'_>, corners: &[DVec3], camera: &Camera, score: &mut Score) 
                 score.own += 1;
                 continue;
             }
-            // Another polygon's edge may run along this one's, and a short side be anywhere near.
+            // Another polygon's edge may run along an edge of this polygon, and a short side may be near any
+            // edge.
             let is_on = |k: usize| [a, b].iter().all(|&end| distance(end, edge(k)) < 1e-7);
-            // Where an edge of a bent polygon is seen end-on, a diagonal lies on the next edge in the picture.
+            // If an edge of a bent polygon is seen end-on, a diagonal and the next edge coincide in the
+            // picture.
             let is_end_on = |k: usize| edge(k)[0].distance(edge(k)[1]) < 1e-6;
             let all = 0..projected.len();
             let size = camera.size().map(f64::from);
@@ -84,7 +87,7 @@ fn sides_of_paths_have_the_edges_along_which_they_run() {
     assert!(score.unsure < score.own / 20, "{score:?}");
 }
 
-/// Two teeth of a comb end on one line: each side has the number of its own tooth.
+/// Two teeth of a comb end on one line. Each side has the number of the edge of its own tooth.
 #[test]
 fn edges_on_one_line_are_told_apart() {
     let comb = [
@@ -110,7 +113,7 @@ fn edges_on_one_line_are_told_apart() {
     found.sort_by_key(|(edge, _)| *edge);
     assert_eq!(found.len(), 8);
     for (edge, at) in found {
-        // Clockwise in the picture, so that a side ends where its edge begins.
+        // The polygon is clockwise in the picture, so a side ends where its edge begins.
         let ends =
             [edge as usize, (edge as usize + 1) % 8].map(|k| camera.project(comb[k]).unwrap());
         let off = ends.map(|end| DVec2::from(end).distance(at.into()));

@@ -1,4 +1,5 @@
-//! The polygons that hide a point, in rationals: faces, with their edges, between it and the eye.
+//! The polygons that hide a point, in rationals: their faces, including edges, are between the point and the
+//! eye.
 
 use binspace::internals::Lattice;
 use num_traits::One;
@@ -9,7 +10,7 @@ use testkit::rational::Point;
 /// The origin of rays, on the lattice of a scene.
 pub(crate) enum Origin {
     Eye(Point),
-    /// They have this direction, and no beginning.
+    /// Rays along this direction, without a start.
     Along(Point),
 }
 
@@ -18,14 +19,14 @@ pub(crate) enum Origin {
 pub(crate) enum Cover {
     None,
     Hidden,
-    /// The border of a face, or the point is on a face of another polygon.
+    /// The line of sight meets the border of a face, or the point is on a face of another polygon.
     Unsure,
 }
 
 /// The faces of a scene, and a camera.
 pub(crate) struct Sightlines {
     pub(crate) faces: Vec<(usize, Face)>,
-    /// The corners of each, rounded.
+    /// The rounded corners of each face.
     rounded: Vec<Vec<DVec3>>,
     pub(crate) origin: Origin,
     /// The eye or the direction, rounded.
@@ -35,7 +36,7 @@ pub(crate) struct Sightlines {
 }
 
 impl Sightlines {
-    /// The rays of a camera; `None` if the eye is no point of the lattice.
+    /// The rays of a camera; `None` if the eye is not a point of the lattice.
     pub(crate) fn of(tree: &BspTree, camera: &Camera) -> Option<Self> {
         let faces = tree.faces();
         let origin = match camera.viewpoint() {
@@ -88,12 +89,12 @@ impl Sightlines {
             .filter(|((_, face), _)| self.is_before(face, point))
             .map(|((polygon, _), _)| *polygon)
             .collect();
-        // Faces of one polygon follow one another.
+        // Faces of one polygon are consecutive.
         polygons.dedup();
         polygons
     }
 
-    /// Whether the line of sight of a point may go through a face, if floats decide: only to save time.
+    /// Whether the line of sight of a point may go through a face. Floats decide, to save time.
     fn may_be_before(&self, corners: &[DVec3], point: DVec3) -> bool {
         let (from, way) = match &self.origin {
             Origin::Eye(_) => (self.from, point - self.from),
@@ -128,8 +129,8 @@ impl Sightlines {
         self.before(face, point).is_some_and(Ordering::is_ge)
     }
 
-    /// Whether the line of sight of a point goes through a face before the point, and whether with its inside
-    /// or with its border.
+    /// Whether the line of sight of a point goes through a face before the point: through its inside or its
+    /// border.
     fn before(&self, face: &Face, point: &Point) -> Option<Ordering> {
         let at = face.plane.at(point);
         let (from, share) = match &self.origin {

@@ -1,4 +1,5 @@
-//! Silhouettes of closed bodies are closed: at each corner as many of their edges begin as end.
+//! Silhouettes of closed bodies are closed: at each corner, the number of edges that begin equals the number
+//! that end.
 
 use super::map_of;
 use binspace::drawing::{EdgeKind, EdgeRun};
@@ -7,7 +8,7 @@ use testkit::prelude::*;
 
 type Corners = Vec<Vec<DVec3>>;
 
-/// A ring of quads, not convex, with lumps: none of the quads is planar.
+/// A ring of quads with lumps. It is not convex, and no quad is planar.
 fn torus(around: usize, across: usize) -> Corners {
     let point = |i: usize, k: usize| {
         let angle = |n: usize, of: usize| std::f64::consts::TAU * (n % of) as f64 / of as f64;
@@ -55,7 +56,7 @@ fn silhouettes_of_closed_bodies_are_closed() {
             }
             let open = degrees.values().filter(|&degree| degree % 2 == 1).count();
             assert_eq!(open, 0, "{eye}");
-            // By the sides of planes, in floats: where they are far from the eye.
+            // The sides of planes decide, in floats, where the planes are far from the eye.
             edges += silhouette.len();
         }
     }
@@ -83,7 +84,7 @@ fn silhouettes_of_quads_that_are_not_planar_are_closed() {
             let outline: Vec<_> =
                 runs.iter().filter(|run| run.kind == EdgeKind::Silhouette).collect();
             let ends: Vec<[f64; 2]> = outline.iter().flat_map(|run| run.ends).collect();
-            // Each end is where another run begins or ends.
+            // At each end, another run begins or ends.
             let near = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|i| (a[i] - b[i]).abs() < 1e-5);
             let is_open =
                 |end: &&[f64; 2]| ends.iter().filter(|other| near(end, other)).count() % 2 == 1;

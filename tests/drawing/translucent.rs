@@ -1,5 +1,4 @@
-//! Drawings of scenes in which nothing is hidden, and of those in which some polygons are translucent and
-//! some are not.
+//! Drawings of scenes in which nothing is hidden, and of scenes in which only some polygons are translucent.
 
 use super::map_with;
 use super::scenes::cameras;
@@ -8,14 +7,14 @@ use testkit::layered::{Layers, check_layers, check_mixed, check_sight};
 use testkit::prelude::*;
 use testkit::scenes::{scene_of, triangles};
 
-/// Opacities of a third of the polygons, of nearly all, and with some left out.
+/// Opacities: a third of the polygons are translucent, nearly all are, or some are left out.
 const MIXES: [fn(usize) -> f64; 3] = [
     |polygon| if polygon.is_multiple_of(3) { 0.5 } else { 1.0 },
     |polygon| if polygon.is_multiple_of(17) { 1.0 } else { 0.25 },
     |polygon| [0.0, 1.0, 0.75, 1.0][polygon / 5 % 4],
 ];
 
-/// The counts of comparisons of fully translucent drawings, and of mixed ones.
+/// The counts of comparisons of fully translucent drawings, and of mixed drawings.
 #[derive(Default)]
 struct Scores {
     all: Layers,
@@ -49,13 +48,13 @@ fn layers_of_whole_scenes_agree_with_the_tree() {
         [all, mixed].iter().all(|score| score.unsure < score.pixels / 100),
         "{all:?} {mixed:?}"
     );
-    // Most cuts of the tree are undone, and few polygons are in parts.
+    // Most cuts of the tree are undone, and few polygons are drawn in parts.
     assert!(all.paths * 2 < all.polygons * 3, "{all:?}");
     assert!(mixed.paths * 10 < mixed.polygons * 11, "{mixed:?}");
 }
 
-/// Polygons that cross, small ones, large ones, and few that are larger still: opaque ones are clipped,
-/// translucent ones in parts.
+/// Small, large and a few very large polygons that cross: opaque polygons are clipped, and translucent
+/// polygons are divided into parts.
 #[test]
 fn layers_of_crossing_triangles_agree_with_the_tree() {
     let (mut dice, mut scores) = (Dice(1), Scores::default());
@@ -68,7 +67,7 @@ fn layers_of_crossing_triangles_agree_with_the_tree() {
     assert!(mixed.clipped > 50 && mixed.paths > mixed.polygons, "{mixed:?}");
 }
 
-/// Two panes that go through one another: the line is there once, for any opacities.
+/// Two panes that cross: the crossing is reported once, for any opacities.
 #[test]
 fn panes_cross_in_one_line() {
     let upright = [[0.3, -1.0, -1.0], [0.3, 1.0, -1.0], [0.3, 1.0, 1.0], [0.3, -1.0, 1.0]];

@@ -89,7 +89,7 @@ impl Counts {
         self.front.abs_diff(self.back) as f64
     }
 
-    /// Whether neither side has all pieces, nor the plane.
+    /// Whether neither side nor the plane has all pieces.
     pub(super) fn separates(&self, pieces: usize) -> bool {
         let on_sides = [self.front + self.splits, self.back + self.splits];
         on_sides.iter().all(|&side| side < pieces) && on_sides != [0, 0]
@@ -146,7 +146,7 @@ impl Divided<'_> {
         })
     }
 
-    /// All planes perpendicular to an axis through a corner where a piece ends, that separate.
+    /// All planes perpendicular to an axis, through a corner where a piece ends, that separate pieces.
     pub(super) fn free_planes(&self) -> Vec<Counts> {
         let mut found = Vec::new();
         for axis in 0..3 {
@@ -195,7 +195,7 @@ impl Divided<'_> {
         })
     }
 
-    /// The score of the chosen plane, and the least that any own plane has.
+    /// The score of the chosen plane, and the least score of the pieces' own planes.
     pub(super) fn scores(&self, score: impl Fn(&Counts, bool) -> f64) -> [f64; 2] {
         let PlaneKind::Face(face) = self.plane.kind() else { panic!("{:?} is free", self.plane) };
         let chosen = self.set.iter().zip(self.own_planes()).filter(|(piece, _)| piece.face == face);

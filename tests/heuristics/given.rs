@@ -1,4 +1,4 @@
-//! Planes that a function of the caller chooses: good ones, bad ones, and panics.
+//! Planes that a function of the caller chooses: good planes, bad planes, and panics.
 
 use super::{build, scene};
 use binspace::choose::{PieceSet, Side, SplitPlane};
@@ -18,7 +18,7 @@ fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
 
-/// The plane of the piece with the lowest score; of equal scores, the first.
+/// The plane of the piece with the lowest score. Of equal scores, the first piece counts.
 fn least(
     set: &PieceSet<'_>,
     candidates: usize,
@@ -44,7 +44,7 @@ fn least(
 }
 
 /// Five built-in heuristics, written against the public interface.
-fn written_anew(by: Heuristic, set: &PieceSet<'_>) -> Option<SplitPlane> {
+fn rewritten(by: Heuristic, set: &PieceSet<'_>) -> Option<SplitPlane> {
     let weighted = |candidates, [splits, balance, axial]: [f64; 3]| {
         least(set, candidates, |piece, [cut, uneven]| {
             let [low, high] = set.bounds(piece);
@@ -78,9 +78,10 @@ fn built_in_heuristics_written_against_the_interface_build_the_same_trees() {
         for seed in 0..24 {
             let scene = scene(&mut Dice(seed), 4 + seed as usize * 3);
             let options = BuildOptions::DEFAULT.with_tolerance(0.0);
-            // If the function declines, this would be visible.
+            // If the function declined, this heuristic would choose another plane, and the trees would
+            // differ.
             let options = options.with_heuristic(Heuristic::FreePlanes);
-            let own = options.with_chooser(move |set| written_anew(by, set));
+            let own = options.with_chooser(move |set| rewritten(by, set));
             let own = own.build(&scene).expect("a tree");
             let built_in = build(&scene, by);
             assert_eq!(Snapshot::of(&own), Snapshot::of(&built_in), "{by}, seed {seed}");
@@ -164,7 +165,7 @@ fn an_adversary_gets_the_same_tree_on_any_number_of_threads() {
     }
 }
 
-/// In general position, so that no plane has all pieces on one side except those beyond all corners.
+/// The scene is in general position, so only planes beyond all corners have all pieces on one side.
 #[test]
 fn an_invalid_or_useless_plane_counts_as_none() {
     let scene = scene::random_triangles(150, 3);
@@ -191,7 +192,7 @@ fn an_invalid_or_useless_plane_counts_as_none() {
             assert!(Snapshot::of(&tree) == expected, "{by}, {answer:?}");
             assert!(calls.load(Relaxed) > 100, "{by}, {answer:?}");
         }
-        // The beginning of a set leaves all on one side, except a piece that ends there.
+        // A plane at the least x of a set has all pieces on one side, except a piece in the plane.
         let options = options.with_chooser(|set| {
             axis(0, (0..set.piece_count()).map(|i| set.bounds(i)[0].x).fold(f64::MAX, f64::min))
         });
@@ -203,7 +204,8 @@ fn an_invalid_or_useless_plane_counts_as_none() {
     }
 }
 
-/// The side of the plane through three points on which a fourth is. All are multiples of a quarter.
+/// The side of the plane through three points on which a fourth point is. All coordinates are multiples of a
+/// quarter.
 fn side_of([p, q, r]: [DVec3; 3], at: DVec3) -> i128 {
     let [a, b, c] = [q - p, r - p, at - p].map(|arm| (arm * 4.0).to_array().map(|c| c as i128));
     a[0] * (b[1] * c[2] - b[2] * c[1])
@@ -221,7 +223,7 @@ fn side(values: impl Iterator<Item = i128>) -> Side {
     }
 }
 
-/// At the root of scenes on a grid of quarters, where integers give the right contents of a set.
+/// Tests sets at the root, for scenes on a grid of quarters, where integers give the right contents of a set.
 #[test]
 fn a_set_shows_its_polygons_and_the_sides_on_which_they_lie() {
     let mut found = [0; 4];
@@ -333,7 +335,7 @@ fn a_function_that_panics_ends_its_own_build_alone() {
             let build = || with_threads(threads, || options.build(scene.polygons()));
             let panic = catch_unwind(AssertUnwindSafe(build)).expect_err("the function's panic");
             assert_eq!(*panic.downcast_ref::<&str>().expect("a message"), "the caller's fault");
-            // The panic is printed before other threads are stopped, and they call the function meanwhile.
+            // The panic is printed before other threads are stopped, so they may call the function meanwhile.
             let after = calls.load(Relaxed);
             assert!(threads > 1 || after == at + 1, "{after} calls, panicked at {at}");
             // Later calls do not panic.

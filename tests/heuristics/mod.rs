@@ -1,5 +1,5 @@
-//! Each heuristic is compared with its documentation, at every node, by brute force in exact rationals: on
-//! integer scenes, where the cuts of a plane are certain.
+//! Compares each heuristic with its documentation, at every node, by brute force in exact rationals. Scenes
+//! have integer coordinates, so that the cuts of a plane are certain.
 
 mod divided;
 mod given;
@@ -9,7 +9,7 @@ use divided::{Counts, Divided, nodes, work};
 use testkit::prelude::*;
 use testkit::shapes;
 
-/// A scene on a small lattice, of one of several kinds.
+/// A scene of one of several kinds, on a small lattice.
 fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {
     let wide = 2 + dice.below(8) as u32;
     let kind = dice.below(3);
@@ -18,7 +18,7 @@ fn scene(dice: &mut Dice, count: usize) -> Vec<Corners> {
         .map(|_| match kind {
             0 => vec![point(dice), point(dice), point(dice)],
             1 => {
-                // Small ones apart, so that free planes cut nothing.
+                // Small polygons at a distance from each other, so that free planes cut nothing.
                 let at = point(dice) * 4.0;
                 [0; 3].map(|_| at + point(dice) / 4.0).to_vec()
             }
@@ -64,7 +64,7 @@ fn assert_least(by: Heuristic, score: impl Fn(&Counts, bool) -> f64) {
         let most = node.own_planes().map(|(c, axial)| score(&c, axial)).fold(-1e300, f64::max);
         choices += usize::from(most > least);
     });
-    // If all planes are alike, nothing is chosen.
+    // If all planes have equal scores, the test shows nothing.
     enough!(found > 150, choices > 80; "{by}: {found} nodes, {choices} choices");
 }
 
@@ -179,7 +179,8 @@ fn free_planes_are_taken_wherever_one_cuts_nothing_and_cost_little() {
                 let least =
                     planes.iter().map(key).min_by(|a, b| a.partial_cmp(b).expect("numbers"));
                 let chosen = key(&node.counts);
-                // A plane that cuts nothing may go through a corner that was cut off.
+                // The list may lack a plane that cuts nothing, because it may go through a corner that was
+                // cut off.
                 let least = least.unwrap_or(chosen);
                 // The search stops at a plane that cuts nothing and leaves a quarter on each side.
                 let n = node.set.len();
@@ -286,7 +287,7 @@ fn bowl(across: i32) -> Vec<Corners> {
 fn auto_never_cuts_sets_in_convex_position() {
     for across in [2, 5, 14, 15, 25, 40] {
         for shear in [0.0, 1.0, 3.0] {
-            // Sheared, no free plane follows it.
+            // After shearing, no free plane follows the bowl.
             let place = |p: DVec3| DVec3::new(p.x + shear * p.z, p.y - shear * p.x, p.z);
             let scene: Vec<Corners> =
                 bowl(across).into_iter().map(|p| p.into_iter().map(place).collect()).collect();

@@ -49,7 +49,7 @@ pub(crate) fn of_family(family: usize, dice: &mut Dice, n: usize) -> Scene {
     })
 }
 
-/// A polygon on the grid; as triangles, unless it is still planar there.
+/// A polygon rounded to the grid, as triangles if rounding makes it bent.
 fn rounded(polygon: &Corners, steps: f64) -> Vec<Vec<Point>> {
     let mut corners: Vec<Point> =
         polygon.iter().map(|p| (*p * steps).round().to_array().map(|c| c as i64)).collect();

@@ -43,7 +43,8 @@ pub(crate) fn duplicates(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("duplicates", polygons).shuffled(dice)
 }
 
-/// Triangles with others that have corners in their planes: inside, outside, on edges and corners.
+/// Triangles, and other triangles with corners in the planes of these: inside, outside, on edges and on
+/// corners.
 pub(crate) fn tangent(dice: &mut Dice, n: usize) -> Scene {
     let across = ((n / 5) as f64).cbrt().ceil() as i64;
     let mut polygons = Vec::new();
@@ -78,7 +79,7 @@ pub(crate) fn copies(
         let part = with_area(one(dice));
         count += part.len();
         size = part.iter().flatten().flatten().map(|c| c.abs()).fold(size, i64::max);
-        // The same scene again, next to it, rotated.
+        // A rotated copy of the same scene, next to the first.
         for _ in 0..1 + dice.below(3) {
             count += part.len();
             parts.push(part.clone());
@@ -86,7 +87,7 @@ pub(crate) fn copies(
         parts.push(part);
     }
     let across = (parts.len() as f64).cbrt().ceil() as i64;
-    // Next to each other, or into each other by a third.
+    // Scenes are next to each other, or overlap by a third.
     let step = size + size * between(dice, 0, 2) / 2;
     let mut polygons = Vec::new();
     for (k, part) in (0..).zip(parts) {

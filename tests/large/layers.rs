@@ -3,8 +3,8 @@
 use testkit::as_given::scene::{Point, Scene, add, between, each, tilt, times};
 use testkit::prelude::*;
 
-/// Rectangles in planes z = 0, 1, 2 …, a thousand times as wide as they are apart; `few` planes hold many
-/// each.
+/// Rectangles in the planes z = 0, 1, 2, …, a thousand times as wide as the distance of the planes. With few
+/// planes, each contains many rectangles.
 fn rectangles(dice: &mut Dice, count: usize, planes: usize) -> Vec<Vec<Point>> {
     let rectangle = |k: usize| {
         let [x, y] = [0; 2].map(|_| between(dice, -4000, 4000));
@@ -23,7 +23,7 @@ pub(crate) fn tilted(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("tilted layers", each(rectangles(dice, n, n / 2), tilt)).shuffled(dice)
 }
 
-/// Triangles a thousand times as wide as they are steep, crossing one another's layers.
+/// Triangles a thousand times as wide as high, each of which crosses the layers of others.
 pub(crate) fn nearly_parallel(dice: &mut Dice, n: usize) -> Scene {
     let triangle = |k: usize| {
         let [x, y] = [0; 2].map(|_| between(dice, -20_000, 20_000));
@@ -57,8 +57,9 @@ pub(crate) fn one_plane(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("one plane", each(squares, tilt)).shuffled(dice)
 }
 
-/// The same as triangles that are off it by up to one unit along each axis, with twice that as tolerance;
-/// some are off it by a few times the tolerance, and some stand on it.
+/// The squares of `one_plane` as triangles whose corners are moved by up to one unit along each axis. The
+/// tolerance is two units. Some triangles are off the plane by a few times the tolerance, and some stand on
+/// it.
 pub(crate) fn noisy_plane(dice: &mut Dice, n: usize) -> Scene {
     let across = n.isqrt() as i64;
     let triangle = |k: i64| {
@@ -75,7 +76,7 @@ pub(crate) fn noisy_plane(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("noisy plane", triangles).shuffled(dice).with_tolerance(2.0)
 }
 
-/// Noisy layers that are further apart than the tolerance, and nearer than twice that.
+/// Noisy layers whose distance is between one and two tolerances.
 pub(crate) fn noisy_layers(dice: &mut Dice, n: usize) -> Scene {
     let triangle = |k: usize| {
         let [x, y] = [0; 2].map(|_| between(dice, -2000, 2000));
@@ -89,8 +90,8 @@ pub(crate) fn noisy_layers(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("noisy layers", (0..n).map(triangle).collect()).shuffled(dice).with_tolerance(4.5)
 }
 
-/// Boxes side by side and one on the other, each row shifted: sides that coincide, edges that end in the
-/// middle of others.
+/// Boxes side by side and one on the other. Each row is shifted, so sides coincide, and edges end in the
+/// middle of other edges.
 pub(crate) fn bricks(dice: &mut Dice, n: usize) -> Scene {
     let across = ((n / 6) as f64).cbrt().ceil() as i64;
     let mut polygons = Vec::new();
@@ -110,7 +111,7 @@ fn cuboid(low: Point, size: Point) -> Vec<Vec<Point>> {
     sides.map(|side| side.map(corner).to_vec()).to_vec()
 }
 
-/// Triangles with others that touch one of their edges in its middle, or in thirds.
+/// Triangles, and other triangles that touch an edge of these in its middle or at its thirds.
 pub(crate) fn t_junctions(dice: &mut Dice, n: usize) -> Scene {
     let mut polygons: Vec<Vec<Point>> = Vec::new();
     let across = ((n / 4) as f64).cbrt().ceil() as i64;

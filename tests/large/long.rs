@@ -9,7 +9,8 @@ use testkit::as_given::trees_by_rays::Score;
 use testkit::effort::effort;
 use testkit::prelude::*;
 
-/// One scene of a seed: of 450 to 850 polygons, or of up to 5 000 with the fast heuristics.
+/// Judges one scene of a seed, with 450 to 850 polygons, or with up to 5 000 polygons and only the fast
+/// heuristics.
 fn one(seed: u64, kind: usize) -> (String, Score) {
     const FAST: [Heuristic; 4] = [
         Heuristic::Auto,

@@ -25,7 +25,7 @@ fn scenes_of_every_kind_are_in_order_by_every_heuristic() {
 fn large_scenes_of_every_kind_are_in_order() {
     let heuristics = [Heuristic::Auto, Heuristic::FreePlanes, Heuristic::Random { seed: 7 }];
     let trial = Trial { heuristics: &heuristics, views: 10, rays: 12, most: 20 };
-    // Every third kind and fewer polygons, unless the effort is larger.
+    // Every third kind, and fewer polygons, unless the effort is larger.
     let step = 3 / effort().min(3);
     let scores = trial.hold_all(KINDS.div_ceil(step), 2, |number, dice| {
         let kind = number * step;

@@ -24,7 +24,7 @@ pub(crate) fn rulings(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("rulings", polygons).shuffled(dice)
 }
 
-/// Rectangles about an axis, some from the axis, some through it.
+/// Rectangles around an axis. Some begin at the axis, and some go through it.
 pub(crate) fn fans(dice: &mut Dice, n: usize) -> Scene {
     let mut polygons = Vec::new();
     for fan in 0..(n / 50) as i64 {
@@ -52,7 +52,7 @@ pub(crate) fn fans(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("fans", polygons).shuffled(dice)
 }
 
-/// Fans of triangles whose planes all contain one line, which none of them touches.
+/// Fans of triangles. Their planes all contain one line, which no triangle touches.
 pub(crate) fn far_line(dice: &mut Dice, n: usize) -> Scene {
     let triangle = |_| {
         let [x, y] = [between(dice, 1, 40), between(dice, -40, 40)];

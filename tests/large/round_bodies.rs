@@ -15,7 +15,7 @@ fn ring(sides: usize, radius: i64) -> Vec<Point> {
 /// A globe of trapezoids, with triangles at the poles.
 fn globe(slices: usize, rings: usize) -> Vec<Vec<Point>> {
     let ring = ring(slices, 4000);
-    // Rings are whole multiples of one; so fine that rounding makes no dent.
+    // Rings are scaled copies of one ring, in units so fine that rounding makes no dent.
     const FINE: f64 = 100_000.0;
     let part = |k: usize| PI * k as f64 / rings as f64;
     let height = |k: usize| (FINE * 4000.0 * part(k).cos()).round() as i64;
@@ -45,7 +45,7 @@ pub(crate) fn sphere(dice: &mut Dice, n: usize) -> Scene {
 }
 
 /// A globe of triangles that is convex except for the rounding of its corners: neighbours are almost in one
-/// plane, and dents are no deeper than that. Neighbours are consecutive.
+/// plane, and dents are no deeper than the rounding. Neighbours are consecutive.
 pub(crate) fn rough_globe(dice: &mut Dice, n: usize) -> Scene {
     let rings = (n / 2 / 2).isqrt();
     let slices = n / rings / 2;
@@ -78,7 +78,7 @@ pub(crate) fn shells(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("shells", (1..=shells as i64).flat_map(shell).collect()).shuffled(dice)
 }
 
-/// Cones around several axes, some about others, all with one apex.
+/// Cones around several axes, some within others, all with one apex.
 pub(crate) fn cones(dice: &mut Dice, n: usize) -> Scene {
     let sides = 40;
     let mut polygons = Vec::new();
@@ -98,7 +98,7 @@ pub(crate) fn cones(dice: &mut Dice, n: usize) -> Scene {
     Scene::new("cones", polygons).shuffled(dice)
 }
 
-/// A long pipe with discs across, one behind the other, as wide as it is or smaller.
+/// A long pipe with discs across it, one behind the other, as wide as the pipe or smaller.
 pub(crate) fn pipe(dice: &mut Dice, n: usize) -> Scene {
     let sides = n * 3 / 4;
     let outer = ring(sides, 1 << 20);

@@ -8,13 +8,13 @@ use testkit::as_given::trees_by_rays::Score;
 use testkit::prelude::*;
 use testkit::slivers::{Sliver, along, whole};
 
-/// Coordinates are below this. Too large: viewpoints have no room for exact digits.
+/// Coordinates are below this. Too large: viewpoints cannot have enough exact digits.
 const SIZE: i64 = 1 << 43;
 /// About half of the default tolerance.
 const NEAR: i64 = SIZE / 1_000_000_000;
 
-/// A scene of a kind, scaled up, mixed in any order with slivers, layers along these up to a few tolerances
-/// off, and a plane with noise of about the tolerance.
+/// A scene of a kind, scaled up. It is mixed in any order with slivers, with layers parallel to the slivers
+/// at distances of up to a few tolerances, and with a plane with noise of about the tolerance.
 fn scene(kind: usize, dice: &mut Dice, n: usize) -> Scene {
     let plain = all_scenes::scene(kind, dice, n);
     let scale = (SIZE / (plain.size() as u64).next_power_of_two() as i64).max(1);

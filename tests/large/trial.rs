@@ -53,7 +53,7 @@ impl Trial<'_> {
         }
     }
 
-    /// The same for several scenes, each generated again from its number.
+    /// Judges several scenes, each generated from its number.
     pub(crate) fn hold_all(
         &self,
         kinds: usize,

@@ -10,14 +10,15 @@ use testkit::rational::exact;
 /// Points nearer to an outline than this share of a layer are not judged.
 const MARGIN: f64 = 1e-6;
 
-/// A layer, and its ancestors from the outermost to its parent, each clipped by the one before.
+/// A layer and its ancestors, from the outermost to the parent. Each is clipped by the one before.
 struct Nested {
     ancestors: Vec<Given>,
     own: Given,
     layer: Layer,
 }
 
-/// A place in the plane of a parent, or sometimes outside it.
+/// The matrix from a child layer to its parent. The child is in the plane of the parent, or sometimes outside
+/// this plane.
 fn step(dice: &mut Dice) -> DMat4 {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let shift = dvec3(between(-150.0, 150.0), between(-150.0, 150.0), 0.0);
@@ -50,7 +51,7 @@ fn nested(dice: &mut Dice) -> Nested {
     Nested { layer: own.layer().clipped_by(&parent), ancestors, own }
 }
 
-/// A point of the screen where a layer has a point of or near its rectangle.
+/// A point of the screen that shows a point in or near the rectangle of a layer.
 fn point_of(given: &Given, dice: &mut Dice) -> Option<[f64; 2]> {
     let [low, high] = given.rect;
     let local = [0, 1].map(|k: usize| dice.range(low[k] - 100.0, high[k] + 100.0));
@@ -73,7 +74,7 @@ fn a_layer_is_seen_inside_all_its_ancestors() {
     let mut dice = Dice(71);
     let (mut seen, mut hidden, mut cut) = (0, 0, 0);
     for _ in 0..times(120) {
-        // On one page with others, which cut them.
+        // The nested layers are on one page with other layers, which cut them.
         let mut all: Vec<Nested> = (0..4).map(|_| nested(&mut dice)).collect();
         for _ in 0..3 {
             let own = wild(&mut dice);
@@ -108,7 +109,7 @@ fn a_layer_is_seen_inside_all_its_ancestors() {
     enough!(seen > 500, hidden > 600, cut > 20; "{seen} {hidden} {cut}");
 }
 
-/// Every edge with a number lies on that edge of the layer, or of that ancestor.
+/// Every edge with a number lies on the edge of the layer or ancestor that has this number.
 #[test]
 fn edges_made_by_ancestors_have_their_numbers() {
     let mut dice = Dice(72);
@@ -150,7 +151,7 @@ fn a_turned_square_in_a_window_is_an_octagon() {
     let turned = middle * DMat4::from_rotation_z(std::f64::consts::FRAC_PI_4);
     let page = page_on(VIEWPORT, true, [Layer::new(square, turned).clipped_by(&window)]);
     let piece = page.back_to_front().next().unwrap();
-    // The sides meet 100 from the middle across, and 100 (√2 − 1) along.
+    // The corners are 100 from the middle in one direction, and 100 (√2 − 1) in the other.
     let along = 100.0 * (2f64.sqrt() - 1.0);
     let mut found: Vec<[f64; 2]> =
         piece.vertices().map(|v| [v.position.x - 960.0, v.position.y - 540.0]).collect();

@@ -13,8 +13,8 @@ fn page(layers: &[Layer]) -> Layers {
     page_on(VIEWPORT, true, layers.iter().cloned())
 }
 
-/// The eye is 1200 pixels in front of (960, 540). A card 600 in front of the screen appears twice as
-/// large, one 1200 behind it half.
+/// The eye is 1200 pixels in front of (960, 540). A card 600 in front of the screen appears twice as large. A
+/// card 1200 behind the screen appears half as large.
 #[test]
 fn x_runs_right_y_down_and_z_towards_the_viewer() {
     let at = |z: f64| Layer::new(CARD, camera() * DMat4::from_translation(dvec3(30.0, 15.0, z)));
@@ -48,12 +48,12 @@ fn x_runs_right_y_down_and_z_towards_the_viewer() {
     // The point below and to the right of the card's middle is further along u and v.
     let (layer, [u, v]) = page.hit([1030.0, 580.0]).unwrap();
     assert!(layer == 0 && (u - 5.0).abs() < 1e-9 && (v - 5.0).abs() < 1e-9);
-    // Left of the nearest card there is nothing.
+    // No layer is left of the nearest card.
     assert_eq!(page.hit([815.0, 540.0]), None);
 }
 
-/// Also without perspective: a card turned by rotateY(60°) has its right side away from the viewer, so the
-/// flat one covers it there, and is covered on the left.
+/// Also without perspective, the right side of a card turned by rotateY(60°) is away from the viewer. So a
+/// flat card covers the turned card on the right, and is covered by it on the left.
 #[test]
 fn a_card_turned_about_y_shows_its_left_half() {
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
@@ -80,7 +80,7 @@ fn matrices_agree_with_css() {
     let place = page * DMat4::from_translation(dvec3(300.0, 100.0, 0.0)) * turned;
     let shown = self::page(&[Layer::rect([200.0, 120.0], place)]);
     let piece = shown.back_to_front().next().unwrap();
-    // The lower edge comes 120 to the front, where w is 0.9.
+    // The lower edge is 120 in front of the screen, where w is 0.9.
     let near = |x: f64, y: f64| [960.0 + (x - 960.0) / 0.9, 540.0 + (y - 540.0) / 0.9];
     let expected = [[300.0, 100.0], [500.0, 100.0], near(500.0, 100.0), near(300.0, 100.0)];
     let found = piece.vertices().map(|v| v.position.truncate());
@@ -99,8 +99,8 @@ fn layers_in_one_plane_come_in_the_order_of_the_list_from_both_sides() {
     }
 }
 
-/// A floor 500 pixels below the eye from far behind the screen to far behind the eye: it fills the
-/// lower part of the screen, to its border.
+/// A floor 500 pixels below the eye reaches from far behind the screen to far behind the eye. It fills the
+/// lower part of the screen, up to the screen's border.
 #[test]
 fn a_floor_that_reaches_behind_the_eye_is_clipped() {
     let floor = [[-1e4, -1e4], [1e4, 1e4]];
@@ -108,7 +108,7 @@ fn a_floor_that_reaches_behind_the_eye_is_clipped() {
     let page = page(&[Layer::new(floor, camera() * lying)]);
     let piece = page.back_to_front().next().unwrap();
     let ys: Vec<f64> = piece.vertices().map(|v| v.position.y).collect();
-    // Its far edge is 10 000 behind the screen: 500 · 1200/11 200 below the middle.
+    // The floor's far edge is 10 000 behind the screen, so it appears 500 · 1200/11 200 below the middle.
     let top = ys.iter().copied().fold(f64::INFINITY, f64::min);
     assert!((top - 540.0 - 500.0 * 1200.0 / 11_200.0).abs() < 1e-3, "{top}");
     assert!((ys.iter().copied().fold(0.0, f64::max) - 1080.0).abs() < 1e-9);
@@ -116,7 +116,8 @@ fn a_floor_that_reaches_behind_the_eye_is_clipped() {
     assert!(piece.is_whole());
 }
 
-/// The floor again: above its horizon, 540 pixels down, only its mirror image behind the eye would be.
+/// The same floor. Its horizon is 540 pixels down. Only its mirror image behind the eye would be above the
+/// horizon.
 #[test]
 fn a_plane_is_seen_on_one_side_of_its_horizon() {
     let lying = DMat4::from_translation(dvec3(0.0, 500.0, 0.0)) * DMat4::from_rotation_x(FRAC_PI_2);

@@ -6,8 +6,8 @@ use binspace::layers::{Layer, Layers};
 use testkit::pages::Page;
 use testkit::prelude::*;
 
-/// A rectangle far from its own origin, where (u, v) are rounded coarsely: a painted point is hit if it is
-/// further from the edges than 10⁻⁹ of the viewport.
+/// A rectangle far from its own origin, where (u, v) are rounded coarsely. A painted point is hit if its
+/// distance from the edges is more than 10⁻⁹ of the viewport.
 #[test]
 fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() {
     let mut dice = Dice(51);
@@ -24,7 +24,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
             let corners: Vec<DVec2> = piece.vertices().map(|v| v.position.truncate()).collect();
             for (k, &a) in corners.iter().enumerate() {
                 let along = corners[(k + 1) % corners.len()] - a;
-                // To the right of the edge, as y runs down.
+                // Points to the right of the edge, because y points down.
                 let inwards = along.perp().normalize();
                 let on_edge = a + along * (0.1 + 0.8 * dice.share());
                 let beside = |distance: f64| (on_edge + inwards * distance).to_array();
@@ -38,7 +38,7 @@ fn a_point_beside_an_edge_is_hit_however_far_the_rectangle_is_from_its_origin() 
     enough!(tried > 3000; "{tried}");
 }
 
-/// A page on another screen equals a page made for it.
+/// A page that gets another viewport equals a page made for this viewport.
 #[test]
 fn another_viewport_makes_another_page() {
     let layers: Vec<Layer> = layers_of(Page::Carousel, 12, 3).iter().map(Given::layer).collect();
@@ -59,7 +59,7 @@ fn another_viewport_makes_another_page() {
     }
 }
 
-/// A row through two corners of a diamond, and one through its lowest.
+/// A row through two corners of a diamond, and a row through its lowest corner.
 #[test]
 fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
     let mut diamond = DMat4::IDENTITY;
@@ -67,7 +67,7 @@ fn a_point_in_a_row_with_corners_is_hit_if_it_is_inside() {
     let middle = DMat4::from_translation(dvec3(960.0, 540.0, 0.0));
     let page =
         page_on(VIEWPORT, true, [Layer::new([[-50.0, -50.0], [50.0, 50.0]], middle * diamond)]);
-    // Its corners are 100 to the right, below, to the left and above.
+    // The corners of the diamond are 100 to the right, below, to the left and above.
     for x in [-99.0, -50.0, 0.0, 50.0, 99.0] {
         assert!(page.hit([960.0 + x, 540.0]).is_some(), "{x}");
     }

@@ -38,7 +38,7 @@ fn nan_is_an_error_that_names_the_layer() {
             }
         }
     }
-    // Finite numbers whose products are not.
+    // Finite numbers whose products are not finite.
     bad.push(Layer::new(CARD, camera() * 1e308));
     bad.push(Layer::new([[-1e300; 2], [1e300; 2]], camera() * 1e10));
     let mut page = Layers::new(VIEWPORT);
@@ -47,7 +47,7 @@ fn nan_is_an_error_that_names_the_layer() {
         let error = page.update(&[flat(), layer.clone(), flat()]).unwrap_err();
         assert_eq!(error.polygon(), Some(1), "{k}: {error}");
         assert!(error.to_string().contains("layer 1"), "{error}");
-        // The page is empty, and is not equal to one with these layers.
+        // The page is empty, and is not equal to a page with these layers.
         assert!(page.is_empty() && page.visible() == 0 && page.back_to_front().next().is_none());
         assert!(page.update(&[flat(), layer.clone(), flat()]).is_err());
         assert!(page.update(&[]).unwrap());
@@ -97,7 +97,7 @@ fn layers_without_area_on_the_screen_have_no_pieces() {
         ("tiny", Layer::new(CARD, camera() * 1e-318)),
     ];
     for k in [1.0, -1.0, 3.0] {
-        // On the middle axis a quarter turn is seen edge-on.
+        // On the middle axis, a layer turned by 90° is seen edge-on.
         let edge_on = at(0.0, 0.0, -100.0) * DMat4::from_rotation_y(k * quarter);
         vanished.push(("edge-on", Layer::new(CARD, edge_on)));
         vanished.push(("edge-on, f32", Layer::from_f32(CARD, edge_on.as_mat4())));
@@ -112,7 +112,7 @@ fn layers_without_area_on_the_screen_have_no_pieces() {
     let beside = [[[-90.0, 50.0], [0.0, 90.0]], [[1920.0, 50.0], [1999.0, 90.0]]];
     page.update(&beside.map(|rect| Layer::new(rect, DMat4::IDENTITY))).unwrap();
     assert_eq!((page.len(), page.visible(), page.is_empty()), (0, 0, true));
-    // Slightly beside it is visible, and so is a card that is thin on the screen.
+    // A card slightly beside the axis is visible, and so is a card that is thin on the screen.
     let thin = at(1.0, 0.0, -100.0) * DMat4::from_rotation_y(quarter);
     assert!(pieces(Layer::new(CARD, thin)) >= 1);
     assert!(
@@ -120,7 +120,7 @@ fn layers_without_area_on_the_screen_have_no_pieces() {
     );
 }
 
-/// Numbers that are far too large or too small, and beside each the same number just within the limit.
+/// Pairs of layers: one with a number just beyond a limit, one with the number just within the limit.
 #[test]
 fn layers_too_far_or_too_small_have_no_piece_and_slightly_nearer_or_larger_ones_have() {
     let at = |x: f64, y: f64, z: f64| DMat4::from_translation(dvec3(x, y, z));

@@ -1,5 +1,5 @@
-//! Pages of layers, compared with exact rationals of the rectangles and matrices: the visible part of a
-//! layer, its point at a point of the screen, and the painting order.
+//! Compares pages of layers with exact rationals of the rectangles and matrices: the visible part of a layer,
+//! the point of a layer that appears at a point of the screen, and the painting order.
 
 mod clips;
 mod drawn;
@@ -52,7 +52,7 @@ fn order(page: &Layers) -> Vec<usize> {
     page.back_to_front().map(|piece| piece.layer()).collect()
 }
 
-/// The same, and the pieces' outlines on the screen.
+/// The layers of a page's pieces, back to front, with the pieces' outlines on the screen.
 fn outlines(page: &Layers) -> Vec<(usize, Vec<DVec2>)> {
     let outline = |piece: LayerPiece<'_>| piece.vertices().map(|v| v.position.truncate()).collect();
     page.back_to_front().map(|piece| (piece.layer(), outline(piece))).collect()
@@ -63,7 +63,7 @@ fn layers_of(page: Page, count: usize, seed: u64) -> Vec<Given> {
     page.layers(count, seed).into_iter().map(Given::from).collect()
 }
 
-/// A page of a screen's part.
+/// A page of a part of the screen.
 fn page_on(viewport: Rect, is_clipped: bool, layers: impl IntoIterator<Item = Layer>) -> Layers {
     let page = Layers::new(viewport);
     let mut page = if is_clipped { page } else { page.unclipped() };
@@ -75,7 +75,7 @@ fn page_of(layers: &[Given]) -> Layers {
     page_on(VIEWPORT, true, layers.iter().map(Given::layer))
 }
 
-/// Rectangles of all sizes turned every way, many partly behind the eye or beside the screen.
+/// Rectangles of all sizes in any orientation, many partly behind the eye or beside the screen.
 fn wild(dice: &mut Dice) -> Given {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let low = [between(-900.0, 300.0), between(-900.0, 300.0)];
@@ -88,7 +88,7 @@ fn wild(dice: &mut Dice) -> Given {
 }
 
 #[test]
-fn an_unchanged_frame_is_not_worked_on() {
+fn an_unchanged_frame_takes_no_work() {
     let given = layers_of(Page::Carousel, 12, 3);
     let layers: Vec<Layer> = given.iter().map(Given::layer).collect();
     let mut page = Layers::new(VIEWPORT);
@@ -97,7 +97,7 @@ fn an_unchanged_frame_is_not_worked_on() {
     let first = order(&page);
     assert!(!page.update(&layers).unwrap());
     assert_eq!(order(&page), first);
-    // Any different number is a change; so are one layer more or less and another order.
+    // Any different number is a change. So is an added or a removed layer, and another order.
     let mut moved = layers.clone();
     let mut matrix = given[7].matrix;
     matrix.w_axis.x += 1e-9;
@@ -107,7 +107,7 @@ fn an_unchanged_frame_is_not_worked_on() {
         assert!(!page.update(changed).unwrap());
         assert_eq!(page.visible(), changed.len());
     }
-    // Another clip makes another page.
+    // Another clipping makes another page.
     let mut unclipped = page.unclipped();
     assert!(unclipped.is_empty() && unclipped.back_to_front().next().is_none());
     assert!(unclipped.update(&layers).unwrap() && !unclipped.update(&layers).unwrap());

@@ -1,5 +1,5 @@
-//! Layers that separate matrices put into one plane, seen nearly along it and near the eye: the guarantee
-//! of the tolerance for two of them.
+//! Layers that separate matrices put into one plane, seen nearly along this plane and near the eye. Tests
+//! what the tolerance guarantees for two such layers.
 
 use super::oracle::{Truth, covers, number};
 use super::{Given, order, page_on};
@@ -32,8 +32,8 @@ impl Kind {
     }
 }
 
-/// A plane at a grazing angle to the line of sight, and cards of every size: most in it, some beside it.
-/// Products of `f32` matrices are those of a program in `f32`.
+/// A plane at a grazing angle to the line of sight, and cards of every size: most in the plane, some beside
+/// it. If `is_single`, matrices are multiplied in `f32`, as a program in `f32` does.
 fn cards(dice: &mut Dice, is_single: bool) -> Vec<Given> {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let mut perspective = DMat4::IDENTITY;
@@ -137,7 +137,7 @@ struct Tally {
     in_list_order: usize,
     by_depth: usize,
     beside_a_third: usize,
-    /// Pairs out of list order, which occur in pages that are not clipped.
+    /// Pairs that are not in list order; they occur in pages that are not clipped.
     exchanged: usize,
 }
 
@@ -151,7 +151,7 @@ fn judge(given: &[Given], kind: Kind, dice: &mut Dice, tally: &mut Tally) {
     let least = 4.0 * rounding.fold(0.0, f64::max);
     let reach = vertices().map(|(_, vertex)| vertex.position.abs().max_element());
     let largest = least.max(reach.fold(0.0, f64::max) * 2f64.powi(-45));
-    // Its lower and upper limits.
+    // The tolerance has these lower and upper limits.
     let [least, largest] = [least, largest].map(|t| t.clamp(1e-9 * SIZE, 1e-5 * SIZE));
     let off = |plane: usize, layer: usize| {
         let of_layer = vertices().filter(|&(k, _)| k == layer);
@@ -199,7 +199,7 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
     for is_single in [false, true] {
         for is_clipped in [false, true] {
             let (mut dice, mut tally) = (Dice(101), Tally::default());
-            // Without a least tolerance for the grid, some unclipped page in `f64` fails.
+            // If the grid set no least tolerance, some unclipped page in `f64` would fail.
             let pages = if is_single || is_clipped { 200 } else { 600 };
             let mut exchanged = 0;
             for _ in 0..times(pages) {
@@ -215,8 +215,8 @@ fn layers_nearly_in_one_plane_come_in_the_order_of_the_list_and_others_by_depth(
     }
 }
 
-/// Three cards that separate matrices put into a plane seen nearly edge-on. The second reaches so near to
-/// the eye that the plane of the first, which is small, misses it by more than the tolerance.
+/// Three cards that separate matrices put into a plane seen nearly edge-on. The second card reaches so near
+/// to the eye that the plane of the first, small card misses it by more than the tolerance.
 #[test]
 fn a_small_card_does_not_come_between_two_others_of_its_plane() {
     let z = [0.737760532083408, -0.675144008569573, -0.0007473646955752207, 7.473646955752207e-7];
@@ -264,8 +264,8 @@ fn a_small_card_does_not_come_between_two_others_of_its_plane() {
     assert_eq!(order(&kind.page(&cards)), [0, 1, 2]);
 }
 
-/// The box ends a million sizes of the viewport away, where the last bit of a place in the rectangle is a
-/// tenth of a pixel on the screen.
+/// The box ends at a million times the size of the viewport. There, the last bit of a place in the rectangle
+/// is a tenth of a pixel on the screen.
 #[test]
 fn the_end_of_the_box_does_not_move_a_corner_off_its_plane() {
     let mut dice = Dice(102);

@@ -4,7 +4,7 @@ use super::{VIEWPORT, page_on, wild};
 use binspace::layers::Layer;
 use testkit::prelude::*;
 
-/// The edge runs up in one of them and down in the other.
+/// The edge runs up in one layer and down in the other.
 #[test]
 fn two_layers_are_clipped_at_the_same_point_of_an_edge_that_they_share() {
     let mut dice = Dice(91);
@@ -13,7 +13,7 @@ fn two_layers_are_clipped_at_the_same_point_of_an_edge_that_they_share() {
         let given = wild(&mut dice);
         let [[left, low], [right, high]] = given.rect;
         let middle = left + (right - left) * (0.2 + 0.6 * dice.share());
-        // The right edge of the first is edge 1, the left edge of the second edge 3.
+        // The right edge of the first layer is edge 1. The left edge of the second layer is edge 3.
         let layers = [
             Layer::new([[left, low], [middle, high]], given.matrix),
             Layer::new([[middle, low], [right, high]], given.matrix),

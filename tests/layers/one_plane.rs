@@ -19,8 +19,8 @@ fn page(is_clipped: bool, rects: &[Rect], matrix: DMat4) -> Layers {
     page_on([[0.0, 0.0], [640.0, 480.0]], is_clipped, layers)
 }
 
-/// The plane of the card, extended over the floor, is off by the rounding of its corners times
-/// the ratio of their sizes.
+/// The plane of the card, extended over the floor, has the rounding error of the card's corners times the
+/// ratio of both sizes.
 #[test]
 fn a_card_on_a_floor_that_reaches_behind_the_eye_does_not_cut_it() {
     for (down, along) in [(100.0, -900.0), (100.0, 0.0), (200.0, 100.0), (300.0, 500.0)] {
@@ -33,9 +33,9 @@ fn a_card_on_a_floor_that_reaches_behind_the_eye_does_not_cut_it() {
     }
 }
 
-/// Clipped, the floor still reaches a million sizes of the viewport into the depth.
+/// After clipping, the floor still reaches a million times the size of the viewport into the depth.
 #[test]
-fn a_card_on_a_floor_that_all_but_passes_through_the_eye_is_not_painted_over_it() {
+fn a_floor_that_nearly_passes_through_the_eye_covers_a_card_listed_before_it() {
     let floor = DMat4::from_cols_array(&[
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.01, 0.0, 1.0,
     ]);
@@ -115,7 +115,7 @@ fn layers_of_one_matrix_come_in_the_order_of_the_list() {
                     };
                     pieces.iter().position(covers)
                 };
-                // Beside the viewport, or on a cut.
+                // The point is outside the viewport, or on a cut.
                 let (Some(first), Some(second)) = (place(a), place(b)) else { continue };
                 assert!(first < second, "{b} before {a} at {at} in round {round}");
                 judged[usize::from(is_clipped)] += 1;
@@ -125,8 +125,8 @@ fn layers_of_one_matrix_come_in_the_order_of_the_list() {
     assert!(judged[0] > 600 && judged[1] > 100, "{judged:?}");
 }
 
-/// A layer that is put into the plane of others is cut where the others are not: at a cut, its place in the
-/// rectangle is also that of the screen.
+/// A layer in the plane of other layers is cut where the others are not. At a cut, the place in the rectangle
+/// must match the place on the screen.
 #[test]
 fn cut_layers_of_one_matrix_know_their_places() {
     let mut dice = Dice(72);
@@ -165,7 +165,7 @@ fn cut_layers_of_one_matrix_know_their_places() {
     assert!(inner > 300, "{inner}");
 }
 
-/// The plane of a strip is uncertain across it, and so misses the other strip.
+/// The plane of a strip is uncertain in the direction of its width, so it misses the other strip.
 #[test]
 fn strips_of_one_matrix_that_cross_are_not_cut() {
     let mut dice = Dice(103);

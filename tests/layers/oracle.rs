@@ -7,7 +7,7 @@ use testkit::rational::{exact, sign, total};
 
 pub(crate) type Point2 = [Rational; 2];
 
-/// A rectangle and the coefficients of u, v and 1 in x, y, z, w.
+/// A rectangle, and the coefficients of u, v and 1 in each of x, y, z and w.
 pub(crate) struct Truth {
     pub(crate) rect: [Point2; 2],
     rows: [[Rational; 3]; 4],
@@ -59,8 +59,8 @@ impl Truth {
         distances.map(|distance| number(&distance)).fold(f64::INFINITY, f64::min) / side
     }
 
-    /// The part of the rectangle that a box of the screen shows, in the layer's own coordinates: clipped as
-    /// homogeneous points, side after side.
+    /// The part of the rectangle in a box of screen coordinates, in the layer's own coordinates. It is
+    /// clipped in homogeneous coordinates, one side after the other.
     pub(crate) fn clipped(&self, low: [f64; 3], high: [f64; 3]) -> Vec<Point2> {
         let [[u0, v0], [u1, v1]] = self.rect.clone();
         let corners = [[u0.clone(), v0.clone()], [u1.clone(), v0], [u1, v1.clone()], [u0, v1]];
@@ -108,9 +108,9 @@ pub(crate) fn area(outline: &[Point2]) -> Rational {
     total(outline.iter().zip(next).map(|(a, b)| &a[0] * &b[1] - &a[1] * &b[0]))
 }
 
-/// Whether a point is inside a convex outline of either orientation, and not on it.
+/// Whether a point is strictly inside a convex outline of either orientation.
 pub(crate) fn covers(outline: &[DVec2], rounded: DVec2, at: &Point2) -> bool {
-    // Whether it is in the bounding box is decided exactly, by the unrounded numbers.
+    // The unrounded numbers decide exactly whether the point is in the bounding box.
     let [low, high] =
         [DVec2::min, DVec2::max].map(|of| outline.iter().copied().reduce(of).unwrap());
     if rounded.clamp(low, high) != rounded {

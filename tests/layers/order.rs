@@ -1,4 +1,4 @@
-//! The order of pages, judged at points of the screen by the exact depths of the layers given.
+//! Judges the order of pages at points of the screen, by the exact depths of the given layers.
 
 use super::oracle::{Point2, Truth, covers, number};
 use super::{Given, layers_of, order, outlines, page_of, wild};
@@ -7,8 +7,8 @@ use testkit::pages::{Page, SCREEN};
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Points nearer to an edge than this share of a layer are not judged, nor depths that differ by less in
-/// pixels: the tolerance is 2·10⁻⁶ pixels, seen along steep layers.
+/// Points nearer to an edge than this share of a layer are not judged. Depths that differ by less than this,
+/// in pixels, are not judged either: the tolerance is 2·10⁻⁶ pixels, and steep layers magnify it.
 const MARGIN: f64 = 1e-4;
 
 #[derive(Default, Debug)]
@@ -33,7 +33,7 @@ fn judge(given: &[Given], page: &Layers, points: usize, dice: &mut Dice, tally: 
     let outlines = outlines(page);
     assert_eq!(outlines.len(), page.len());
     'points: for _ in 0..points {
-        // In the middle, where layers are, as often as anywhere.
+        // Half of the points are in the middle, where the layers are, and half are anywhere.
         let scale = if dice.below(2) == 0 { 1.0 } else { 0.4 };
         let screen = SCREEN.map(|side| side * (0.5 + scale * (dice.share() - 0.5)));
         let at = screen.map(exact);
@@ -89,7 +89,7 @@ fn pages_are_painted_by_depth() {
             let drawn = page_of(&layers);
             assert!(drawn.visible() <= count && drawn.len() >= drawn.visible());
             match page {
-                // Layers that do not meet are not cut: known without reading any piece.
+                // Layers that do not meet are not cut. This is known without reading any piece.
                 Page::Stack => assert_eq!((drawn.len(), drawn.visible()), (count, count)),
                 Page::Carousel | Page::Crossing => assert!(drawn.len() > drawn.visible()),
                 Page::Cubes => assert_eq!(drawn.visible(), count),

@@ -7,13 +7,13 @@ use testkit::pages::Page;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Twenty steps of `f64`, times the sum of the terms of a coordinate.
+/// The allowed error: twenty steps of `f64`, times the sum of the terms of a coordinate.
 const STEPS: f64 = 20.0 * f64::EPSILON;
 /// The box that layers are clipped to.
 const REACH: f64 = 1920.0 * (1u64 << 20) as f64;
 
-/// The error bound of x/w, y/w and z/w where the layer's point (u, v) appears: the sum of its terms, over
-/// w, in `STEPS`.
+/// The error bound of x/w, y/w and z/w at the layer's point (u, v): the sum of the terms, divided by w, times
+/// `STEPS`.
 fn bound(given: &Given, vertex: &LayerVertex) -> f64 {
     let terms = |k: usize| {
         let [u, v, one] = [0, 1, 3].map(|column: usize| given.matrix.col(column)[k].abs());
@@ -45,18 +45,19 @@ fn visible_parts_agree_with_the_exact_clip() {
         for vertex in &vertices {
             let local = vertex.local.to_array().map(exact);
             assert!(truth.inside(&local) >= 0.0);
-            // It appears at its stated position.
+            // The vertex appears at its stated position.
             let [x, y, z, w] = truth.homogeneous(&local);
             assert!((number(&w) - vertex.w).abs() <= bound(&given, vertex) * vertex.w);
             let off = DVec3::new(number(&(x / &w)), number(&(y / &w)), number(&(z / &w)))
                 - vertex.position;
             assert!(off.abs().max_element() <= bound(&given, vertex), "{off} {vertex:?}");
-            // And inside the box.
+            // The vertex is inside the box.
             let [low, high] = VIEWPORT.map(binspace::glam::DVec2::from);
             let on_screen = vertex.position.truncate();
             assert_eq!(on_screen.clamp(low, high), on_screen);
         }
-        // In the rectangle, in the box, convex, and of the right area: so it is the visible part.
+        // The piece is in the rectangle and in the box, is convex, and has the right area. So it is the
+        // visible part.
         let outline: Vec<Point2> = vertices.iter().map(|v| v.local.to_array().map(exact)).collect();
         let found = number(&area(&outline)).abs();
         assert!((found - expected).abs() <= 1e-9 * expected + 1e-9, "{found} {expected}");
@@ -79,7 +80,7 @@ fn edges_of_the_rectangle_are_told_from_clips() {
             assert_eq!(piece.edges().len(), locals.len());
             for (k, edge) in piece.edges().enumerate() {
                 let [a, b] = [k, (k + 1) % locals.len()].map(|k| locals[k]);
-                // Points of an edge have the edge's own coordinate, bit for bit.
+                // Points on an edge have the coordinate of the edge, bit for bit.
                 let lies_on = [
                     a.y == v0 && b.y == v0,
                     a.x == u1 && b.x == u1,
@@ -95,8 +96,8 @@ fn edges_of_the_rectangle_are_told_from_clips() {
     enough!(own > 500, clips > 200; "{own} {clips}");
 }
 
-/// At random points of random pieces, the interpolation of a GPU agrees with the exact inverse of the
-/// matrix. Interpolating u and v alone does not.
+/// At random points of random pieces, the interpolation of a GPU agrees with the exact inverse of the matrix.
+/// Interpolating only u and v does not agree.
 #[test]
 fn places_in_a_layer_are_right_after_the_division() {
     let mut dice = Dice(13);
@@ -127,7 +128,7 @@ fn places_in_a_layer_are_right_after_the_division() {
                 continue;
             };
             let [u, v] = [0, 1].map(|k: usize| number(&exactly[k]));
-            // Steep layers magnify a rounding error on the screen in the layer.
+            // A rounding error on the screen is a larger error in the coordinates of a steep layer.
             let [_, _, z, w] = truth.homogeneous(&exactly);
             assert!(w.is_positive() && !z.is_zero());
             let steep = steepness(&given, [u, v], number(&w));

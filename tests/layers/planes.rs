@@ -13,7 +13,7 @@ fn single_camera() -> Mat4 {
     Mat4::from_translation(vec3(960.0, 540.0, 0.0)) * perspective
 }
 
-/// Each card has a separate matrix, the product of its place in a tilted plane and the plane's.
+/// Each card has a separate matrix: the product of its place in a tilted plane and the matrix of the plane.
 #[test]
 fn forty_cards_put_into_one_tilted_plane_by_f32_matrices_stay_whole() {
     let mut dice = Dice(41);
@@ -58,7 +58,7 @@ fn cards_put_into_one_plane_by_f64_matrices_stay_whole() {
     }
 }
 
-/// Layers a thousandth of a pixel apart keep their order beside one that passes through the eye.
+/// Layers a thousandth of a pixel apart keep their order beside a layer that passes through the eye.
 #[test]
 fn a_layer_through_the_eye_does_not_merge_thin_layers() {
     let card = [[-100.0, -60.0], [100.0, 60.0]];
@@ -73,7 +73,7 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
             for vertex in page.back_to_front().flat_map(|piece| piece.vertices()) {
                 assert!(vertex.position.z.abs() <= 1.001 * reach, "{tilt} {}", vertex.position);
             }
-            // The wall may cut them, and all parts on one side of it come first.
+            // The wall may cut the cards. Then all parts on one side of the wall come first.
             let mut cards: Vec<usize> =
                 order(&page).into_iter().filter(|&layer| layer > 0).collect();
             cards.dedup();
@@ -83,8 +83,8 @@ fn a_layer_through_the_eye_does_not_merge_thin_layers() {
     }
 }
 
-/// Nor does one of `f32`, whose rounding near the eye is many pixels: it sets the tolerance, but to a
-/// hundredth of a pixel at most.
+/// A layer of `f32` whose rounding error near the eye is many pixels sets the tolerance, but to a hundredth
+/// of a pixel at most.
 #[test]
 fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart() {
     let card = [[-100.0, -60.0], [100.0, 60.0]];
@@ -92,7 +92,7 @@ fn a_coarse_layer_through_the_eye_does_not_merge_layers_a_tenth_of_a_pixel_apart
     let wall = camera() * DMat4::from_rotation_y(1.5);
     let wall = Layer::from_f32([[-3000.0, 100.0], [3000.0, 200.0]], wall.as_mat4());
     let page = page_on(VIEWPORT, false, [wall, at(0.2), at(0.0), at(0.1)]);
-    // The wall may cut them.
+    // The wall may cut the cards.
     let mut cards: Vec<usize> = order(&page).into_iter().filter(|&layer| layer > 0).collect();
     cards.dedup();
     let is_right = cards.chunks(3).all(|side| side == [2, 3, 1]);
@@ -118,7 +118,7 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
             .collect();
         let mut layers = vec![Layer::new([[-3000.0; 2], [3000.0; 2]], floor)];
         layers.extend(cards.iter().map(|&card| Layer::new(card, plane)));
-        // A small one: its least tolerance is small, and the grid is as coarse.
+        // A small page: its least tolerance is small, but the grid is as coarse as for a large page.
         let page = page_on([[640.0, 360.0], [1280.0, 720.0]], false, layers.iter().cloned());
         for _ in 0..40 {
             let [x, y] = [some(600.0), some(480.0)];
@@ -129,8 +129,8 @@ fn a_floor_behind_the_eye_does_not_exchange_cards_of_one_plane() {
             let Some(last) = cards.iter().rposition(has) else { continue };
             let on_screen = plane * dvec3(x, y, 0.0).extend(1.0);
             let found = page.hit([on_screen.x / on_screen.w, on_screen.y / on_screen.w]);
-            // The floor may hide all cards, but a card only those before it. (Near its edge it may be one
-            // that was not counted.)
+            // The floor may hide all cards, but a card may hide only earlier cards. (Near an edge, the hit
+            // may be a card that `has` left out.)
             match found {
                 Some((layer, _)) if layer > 0 => assert!(layer > last, "{layer}, not {last}"),
                 _ => continue,
@@ -157,7 +157,7 @@ fn without_clipping_the_same_page_has_the_same_order_on_the_screen() {
         }
     }
     enough!(compared > 100; "{compared}");
-    // The layer beside the screen is there, whole.
+    // The layer beside the screen is present and whole.
     let beside = Layer::new([[-900.0, 50.0], [-100.0, 90.0]], DMat4::IDENTITY);
     let page = page_on(VIEWPORT, false, [beside]);
     let corners = page.back_to_front().flat_map(|piece| piece.vertices());

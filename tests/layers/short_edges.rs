@@ -6,8 +6,8 @@ use binspace::glam::DMat4;
 use testkit::prelude::*;
 use testkit::rational::exact;
 
-/// Cards that turn about one point, which is a corner of some and on an edge of others, on a screen far
-/// from the origin: their cuts pass the point by a rounding error.
+/// Cards around one point, which is a corner of some cards and on an edge of others. The screen is far from
+/// the origin, so cuts miss the point by a rounding error.
 fn cards(dice: &mut Dice, off: f64) -> Vec<Given> {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let pivot = dvec3(between(0.0, 100.0), between(0.0, 100.0), between(0.0, 100.0));
@@ -24,8 +24,7 @@ fn cards(dice: &mut Dice, off: f64) -> Vec<Given> {
     (0..6).map(&mut card).collect()
 }
 
-/// The layer nearest to the viewer at a point, by exact depths; `None` in the margin of edges and of
-/// other layers.
+/// The layer nearest to the viewer at a point, by exact depths; `None` too near to an edge or another layer.
 fn nearest(truths: &[Truth], at: DVec2) -> Option<Option<usize>> {
     let mut best: Option<(f64, usize)> = None;
     for (layer, truth) in truths.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Whether a polygon counts as bent does not depend on the others: built at once, one after the other, or
-//! in cells.
+//! Whether a polygon counts as bent does not depend on the other polygons: all are built at once, one after
+//! the other, or in cells.
 
 use binspace::Preparation;
 use binspace::partition::Extent;
@@ -32,7 +32,7 @@ fn bent(found: &Preparation) -> (usize, f64, usize) {
 
 #[test]
 fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
-    // Just above and below powers of two, and between.
+    // Extents just above and below powers of two, and between them.
     for extent in [4.0, 4.1, 5.5, 7.9, 8.0, 8.1, 100.0] {
         let quads = quads(extent);
         let (low, high) = (DVec3::ZERO, DVec3::new(extent, 1.0, 1.0));
@@ -53,7 +53,7 @@ fn bent_polygons_are_counted_alike_at_once_one_by_one_and_in_cells() {
             let tree = options.build_cell(&partition, cell, &quads).expect("within budget");
             assert_eq!(bent(tree.preparation()), bent(&expected), "{extent}, cell {cell}");
         }
-        // One alone in a scene of the same extent.
+        // One quad alone in a scene of the same extent.
         let alone =
             quads.iter().map(|quad| *options.build([quad]).expect("within budget").preparation());
         assert_eq!(alone.map(|found| found.bent).sum::<usize>(), expected.bent);
@@ -76,7 +76,7 @@ fn bent_quads_of_all_parts_are_counted() {
         (tree.preparation().bent, tree.preparation().bent_by)
     };
     let (all, by) = bent(0..5000);
-    // As many as in pieces that are each prepared as one part, except for rounding.
+    // The same count as for scenes that are prepared as one part, except for rounding.
     assert_eq!(all, 5000 / 5, "bent by {by}");
     assert!(by > 1e-6 && by < 1e-5, "{by}");
 }

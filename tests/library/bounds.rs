@@ -1,6 +1,6 @@
-//! The tightness of the filter's bounds. Hill climbing searches for scenes on which a smaller bound would
-//! decide wrongly. The library decides them rightly, so the bound is large enough there; they exist, so the
-//! bound is hardly larger than necessary.
+//! Tests that the filter's bounds are tight. Hill climbing searches for scenes on which a smaller bound would
+//! decide wrongly. Such scenes exist, so the bound is hardly larger than necessary. The library decides them
+//! correctly, so the bound is large enough there.
 
 use binspace::internals::{PreparedPlane, Side, Vertex};
 use dashu_int::IBig;
@@ -16,7 +16,7 @@ fn floats(triangle: &Triangle) -> Vec<[f64; 3]> {
     triangle.map(|p| p.map(|c| c as f64)).to_vec()
 }
 
-/// Faces of some triangles behind one that spans the scene, so that no corner is moved.
+/// Faces of a triangle that spans the scene, so that no corner is moved, and of the given triangles.
 fn faces(triangles: &[Triangle]) -> Faces {
     let all = [[[-EDGE; 3], [EDGE; 3], [EDGE, -EDGE, 0]]];
     let all: Vec<_> = all.iter().chain(triangles).map(floats).collect();
@@ -25,7 +25,7 @@ fn faces(triangles: &[Triangle]) -> Faces {
     faces
 }
 
-/// The target of a search for planes: a place as numerators over a denominator, and rounded.
+/// The target of a search for planes: a place as numerators and a denominator, and the rounded place.
 struct Place {
     over: [IBig; 3],
     denominator: IBig,
@@ -46,7 +46,7 @@ impl Place {
     }
 }
 
-/// A triangle's plane at a place, exactly, times the denominator; and its normal.
+/// The exact value of a triangle's plane at a place, times the denominator; and the plane's normal.
 fn exactly(triangle: &Triangle, place: &Place) -> (IBig, [i128; 3]) {
     let [p, q, r] = triangle;
     let arm = |to: &[i64; 3]| [0, 1, 2].map(|i| i128::from(to[i] - p[i]));
@@ -63,7 +63,7 @@ fn shifted(mut triangle: Triangle, place: &Place, axis: usize) -> Option<Triangl
     if step.is_zero() {
         return None;
     }
-    // One more than the quotient rounded towards zero is enough either way.
+    // One more than the quotient rounded towards zero is enough for either sign.
     let mut steps = (&value / &step).to_i64()?;
     if (&value - &step * steps).is_positive() {
         steps += i64::from(step.is_positive()) - i64::from(step.is_negative());
@@ -74,8 +74,8 @@ fn shifted(mut triangle: Triangle, place: &Place, axis: usize) -> Option<Triangl
     triangle.iter().flatten().all(|c| c.abs() <= EDGE).then_some(triangle)
 }
 
-/// The rounded distance in front of a place that is not in front: in units of π, the sum of the products in
-/// the plane's normal.
+/// The rounded distance of a place from a triangle's plane, in units of π, the sum of the products in the
+/// plane's normal. The exact place is not in front of the plane, so a positive distance is an error.
 fn distance(triangle: &Triangle, place: &Place) -> f64 {
     let faces = faces(&[*triangle]);
     let prepared = PreparedPlane::new(&faces, PlaneId::face(1));
@@ -86,8 +86,8 @@ fn distance(triangle: &Triangle, place: &Place) -> f64 {
     prepared.distance(place.rounded) / size
 }
 
-/// A start where all errors are largest: a plane as steep along x as along z through the far ends of both,
-/// next to which the place is, and products slightly above powers of two, which lose most.
+/// A start where all errors are largest. The plane is as steep along x as along z, goes through the far ends
+/// of both, and is next to the place. Products are slightly above powers of two, where rounding loses most.
 fn start(place: &Place, dice: &mut Dice) -> Option<Triangle> {
     let mut above = |power: u32, bits: u32| (1i64 << power) + dice.below(1 << bits) as i64;
     let [a, c] = [above(41, 33), above(41, 33)];
@@ -132,13 +132,13 @@ fn sought(places: &[Place], climbs: usize, steps: usize) -> (f64, Triangle, &Pla
     tries.max_by(|a, b| a.0.total_cmp(&b.0)).expect("a start")
 }
 
-/// Vertices where a plane perpendicular to y cuts an edge from one side of the scene to the other, in the
-/// corner of large x and small z; those with the largest errors upwards along x and z.
+/// Vertices where a plane perpendicular to y cuts an edge that spans the scene, in the corner of large x and
+/// small z. Returns the vertices with the largest errors upwards along x and z.
 fn cut_vertices(count: usize, dice: &mut Dice) -> Vec<(Triangle, i64, Place)> {
     let mut found: Vec<(f64, _)> = (0..20_000)
         .map(|_| {
             let mut near = |end: i64| end - end.signum() * dice.below(1 << 36) as i64;
-            // Numerator and denominator slightly above powers of two.
+            // Numerator and denominator are slightly above powers of two.
             let [a, b] = [[near(EDGE), 0, near(-EDGE)], [near(EDGE), 0, near(-EDGE)]];
             let mut above = || (1 << 50) + dice.below(1 << 38) as i64;
             let [a, b] = [[a[0], above(), a[2]], [b[0], -above(), b[2]]];
@@ -243,17 +243,17 @@ fn a_bound_of_no_quarter_step_would_put_a_vertex_on_the_wrong_side_of_an_axis_s_
     assert!((0.3..0.5).contains(&worst), "{worst}");
 }
 
-/// The tolerance times the length of a normal is not an integer, and a determinant is one: the next larger
-/// one is beyond the tolerance, the next smaller one is not. The same holds for distances from the plane
-/// perpendicular to an axis.
+/// The tolerance times the length of a normal is not an integer, but determinants are integers. The next
+/// larger integer is beyond the tolerance, and the next smaller is not. The same holds for distances from a
+/// plane perpendicular to an axis.
 #[test]
 fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyond_it() {
-    // Normals (1, 1, 1) and along an axis: lengths √3 and 1.
+    // The normal (1, 1, 1) and a normal along an axis: their lengths are √3 and 1.
     let tilted = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
     let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];
     for (plane, values, tolerance) in [(tilted, [1, 2], 1.0), (flat, [2, 3], 2.5)] {
         for (value, beyond) in values.into_iter().zip([false, true]) {
-            // The sum of coordinates, or z, is that much off the plane on either side.
+            // The sum of coordinates, or z, is off the plane by this value on either side.
             let off = |by: i64, x: i64| {
                 if plane == flat { [x, 0, by] } else { [x, -x, 1 + by] }
             };
@@ -287,8 +287,8 @@ fn a_corner_beyond_the_tolerance_by_less_than_a_step_of_the_determinant_is_beyon
     }
 }
 
-/// Without a tolerance, even the least distance counts: a corner one lattice step off the plane of a
-/// triangle of single steps, where the plane's value is 1.
+/// Without a tolerance, even the least distance counts. A corner is one lattice step off the plane of a
+/// triangle with sides of one step, where the plane's value is 1.
 #[test]
 fn without_a_tolerance_one_step_off_a_plane_is_off_it() {
     let flat = [[0, 0, 0], [1, 0, 0], [0, 1, 0]];

@@ -21,7 +21,7 @@ impl Polygon for Endless<'_> {
 }
 
 #[test]
-fn a_cancel_is_heard_while_corners_are_read() {
+fn a_cancel_takes_effect_while_corners_are_read() {
     for calls in [1, 2, 10] {
         let (read, mut heard) = (Cell::new(0), 0);
         let polygons = [Endless { read: &read }];
@@ -44,9 +44,9 @@ fn comb(corners: usize) -> Vec<DVec3> {
 }
 
 #[test]
-fn a_cancel_is_heard_while_one_polygon_is_triangulated() {
+fn a_cancel_takes_effect_while_one_polygon_is_triangulated() {
     let comb = comb(400_000);
-    // All calls before the tree is begun: before the total is the number of triangles.
+    // All calls before the tree is begun, that is, before the total is the number of triangles.
     let mut all = 0;
     let _ = BuildOptions::DEFAULT.build_with_progress([&comb], |progress| {
         if progress.total > 1 {

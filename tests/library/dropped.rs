@@ -1,5 +1,5 @@
-//! The polygons that preparation drops, keeps whole and counts as duplicates, checked by brute force in big
-//! integers, on polygons with little or no area.
+//! Checks by brute force in big integers which polygons preparation drops, keeps whole and counts as
+//! duplicates. Polygons have little or no area.
 
 use binspace::internals::Lattice;
 use dashu_int::IBig;
@@ -12,7 +12,7 @@ use testkit::vector::{difference, is_zero, product, scalar};
 
 type Vector = [IBig; 3];
 
-/// The corners on the lattice, without those equal to the one before.
+/// The corners on the lattice, without repetitions of the corner before.
 fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     let mut corners: Vec<Vector> =
         polygon.iter().map(|&p| lattice.snap(p).map(|c| IBig::from(c as i64))).collect();
@@ -23,7 +23,7 @@ fn outline(lattice: &Lattice, polygon: &[DVec3]) -> Vec<Vector> {
     corners
 }
 
-/// The corners on the lattice that some face of the polygon has; none of a polygon without faces.
+/// The corners on the lattice that occur in a face of the polygon; an empty list for a polygon without faces.
 fn known_outline(faces: &Faces, polygon: usize, corners: &[DVec3]) -> Vec<Vector> {
     let own = (0..faces.len() as u32).filter(|&face| faces.polygon(face) == polygon);
     let numbers: BTreeSet<u32> = own
@@ -35,20 +35,21 @@ fn known_outline(faces: &Faces, polygon: usize, corners: &[DVec3]) -> Vec<Vector
     numbers.into_iter().map(|number| snap(number).map(|c| IBig::from(c as i64))).collect()
 }
 
-/// Two arms from the first corner that are not collinear, if there are any.
+/// The cross product of two edges from the first corner that are not collinear; `None` if all corners are
+/// collinear.
 fn plane(corners: &[Vector]) -> Option<Vector> {
     let arms: Vec<Vector> = corners.iter().map(|corner| difference(corner, &corners[0])).collect();
     let pairs = arms.iter().flat_map(|a| arms.iter().map(move |b| product(a, b)));
     pairs.into_iter().find(|normal| !is_zero(normal))
 }
 
-/// Whether every part of the outline runs as often backwards as forwards: then it has no area, although its
-/// corners may not be collinear.
+/// Whether every part of the outline is passed as often backwards as forwards. Then the outline has no area,
+/// although its corners may not be collinear.
 fn is_run_through_both_ways(corners: &[Vector]) -> bool {
     let mut runs: HashMap<[&Vector; 2], i32> = HashMap::new();
     for (i, a) in corners.iter().enumerate() {
         let b = &corners[(i + 1) % corners.len()];
-        // Divided where other corners lie on it.
+        // Edges are divided where other corners lie on them.
         let arm = difference(b, a);
         let mut along: Vec<(IBig, &Vector)> = corners
             .iter()
@@ -76,7 +77,7 @@ fn area(corners: &[Vector]) -> Vector {
     })
 }
 
-/// Whether the corners are in one plane, on their convex hull, and in order around their middle, once.
+/// Whether the corners are in one plane and on their convex hull, and go around their middle once.
 fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     let flat = |corner: &Vector| scalar(normal, &difference(corner, &corners[0])).is_zero();
     if !corners.iter().all(flat) {
@@ -95,7 +96,7 @@ fn is_convex(corners: &[Vector], normal: &Vector) -> bool {
     if sign.is_zero() || around.into_iter().any(|t| t.is_zero() || t.sign() != sign.sign()) {
         return false;
     }
-    // The number of times that they pass the first arm.
+    // The number of times that the corners pass the first arm.
     let is_ahead = |arm: &Vector| {
         let across = turn(&arms[0], arm);
         if across.is_zero() {
@@ -126,7 +127,8 @@ fn is_same(a: &[Vector], b: &[Vector]) -> bool {
 #[derive(Debug, Default)]
 struct Kinds {
     on_a_line: usize,
-    /// Dropped polygons that run out and back, and others whose parts cancel.
+    /// Dropped polygons whose corners are not collinear: outlines that run out and back, and outlines whose
+    /// parts cancel.
     folded: usize,
     cancelled: usize,
     whole: usize,
@@ -157,8 +159,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
             corners.iter().map(|c| square(&difference(c, &corners[0]))).max().expect("corners");
         kinds.thin += usize::from(square(&area) << 80 < &size * &size && !is_zero(&area));
         if is_zero(&area) {
-            // Running out and back, it has no area; otherwise its parts face both ways and cancel, and ear
-            // clipping gives its covered area.
+            // If the outline only runs out and back, it has no area. Otherwise its parts face both ways and
+            // cancel, and ear clipping gives the covered area.
             let is_fold = is_run_through_both_ways(corners);
             kinds.folded += usize::from(is_fold && is_dropped);
             kinds.cancelled += usize::from(!is_fold || !is_dropped);
@@ -183,8 +185,8 @@ fn check(kinds: &mut Kinds, polygons: &[Corners]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Polygons of little or no area: collinear corners, corners off a line by ulps, repeated, running out and
-/// back; needles; and other polygons, some given twice.
+/// Polygons of little or no area: with collinear corners, with corners off a line by ulps, with repeated
+/// corners, running out and back, and needles. Also other polygons, some given twice.
 fn thin(seed: u64, count: usize) -> Vec<Corners> {
     let mut dice = Dice(seed);
     let lattice = dice.below(2) == 0;
@@ -201,7 +203,7 @@ fn thin(seed: u64, count: usize) -> Vec<Corners> {
         let mut polygon: Corners = match dice.below(6) {
             0 => (0..corners).map(|_| a + (b - a) * share(&mut dice)).collect(),
             1 => {
-                // Out and back over some corners.
+                // The outline runs out and back over some corners.
                 let way: Corners = (0..corners).map(|_| point(&mut dice)).collect();
                 let back = way[1..corners - 1].iter().rev();
                 way.iter().chain(back).copied().collect()
@@ -246,7 +248,7 @@ fn exactly_polygons_without_area_are_dropped_and_exactly_others_cut_up() {
 }
 
 #[test]
-fn the_same_holds_in_hard_scenes() {
+fn dropped_polygons_of_hard_scenes_agree_with_brute_force() {
     let kinds = tally(file!(), 600, hard::scene(), |kinds: &mut Kinds, scene| {
         check(kinds, &scene.polygons)
     });
@@ -255,10 +257,10 @@ fn the_same_holds_in_hard_scenes() {
     assert!(least > Some(10), "{kinds:?}");
 }
 
-/// In floats this polygon has no area between any two corners and its first. In integers one of them is off
-/// the line of the others, and spans a triangle of twice the area 1 with two of them.
+/// In floats, no two corners of this polygon span an area with its first corner. In integers, one corner is
+/// off the line of the others, and spans a triangle with two of them. Twice the area of this triangle is 1.
 #[test]
-fn a_polygon_that_only_integers_see_an_area_of_is_kept() {
+fn a_polygon_whose_area_only_integers_find_is_kept() {
     const S: f64 = (1_u64 << 50) as f64;
     let [a, b] = [1_001_839_071_114_162.0, 862_809_303_082_285.0];
     let [c, d] = [361_461_402_778_337.0, 311_299_758_628_383.0];

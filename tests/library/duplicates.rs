@@ -14,8 +14,9 @@ fn duplicates(polygons: &[Vec<[f64; 3]>]) -> usize {
     tree.duplicates()
 }
 
-/// A repeated face is counted from any corner in either direction, also with a corner repeated or rounded
-/// to the same place. With other corners, or the same in another cyclic order, it is not a duplicate.
+/// A repeated face is counted from any corner in either direction, also with a corner repeated or rounded to
+/// the same place. A face with other corners, or with the same corners in another cyclic order, is not a
+/// duplicate.
 #[test]
 fn faces_given_again_are_counted() {
     let first = || named([0, 1, 2, 3]);

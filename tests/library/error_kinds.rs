@@ -56,7 +56,7 @@ fn each_error_has_its_kind() {
     assert_eq!(error.kind(), ErrorKind::InvalidInput);
 }
 
-/// Only polygons and layers get another number.
+/// Only polygons and layers can be renumbered.
 #[test]
 fn a_line_keeps_its_number() {
     let (_, tree) = square();

@@ -17,8 +17,8 @@ fn planes(faces: &Faces) -> impl Iterator<Item = PlaneId> {
     (0..faces.len() as u32).map(PlaneId::face).chain(axes)
 }
 
-/// The side of an eye infinitely far in a direction, where the direction's rounding to 52 bits
-/// cannot matter.
+/// The side of an eye infinitely far in a direction; `None` if rounding the direction to 52 bits may change
+/// the side.
 fn side_of_direction(plane: &Plane, towards: &Point) -> Option<Ordering> {
     let value = rational::scalar(&plane.normal, towards);
     let size = |v: &Point| v.iter().map(Signed::abs).max().expect("three");
@@ -26,7 +26,7 @@ fn side_of_direction(plane: &Plane, towards: &Point) -> Option<Ordering> {
     (value.abs() * power_of_two(50) > doubt).then(|| rational::sign(&value))
 }
 
-/// Points from inside the scene to 1e40 extents away, on corners, and in the planes of faces.
+/// Points on corners, in the planes of faces, and from inside the scene to 1e40 extents away.
 fn eye_offsets() -> impl Strategy<Value = (prop::sample::Index, [f64; 3], f64)> {
     let direction = prop_oneof![
         prop::array::uniform3(-1.0..1.0f64),
@@ -97,7 +97,7 @@ proptest! {
                 let looking = DVec3::from_array(towards) * -scale;
                 let found = side(&faces, plane, Viewpoint::direction(looking));
                 let expected = match rational::sign(&value) {
-                    // Seen edge-on: the side of the lattice's origin.
+                    // If the plane is seen edge-on, the side of the lattice's origin counts.
                     Ordering::Equal => rational::sign(&-exact.offset),
                     side => side,
                 };
@@ -137,7 +137,7 @@ proptest! {
         bits in prop::collection::vec((any::<bool>(), 0..24i32, 0..1u32 << 23), 6),
         exponent in -60..=60i32,
     ) {
-        // From 2⁻²⁴ of the largest on: 24 bits then end above 2⁻⁵⁰ of it.
+        // Components of at least 2⁻²⁴ of the largest: their 24 bits end above 2⁻⁵⁰ of the largest.
         let value = |&(negative, below, fraction): &(bool, i32, u32)| {
             let size = f32::from_bits(fraction | 127 << 23) * 2f32.powi(exponent - below);
             f64::from(if negative { -size } else { size })

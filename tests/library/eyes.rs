@@ -30,7 +30,7 @@ fn an_eye_one_step_behind_a_plane_sees_its_back() {
     assert_eq!(seen.facing(Viewpoint::Eye(eye)), Facing::Back);
 }
 
-/// The planes of triangles that pass an eye by a step of the grid or go through it, up to 400 extents
+/// Triangles whose planes go through an eye, or miss it by a step of the grid. Eyes are up to 400 extents
 /// from the scene.
 #[test]
 fn eyes_on_the_grid_are_not_moved() {
@@ -64,8 +64,8 @@ fn eyes_on_the_grid_are_not_moved() {
     assert!(seen.iter().all(|&count| count > 30), "{seen:?}");
 }
 
-/// A triangle of lattice points, and its plane at an eye: 0, or about the area of a parallelogram that is a
-/// step wide.
+/// A triangle of lattice points, and the value of its plane at an eye: 0, or about the area of a
+/// parallelogram that is a step wide.
 fn triangle_beside(
     lattice: &Lattice,
     eye: DVec3,

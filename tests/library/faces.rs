@@ -1,4 +1,5 @@
-//! Facts about the faces of any scene: convex, planar, at the input's positions, and whole if possible.
+//! Checks that the faces of any scene are convex, planar, at the positions of the input, and whole if
+//! possible.
 
 use binspace::internals::{PreparedPlane, Side, Vertex, split};
 use proptest::prelude::*;
@@ -10,7 +11,7 @@ use testkit::model::Face;
 use testkit::prelude::*;
 use testkit::shapes;
 
-/// Corners moved onto a plane moved by little, the others not at all.
+/// Corners that are moved onto a plane move by little. The other corners do not move.
 fn assert_corners_are_the_input_s(
     faces: &Faces,
     face: u32,
@@ -45,7 +46,7 @@ fn with_repeats(mut scene: HardScene, repeats: &[(Index, Index)]) -> HardScene {
     scene
 }
 
-/// Any finite number: of every size, and typical of a scene.
+/// Any finite number: numbers of every size, and typical coordinates.
 fn any_finite() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<f64>().prop_filter("finite", |x| x.is_finite()),
@@ -55,7 +56,7 @@ fn any_finite() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Every decision about the faces of a scene.
+/// Makes every decision about the faces of a scene.
 fn decide_all(faces: &Faces) {
     for face in 0..faces.len() as u32 {
         let corners = 0..faces.corners(face).len() as u32;
@@ -119,7 +120,7 @@ proptest! {
     }
 
     #[test]
-    fn any_finite_input_is_taken(
+    fn any_finite_input_is_accepted(
         polygons in prop::collection::vec(
             prop::collection::vec(prop::array::uniform3(any_finite()), 0..8), 0..5),
         tolerance in prop::option::of(any_finite().prop_map(f64::abs)),

@@ -6,7 +6,7 @@ use binspace::view;
 use testkit::prelude::*;
 use testkit::views::View;
 
-/// Viewpoints of every kind: anywhere, on corners, in the planes of faces and along them.
+/// Viewpoints anywhere, on corners, in planes of faces, and directions along planes.
 fn viewpoints(tree: &BspTree, dice: &mut Dice) -> Vec<View> {
     let faces = tree.faces();
     let size = faces.corners(0).iter().flatten().fold(1.0f64, |a, c| a.max(c.abs()));
@@ -56,7 +56,7 @@ fn fragments_face_the_side_that_rationals_say() {
     assert!(back.min(front) > 2000 && edge_on > 200, "{counts:?}");
 }
 
-/// The sign convention, by hand.
+/// Tests the sign convention on a hand-made example.
 #[test]
 fn a_front_is_where_corners_run_counter_clockwise() {
     let tree = BspTree::build([[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]).unwrap();

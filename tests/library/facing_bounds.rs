@@ -1,5 +1,5 @@
-//! Bounds decide the side that polygons show only where the exact predicate agrees: eyes far away in the
-//! plane of a small polygon, where a rounded normal alone would decide, and eyes next to it.
+//! Bounds decide the side that polygons show only where the exact predicate agrees. Eyes are far away in the
+//! plane of a small polygon, where a rounded normal alone would decide, or next to this plane.
 
 use binspace::Facing;
 use testkit::prelude::*;
@@ -39,7 +39,7 @@ fn bounds_of_normals_hold_the_exact_normals() {
             let along = Viewpoint::direction(u * (i + 1.0) + v * j);
             assert_eq!(root.facing_all(along), None, "{seed}: {i} {j}, along the plane");
         }
-        // They do decide if the eye is clearly off.
+        // The bounds decide if the eye is clearly off the plane.
         let eye = Viewpoint::eye(at + normal * 1e4);
         decided += usize::from(root.facing_all(eye) == Some(Facing::Front));
     }

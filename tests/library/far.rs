@@ -48,7 +48,7 @@ fn of_f32_it_is_four_steps_of_the_largest_coordinate() {
         let largest = f64::max(4.0, (at + 1.0).abs().max(at.abs()));
         let steps = 4.0 * f64::from(f32::EPSILON) * largest;
         near(tolerance(&sides), steps.min(1.0 / 128.0).min(tolerance_limit()));
-        // A box around them does not change their precision.
+        // A box around the polygons does not change their precision.
         let room = [DVec3::new(at - 2.0, -2.0, 0.0), DVec3::new(at + 3.0, 2.0, 4.0)];
         let options = BuildOptions::DEFAULT.with_bounds(room[0], room[1]);
         let stats = options.build(&sides).unwrap().stats();

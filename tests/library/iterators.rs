@@ -43,8 +43,8 @@ fn reversed<T>(iterator: impl Iterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// Compares an iterator with a list: from the front, from the back, and from both ends in a random pattern;
-/// and copies of it made on the way.
+/// Compares an iterator with a list: from the front, from the back, and from both ends in a random pattern.
+/// Copies that are made in between are compared too.
 fn check_ends<I>(iterator: I, expected: &[I::Item], dice: &mut Dice)
 where
     I: DoubleEndedIterator<Item: PartialEq + Debug> + ExactSizeIterator + FusedIterator + Clone,
@@ -104,7 +104,7 @@ fn fragments_and_nodes_are_read_from_both_ends() {
         check_ends(tree.fragments().map(|f| f.index()), &numbers, &mut dice);
         assert_eq!(tree.fragments().nth(2).map(|f| f.index()), numbers.get(2).copied());
         let stats = tree.stats();
-        // As many fragments as faces: nothing was cut.
+        // The numbers of fragments and faces are equal, so nothing was cut.
         assert_eq!(tree.face_count(), stats.faces);
         assert_eq!(tree.len() == tree.face_count(), stats.splits == 0);
         let nodes: Vec<_> = tree.nodes().collect();
@@ -116,8 +116,8 @@ fn fragments_and_nodes_are_read_from_both_ends() {
     enough!(deep > 10; "{deep}");
 }
 
-/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other; then a
-/// square through the first two.
+/// Two squares, lines that are dropped, and an arrow of two triangles, all above each other. Then a square
+/// through the first two squares.
 #[test]
 fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     let square = |z: f64| sheet(2, z, 4.0).to_vec();
@@ -132,7 +132,7 @@ fn equal_numbers_of_fragments_and_faces_mean_no_cuts() {
     assert!(tree.len() > 5);
 }
 
-/// It once listed all faces of the tree.
+/// In an earlier version, the debug output listed all faces of the tree.
 #[test]
 fn debug_output_is_about_the_fragment_alone() {
     let tree = BspTree::build([sheet(2, 0.0, 4.0), sheet(2, 1.0, 4.0)]).unwrap();

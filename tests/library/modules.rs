@@ -1,10 +1,10 @@
-//! The library's modules, the files and folders of `src`, import one way.
+//! The library's modules, which are the files and folders of `src`, have no import cycle.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The text of a module's files, without comments and without everything from the first test on.
+/// The text of a module's files, without comments and without the tests at the end of each file.
 fn text_of(path: &Path) -> String {
     if path.file_stem().is_some_and(|name| name == "tests") {
         return String::new();
@@ -43,7 +43,7 @@ fn modules_import_one_way() {
         left.insert(name, named.collect());
     }
     assert!(left.values().map(BTreeSet::len).sum::<usize>() > 20, "too few imports are found");
-    // Modules that import none of the others are removed, until none are left.
+    // Modules that import no other module are removed repeatedly, until no module is left.
     while let Some(name) = left.iter().find(|(_, of)| of.is_empty()).map(|(&name, _)| name) {
         left.remove(name);
         left.values_mut().for_each(|of| _ = of.remove(name));

@@ -1,4 +1,4 @@
-//! Rays of narrow views are at the camera's positions, or do not exist.
+//! Rays of narrow views are at their true positions, or there are no rays.
 
 use binspace::view::Projection;
 use dashu_int::IBig;
@@ -6,7 +6,7 @@ use dashu_ratio::RBig;
 use testkit::prelude::*;
 use testkit::rational::{Point, exact, point, product, scalar};
 
-/// The coefficients of a vector as a sum of others.
+/// The coefficients of a vector as a sum of three other vectors.
 fn coefficients(vector: &Point, of: [&Point; 3]) -> Point {
     let [a, b, c] = of;
     let whole = scalar(a, &product(b, c));
@@ -19,7 +19,7 @@ fn is_parallel(camera: &Camera) -> bool {
 }
 
 /// The distance, in pixels, of a camera's rays from their true positions at the corners of the picture; for
-/// parallel rays as seen from the middle of the picture. `None` if there are no rays.
+/// parallel rays, relative to the middle of the picture. `None` if there are no rays.
 fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     let rays = Rays::sampled(camera, faces, samples).ok()?;
     let axes = [camera.forward(), camera.right(), -camera.up()].map(point);
@@ -30,7 +30,7 @@ fn off(camera: &Camera, faces: &Faces, samples: u32) -> Option<f64> {
     for [x, y] in [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1]] {
         let [start, way] = rays.ray(x, y).map(rational);
         let found = if is_parallel(camera) {
-            // Minus the value at the opposite corner: twice the value at the middle.
+            // The difference of two opposite corners is twice the value at the middle.
             let opposite = rational(rays.ray(width - 1 - x, height - 1 - y)[0]);
             let arm = std::array::from_fn(|i| (&start[i] - &opposite[i]) / exact(2.0));
             let pixel = exact(faces.lattice().length_to_lattice(camera.pixel_size()[1]));

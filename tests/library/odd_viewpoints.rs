@@ -7,7 +7,7 @@ fn square(z: f64) -> [DVec3; 4] {
     [(2.0, 4.0), (4.0, 4.0), (4.0, 6.0), (2.0, 6.0)].map(|(x, y)| dvec3(x, y, z))
 }
 
-/// Two squares above each other and four upright ones side by side, around (3, 5, 1).
+/// Two squares above each other and four upright squares side by side, around (3, 5, 1).
 fn boxed() -> BspTree {
     let upright = |x: f64| square(0.0).map(|p| dvec3(x, p.y, p.x - 2.0));
     let upright = [2.0, 2.5, 3.5, 4.0].map(upright);
@@ -15,7 +15,7 @@ fn boxed() -> BspTree {
 }
 
 #[test]
-fn a_coordinate_that_is_not_a_number_is_that_of_the_middle() {
+fn a_nan_coordinate_counts_as_the_middle() {
     let tree = boxed();
     for z in [-9.0, 0.5, 1.5, 9.0] {
         let at = |x: f64| polygons(&tree, Viewpoint::eye([x, 5.0, z]));

@@ -1,4 +1,4 @@
-//! Objects made from one tree, used with another of the same size: refused, or right.
+//! Objects made from one tree and used with another tree of the same size are refused, or give right results.
 
 use binspace::occlusion::CoverageMask;
 use binspace::overlay::Overlay;
@@ -20,7 +20,7 @@ fn frame(is_turned: bool) -> impl Iterator<Item = [[f64; 3]; 4]> {
     (0..CARDS).map(move |card| square(if is_turned { CARDS - 1 - card } else { card } as f64))
 }
 
-/// Two frames that differ in no count, grid or tolerance; and the first again.
+/// Two frames with equal counts, grids and tolerances, and the first frame again.
 fn frames() -> Vec<[BspTree; 3]> {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     let build = |is_turned| options.build(frame(is_turned)).expect("within budget");
@@ -48,7 +48,7 @@ fn ignore<T>(_: T) {}
 
 const ABOVE: Viewpoint = Viewpoint::Direction(DVec3::NEG_Z);
 
-/// The message of the panic that a call ends in.
+/// The message of the panic in which a call ends.
 fn panic_of(call: impl FnOnce()) -> String {
     let panic = catch_unwind(AssertUnwindSafe(call)).expect_err("it is of another tree");
     panic
@@ -74,7 +74,7 @@ fn an_overlay_of_another_frame_is_refused() {
     }
 }
 
-/// Boxes belong to a tree and follow it: through copies, extensions and frames.
+/// Boxes belong to a tree, and stay right through copies, extensions and frames.
 #[test]
 fn boxes_belong_to_the_current_polygons_of_the_tree() {
     let mut tree = BspTree::build([square(0.0)]).expect("within budget");
@@ -144,7 +144,7 @@ fn a_tree_that_changes_is_another_one() {
     let mut again = Vec::new();
     BspTree::build(frame(false)).expect("within budget").write(&mut again).expect("a list");
     assert_eq!(file, again);
-    // It stays the same tree if it cannot be extended.
+    // If the extension fails, the tree stays the same tree.
     assert!(tree.extend([square(1e9)]).is_err());
     overlay.replace(&tree, [square(2.5)]).expect("unchanged");
     // A polygon without area adds no fragment.
@@ -167,7 +167,7 @@ fn camera() -> Camera {
     Camera::perspective(eye, target, DVec3::Z, 0.9, [32, 24]).expect("a camera")
 }
 
-/// Rays are numbers on a grid: trees with the same grid share them, others would show another picture.
+/// Rays are numbers on a grid. Trees with the same grid share rays; other trees would show another picture.
 #[test]
 fn rays_of_another_grid_are_refused() {
     let tree = BspTree::build(frame(false)).expect("within budget");
@@ -197,12 +197,12 @@ fn rays_of_another_grid_are_refused() {
     }
     let mut mask = CoverageMask::new(&tree, &rays, 1);
     panic_of(|| ignore(mask.cover(&moved.fragment(0))));
-    // Rows, and fronts alone, are still of the same grid.
+    // Rays for some rows, and rays for fronts only, still have the same grid.
     panic_of(|| ignore(zbuffer(&rays.rows(3..9).with_front_faces_only(), faces)));
 }
 
-/// A fragment of another frame, or a piece of an overlay, covers the pixels of its own picture, not those
-/// of a face of the mask's tree with the same number.
+/// A fragment of another frame, or a piece of an overlay, covers its own pixels, not the pixels of a face
+/// with the same number in the mask's tree.
 #[test]
 fn a_mask_covers_the_pixels_of_a_fragment_of_another_frame() {
     let build = |sizes: [f64; 2]| {

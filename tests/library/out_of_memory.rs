@@ -1,5 +1,5 @@
-//! If the polygons, a tree's file or its mesh do not fit into memory, there is an error and the program
-//! continues. Each case runs in a separate process, with limited memory.
+//! If the polygons, a tree's file or a tree's mesh do not fit into memory, an error is returned and the
+//! program continues. Each case runs in a separate process, with limited memory.
 #![allow(clippy::print_stdout, reason = "a process tells another how much memory it took")]
 
 use binspace::ErrorKind;
@@ -11,7 +11,7 @@ use testkit::scenes::polygons;
 
 type Polygons = Vec<Vec<DVec3>>;
 
-/// Names the case to a process that this test starts.
+/// The environment variable that names the case in a process that this test starts.
 const CASE: &str = "BINSPACE_OUT_OF_MEMORY";
 
 const CASES: [&str; 8] = ["heap", "sphere", "layers", "sampled", "extend", "frame", "read", "mesh"];
@@ -20,8 +20,8 @@ fn heap() -> Polygons {
     polygons(&scene::random_triangles(1500, 1))
 }
 
-/// Small blocks of free memory, into which no longer list fits: small unchecked allocations succeed, so
-/// that only the lists meet the limit.
+/// Small blocks of free memory, too small for the lists. Small unchecked allocations succeed, so only the
+/// lists meet the limit.
 fn keep_small_change() -> Vec<Box<[u8]>> {
     let (change, kept): (Vec<_>, Vec<_>) = (0..200)
         .map(|_| (vec![1_u8; 40_000].into_boxed_slice(), vec![1_u8; 64].into_boxed_slice()))
@@ -50,7 +50,8 @@ fn run(case: &str) -> bool {
         "sampled" => BuildOptions::DEFAULT.with_heuristic("sampled(16)".parse().expect("a name")),
         _ => BuildOptions::DEFAULT.with_bounds(DVec3::splat(-9.0), DVec3::splat(9.0)),
     };
-    // The input of the case is made before: the limits that the parent sets are above its memory.
+    // The input of the case is made before this. The limits that the parent sets are above the memory of the
+    // input.
     match case {
         "extend" => {
             let mut tree = options.build(&polygons[..700]).expect("room");
@@ -98,14 +99,14 @@ fn tree_file() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("out_of_memory.tree")
 }
 
-/// This program again, as a case, with some memory.
+/// Runs this program again for one case, with limited memory.
 fn process(case: &str, kilobytes: Option<usize>) -> Output {
     let program = env::current_exe().expect("this program");
     let limit = kilobytes.map_or("unlimited".to_owned(), |kilobytes| kilobytes.to_string());
     Command::new("sh")
         .args(["-c", &format!("ulimit -v {limit}; exec \"$0\" library::out_of_memory::one_case --exact --ignored --nocapture")])
         .arg(program)
-        // One arena, grown on demand: a limit then meets the lists that grow.
+        // One arena that grows on demand, so that the limit meets the lists that grow.
         .envs([("MALLOC_ARENA_MAX", "1"), ("MALLOC_TOP_PAD_", "0"), ("RAYON_NUM_THREADS", "2")])
         .env("RUST_TEST_THREADS", "1")
         .env("MALLOC_MMAP_THRESHOLD_", "65536")
@@ -125,7 +126,7 @@ fn printed(output: &Output, words: &str) -> Option<usize> {
 #[ignore = "a part of the other test, which runs it in processes of its own"]
 fn one_case() {
     let case = env::var(CASE).expect("the other test names it");
-    // The pool's threads, started before there is a limit.
+    // Starts the pool's threads before there is a limit.
     rayon::join(|| (), || ());
     let kept = keep_small_change();
     let failed = run(&case);

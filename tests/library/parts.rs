@@ -3,19 +3,19 @@
 use binspace::Preparation;
 use testkit::prelude::*;
 
-/// More than are prepared at once: sixteen parts of 1024 polygons.
+/// More than the sixteen parts of 1024 polygons that are prepared at once.
 const COUNT: usize = 20_000;
 /// The polygons stand on a square grid with this many cells a side.
 const ACROSS: usize = 150;
 
 const TOLERANCE: f64 = 1e-3;
 
-/// One of several kinds of polygons, in a separate cell. The number of kinds and that of a part's polygons
-/// are coprime, so that every part begins and ends with another kind; but two parts have only triangles.
+/// One of several kinds of polygons, in a separate cell. The number of kinds and the number of polygons in a
+/// part are coprime, so that parts begin and end with different kinds. Two parts have only triangles.
 fn polygon(i: usize) -> Corners {
     let kind = if [3, 17].contains(&(i / 1024)) { 0 } else { i % 7 };
     let flat: &[[f64; 3]] = match kind {
-        // Its corners count up from 0, like those of all polygons that stay whole.
+        // Its corner numbers count up from 0, like in all polygons that stay whole.
         0 => &[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 1.0]],
         // A corner given twice.
         1 => &[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 3.0, 0.0], [0.0, 3.0, 0.0]],
@@ -48,7 +48,7 @@ fn polygon(i: usize) -> Corners {
     flat.iter().map(|&corner| cell * 4.0 + DVec3::from_array(corner)).collect()
 }
 
-/// A triangle whose bounding box holds the others, so that it alone decides the lattice.
+/// A triangle whose bounding box contains all polygons, so that this triangle alone determines the lattice.
 fn ground() -> Corners {
     let side = 4.0 * ACROSS as f64;
     [[-1.0, -1.0, -1.0], [side, -1.0, 20.0], [-1.0, side, 3.0]].map(DVec3::from).into()
@@ -131,7 +131,7 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
             outline[fragment.polygon()] += ends[0].distance(ends[1]);
         }
     }
-    // All edges of each polygon are there, once.
+    // Each edge of each polygon occurs once.
     let dropped: Vec<usize> = tree.dropped().collect();
     for (i, corners) in polygons.iter().enumerate() {
         let next = corners.iter().cycle().skip(1);
@@ -141,10 +141,10 @@ fn fragments_know_their_polygon_s_corners_and_edges() {
     }
 }
 
-/// The rest follows the faces of a finished tree. A mesh has the given corners, also those that were moved
-/// onto a plane.
+/// Some polygons are built, and the rest extends the finished tree. A mesh has the given corners, also where
+/// corners were moved onto a plane.
 #[test]
-fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
+fn a_tree_extended_by_several_parts_equals_the_tree_of_all_polygons() {
     let polygons = scene(5000);
     let options = BuildOptions::DEFAULT.with_tolerance(TOLERANCE);
     let expected = options.build(&polygons).expect("finite");
@@ -156,7 +156,7 @@ fn a_tree_that_is_extended_by_several_parts_is_that_of_all() {
         let (mesh, mut moved) = (tree.mesh().expect("memory"), 0);
         for fragment in tree.fragments().filter(|fragment| fragment.is_whole()) {
             let k = fragment.polygon();
-            // The kind that is planar within the tolerance.
+            // The polygon is of the kind that is planar within the tolerance.
             if polygons[k].len() == 4 && polygons[k][2].z.fract() == 2f64.powi(-11) {
                 let range = mesh.triangles().range(fragment.index());
                 for vertex in &mesh.triangles().indices()[range] {

@@ -1,5 +1,5 @@
-//! Trees of convex bodies, which are peeled piece by piece: valid, uncut, in input order on each plane, and
-//! within their budgets.
+//! Trees of convex bodies, which are built by peeling piece by piece. They are valid, uncut, in input order
+//! on each plane, and within their budgets.
 
 use binspace::ErrorKind;
 use binspace::glam::{DQuat, EulerRot};

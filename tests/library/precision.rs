@@ -48,8 +48,8 @@ fn cards_in_one_plane_out_of_a_matrix_of_f32_stay_whole_and_in_input_order() {
     enough!(cut_without > 12; "only {cut_without} of the scenes tell one tolerance from another");
 }
 
-/// The planes of small cards have the largest rounding errors, and differ by more than the tolerance
-/// further away.
+/// The planes of small cards have the largest rounding errors. Further away from the cards, they differ by
+/// more than the tolerance.
 #[test]
 fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     for size in [0.4, 0.1, 0.01] {
@@ -58,8 +58,8 @@ fn small_cards_of_one_plane_keep_their_order_in_frames_too() {
     }
 }
 
-/// The plane of a small card has a far larger rounding error than the plane of the page on which it lies.
-/// Wherever the card lies, and whichever comes first, the page's plane shows that they are coplanar.
+/// The plane of a small card has a far larger rounding error than the plane of the page on which it lies. For
+/// any place of the card and either order, the page's plane shows that the two are coplanar.
 #[test]
 fn a_page_and_a_small_card_keep_their_order() {
     let mut dice = Dice(4);
@@ -81,7 +81,8 @@ fn a_page_and_a_small_card_keep_their_order() {
     }
 }
 
-/// Most cards are far smaller than the page, the first one too: the plane of any of these would cut others.
+/// Most cards are far smaller than the page, also the first one. The plane of any small card would cut other
+/// cards.
 #[test]
 fn a_page_of_cards_of_every_size_is_not_cut() {
     let mut dice = Dice(2);
@@ -102,8 +103,8 @@ fn a_page_of_cards_of_every_size_is_not_cut() {
     }
 }
 
-/// Builds a page of cards, none of them thin, half of them upon the one before, and returns the pairs of
-/// overlapping cards found in input order.
+/// Builds a page of cards that are not thin. Half of them lie on the card before. Returns the number of pairs
+/// of overlapping cards in input order.
 fn pairs_in_order(number: u64, size: f64) -> usize {
     let (turn, mut dice) = (turn(number), Dice(number));
     let mut low = Vec3::ZERO;
@@ -145,7 +146,7 @@ fn pairs_in_order(number: u64, size: f64) -> usize {
 
 #[test]
 fn layers_some_steps_of_f32_apart_keep_their_order() {
-    // Twice the default tolerance, and the rounding of both layers.
+    // Twice the default tolerance, plus the rounding of both layers.
     let gap = 12.0 * f32::EPSILON;
     for number in 0..TURNS {
         let turn = turn(number);
@@ -153,7 +154,7 @@ fn layers_some_steps_of_f32_apart_keep_their_order() {
         let normal = turn.transform_vector3(Vec3::Z).as_dvec3();
         let tree = BspTree::build(&cards).unwrap();
         let order = order(&tree, -normal);
-        // Neighbours overlap, so the order of the input, from below upwards, is the only right one.
+        // Neighbours overlap, so only the input order, from below upwards, is right.
         let first = |polygon| order.iter().position(|&p| p == polygon).unwrap();
         let last = |polygon| order.iter().rposition(|&p| p == polygon).unwrap();
         for upper in 1..30 {
@@ -215,7 +216,7 @@ fn the_tolerance_follows_the_precision_within_bounds_or_the_option() {
 
 #[test]
 fn bent_flattened_and_nearly_coplanar_polygons_are_counted_and_measured() {
-    // The plane of three of its corners is level; the fourth is off by `off`.
+    // Three corners are in a level plane, and the fourth is off this plane by `off`.
     let quad = |off: f64| {
         [[0.0, 0.0, 0.0], [4.0, 0.0, off], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]].map(DVec3::from)
     };
@@ -223,7 +224,7 @@ fn bent_flattened_and_nearly_coplanar_polygons_are_counted_and_measured() {
         assert!((found - expected).abs() <= 1e-3 * expected, "{found}, not {expected}");
     };
     let build = |tolerance, polygons: &[[DVec3; 4]]| {
-        // The first remaining polygon gives the next plane.
+        // The next plane comes from the first remaining polygon.
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
         options.with_tolerance(tolerance).build(polygons).unwrap()
     };

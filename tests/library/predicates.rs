@@ -7,7 +7,7 @@ use testkit::hard::HardScene;
 use testkit::judge::Verdict;
 use testkit::prelude::*;
 
-/// The face to cut, and the plane: that of a face, or perpendicular to an axis through a corner.
+/// The face to cut, and the plane: a plane of a face, or a plane through a corner perpendicular to an axis.
 #[derive(Clone, Debug)]
 struct Plan {
     face: Index,

@@ -1,5 +1,5 @@
-//! From polygons of any kind to convex planar faces, by example: triangulated polygons, dropped polygons,
-//! errors.
+//! Examples of preparing polygons of any kind as convex planar faces: triangulated polygons, dropped
+//! polygons, errors.
 
 use binspace::Preparation;
 use binspace::glam::DMat3;
@@ -18,7 +18,7 @@ fn flat(corners: &[[f64; 2]]) -> Corners {
     corners.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
 }
 
-/// The faces together have the polygon's area, and each has its orientation.
+/// Asserts that the faces together have the polygon's area, and that each face has the polygon's orientation.
 fn assert_area_is_conserved(faces: &Faces, polygon: &[DVec3]) {
     let whole = area(faces, polygon);
     let mut total = rational::point(DVec3::ZERO);
@@ -51,7 +51,7 @@ fn pentagram() -> Corners {
     (0..5).map(|k| around[2 * k % 5]).collect()
 }
 
-/// Rows that are powers of two times a rotation's, so that integers stay exact.
+/// Matrices whose rows are the rows of a rotation times powers of two, so that integers stay exact.
 fn tilts() -> [DMat3; 4] {
     let rows = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| DMat3::from_cols_array_2d(&[a, b, c]);
     [
@@ -62,7 +62,7 @@ fn tilts() -> [DMat3; 4] {
     ]
 }
 
-/// Not of the diagonal of the bounding box.
+/// It is not a share of the diagonal of the bounding box.
 #[test]
 fn the_default_tolerance_is_a_share_of_the_longest_side() {
     for (share, triangulated) in [(0.9, 0), (1.1, 1), (1.6, 1)] {
@@ -136,7 +136,7 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
         (0..faces.corners(face).len() as u32).map(|k| faces.corner_number(face, k)).collect()
     };
     assert_eq!(numbers(0), [0, 1, 2]);
-    // The edge that leaves a repeated corner is the last one's.
+    // The edge from a repeated corner belongs to the last repetition.
     assert_eq!(numbers(1), [0, 2, 3, 4]);
     assert_eq!(numbers(2), [1, 2, 3]);
     assert_eq!(
@@ -145,8 +145,8 @@ fn corner_numbers_count_from_the_first_face_with_a_repeated_corner() {
     );
 }
 
-/// The fan over a bent polygon leaves out corners in the middle of its first side, which still is one edge
-/// of the polygon; diagonals are not edges of it.
+/// The fan over a bent polygon leaves out corners in the middle of its first side. This side is still one
+/// edge of the polygon, and diagonals are not edges of the polygon.
 #[test]
 fn a_side_of_several_steps_is_the_outline_s_where_its_corners_are_left_out() {
     for middle in 1..5 {
@@ -171,8 +171,8 @@ fn a_polygon_that_ends_where_it_begins_is_the_same_without_its_last_corner() {
     assert_eq!(faces.corners(0), faces.corners(1));
 }
 
-/// Corners in the middle of a straight side are those of triangles, or are left out; either way the
-/// side is still the polygon's.
+/// Corners in the middle of a straight side may be corners of triangles or may be left out. In both cases,
+/// the side is still an edge of the polygon.
 #[test]
 fn an_outline_with_corners_in_the_middle_of_a_side_stays_closed() {
     let side = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]];
@@ -195,7 +195,7 @@ fn an_outline_with_corners_in_the_middle_of_a_side_stays_closed() {
     }
 }
 
-/// The two edges of a bridge cancel: they may be edges of triangles or not.
+/// The two edges of a bridge cancel, whether they are edges of triangles or not.
 #[test]
 fn an_outline_with_a_hole_stays_closed_and_its_corners_keep_their_numbers() {
     let hole = [[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0], [3.0, 3.0]];
@@ -226,7 +226,8 @@ fn an_outline_with_a_hole_stays_closed_and_its_corners_keep_their_numbers() {
     }
 }
 
-/// Also a bow tie of equal halves, whose area is 0, and a star that is run through twice.
+/// The polygons include a bow tie of equal halves, whose area is 0, and a star whose outline runs around
+/// twice.
 #[test]
 fn polygons_that_cross_themselves_become_triangles_and_are_counted() {
     let bow_tie = flat(&[[0.0, 0.0], [3.0, 2.0], [3.0, 0.0], [0.0, 1.0]]);
@@ -248,7 +249,7 @@ fn polygons_that_cross_themselves_become_triangles_and_are_counted() {
 
 #[test]
 fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
-    // Cut along its shorter diagonal, from corner 1 to 3.
+    // The quad is cut along its shorter diagonal, from corner 1 to 3.
     let quad = flat(&[[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]]);
     let bent = quad.iter().map(|&p| p + DVec3::Z * (0.1 * p.x.abs())).collect();
     let (faces, _) = prepare(&[bent]);
@@ -258,8 +259,8 @@ fn corner_numbers_hold_if_the_very_first_corner_breaks_the_count() {
 
 #[test]
 fn corners_folded_onto_one_another_are_not_taken_for_convex() {
-    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners differ along
-    // only one of the axes: in a projection along that one they coincide.
+    // On the plane x + y = 0, which is as steep along x as along y. The two topmost corners differ along only
+    // one axis. In a projection along this axis, they coincide.
     let fold = |along: DVec3| {
         let [left, right] = [DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)];
         let tip = DVec3::new(0.0, 0.0, 1.05);

@@ -11,7 +11,7 @@ fn bits(p: DVec3) -> Bits {
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// The area vector, of twice the area's length.
+/// The area vector: a normal whose length is twice the area.
 fn normal(polygon: &[DVec3]) -> DVec3 {
     let from_first = |i: usize| polygon[i % polygon.len()] - polygon[0];
     (0..polygon.len()).map(|i| from_first(i).cross(from_first(i + 1))).sum()
@@ -21,7 +21,7 @@ fn centre(polygon: &[DVec3]) -> DVec3 {
     polygon.iter().sum::<DVec3>() / polygon.len() as f64
 }
 
-/// The directed edges that no polygon runs through the other way.
+/// The directed edges whose reverse occurs in no polygon.
 fn open_edges<'a>(polygons: impl Iterator<Item = &'a [DVec3]>) -> Vec<(DVec3, DVec3)> {
     let mut edges: HashMap<(Bits, Bits), (DVec3, DVec3)> = HashMap::new();
     let mut doubled = Vec::new();
@@ -114,8 +114,8 @@ fn newell_bars_cover_one_another_in_a_cycle() {
         })
         .collect();
     let inside = |(low, high): (DVec3, DVec3), p: DVec3| p.cmpgt(low).all() && p.cmplt(high).all();
-    // Points inside the bars along x, y, z. Two steps of (1, 1, 1) from each,
-    // towards the viewer, lies the inside of the next bar.
+    // Points inside the bars along x, y, z. From each point, two steps of (1, 1, 1) towards the viewer lead
+    // into the next bar.
     let starts =
         [DVec3::new(-3.0, 1.0, -1.0), DVec3::new(-1.0, -3.0, 1.0), DVec3::new(1.0, -1.0, -3.0)];
     for bar in 0..3 {
@@ -166,7 +166,7 @@ fn teapot_patches_meet_without_cracks() {
     }
     for name in ["handle", "spout"] {
         let open = open_edges(part(&scene, &[name]));
-        // Two halves of 6 edges at either end of the tube.
+        // Two halves of 6 edges at each end of the tube.
         assert_eq!(open.len(), 24, "{name}");
     }
 }
@@ -317,8 +317,8 @@ fn the_seed_alone_decides() {
     }
 }
 
-/// FNV-1a over the view, all coordinates, and all colours: the scenes must not depend on machine or
-/// compiler, or change by accident. A scene that is changed on purpose gets a new number.
+/// The hash FNV-1a of the view, all coordinates and all colours. Scenes must not depend on machine or
+/// compiler, and must not change by accident. A scene that is changed on purpose gets a new number.
 #[test]
 fn scenes_are_the_same_everywhere() {
     let hash = |scene: Scene| {
@@ -388,7 +388,7 @@ fn specs_are_read_and_written() {
 }
 
 #[test]
-fn bad_specs_say_what_would_do() {
+fn errors_of_bad_specs_list_the_valid_ones() {
     let error = |text: &str| match Builtin::parse(text) {
         Ok(read) => panic!("{text:?} was read as {read:?}"),
         Err(error) => error.to_string(),

@@ -20,7 +20,7 @@ use binspace::{
 };
 use testkit::prelude::*;
 
-/// Compiles only if its types are; a type that contains a cell or a raw pointer is not.
+/// Compiles only if the types are `Send` and `Sync`. A type that contains a cell or a raw pointer is not.
 macro_rules! assert_shared {
     ($($type:ty),* $(,)?) => {
         const _: () = {
@@ -48,7 +48,7 @@ assert_shared!(Overlay, Overlaid<'_>, OverlayOrder<'_>, Shape<'_>, Segment<'_>, 
 assert_shared!(Grid, Hit<'_>, Location<'_>, Ray);
 assert_shared!(PieceSet<'_>, SplitPlane);
 assert_shared!(BuildOptions, Heuristic, Progress, Error);
-// Iterators without a name.
+// Iterators without a nameable type.
 #[expect(dead_code, reason = "compiling it is the test")]
 fn iterators_are_shared(tree: &BspTree) {
     const fn is_shared(_: &(impl Send + Sync)) {}

@@ -1,4 +1,4 @@
-//! Size hints are hints: every iterator with a wrong size hint is read completely.
+//! Size hints are only hints: every iterator with a wrong size hint is read completely.
 
 use binspace::scene::Material;
 use binspace::{ErrorKind, Frustum};
@@ -7,7 +7,7 @@ use testkit::prelude::*;
 
 const MOST: usize = usize::MAX;
 
-/// Too small and too large, each bound alone and both, and bounds that contradict each other.
+/// Hints that are too small or too large, in one bound or in both, and bounds that contradict each other.
 const HINTS: [Hint; 13] = [
     (0, None),
     (0, Some(0)),
@@ -24,7 +24,8 @@ const HINTS: [Hint; 13] = [
     (9, Some(2)),
 ];
 
-/// Convex polygons of 3 to 70 corners, one above the other and each turned, and one that cuts some.
+/// Convex polygons of 3 to 70 corners, one above the other, each rotated; and a polygon that cuts some of
+/// them.
 fn outlines() -> Vec<Vec<DVec3>> {
     let ring = |(k, count): (u32, u32)| {
         let at = move |i: u32| {

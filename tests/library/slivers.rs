@@ -45,7 +45,7 @@ fn rays_meet_a_square_beside_a_sliver() {
     let polygons = [sliver.to_vec(), square(S, 0.1 * S), square(S, -0.1 * S), wall.to_vec()];
     for &heuristic in Heuristic::ALL {
         let tree = BuildOptions::DEFAULT.with_heuristic(heuristic).build(&polygons).unwrap();
-        // It ends before it reaches the sliver's plane.
+        // The ray ends before it reaches the sliver's plane.
         let down = Ray::between([0.3 * S, 0.1 * S, S], [0.3 * S, 0.1 * S, 0.05 * S]);
         let hits: Vec<usize> = tree.hits(down).map(|hit| hit.polygon()).collect();
         assert_eq!(hits, [1], "{heuristic}");
@@ -57,15 +57,15 @@ fn rays_meet_a_square_beside_a_sliver() {
 #[derive(Debug, Default)]
 struct Score {
     on: usize,
-    /// Faces on a plane that is not exactly theirs.
+    /// Faces that lie on a plane within the tolerance, but not exactly.
     nearly_on: usize,
     beside: usize,
-    /// Planes whose normal, computed in floats, is off by more than the tolerance may be.
+    /// Planes whose normal has a wrong length if it is computed in floats.
     lost: usize,
 }
 
-/// All fragments on a plane are within the tolerance of it, and none reaches further beyond it, up to a
-/// share of 10⁻⁹: by exact distances.
+/// Checks by exact distances that all fragments on a plane are within the tolerance of it, and that fragments
+/// on a side reach no further beyond the plane than the tolerance, up to a share of 10⁻⁹.
 fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
     let faces = tree.faces();
     let share = |share: f64| rational::exact(faces.tolerance()) * rational::exact(share);
@@ -76,7 +76,8 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
         let plane = model::plane(faces, node.plane());
         let square = rational::scalar(&plane.normal, &plane.normal);
         score.lost += usize::from(is_lost(tree, node.plane(), &square));
-        // Beyond a limit on a side: by squares, because lengths are not rational.
+        // Whether a corner is beyond a limit on a side. Squares are compared, because lengths are not
+        // rational.
         let beyond = |corner: [f64; 3], limit: &Rational, side: i32| {
             let value = plane.at(&corner.map(rational::exact)) * Rational::from(side);
             rational::sign(&value).is_gt() && &value * &value > limit * limit * &square
@@ -112,7 +113,7 @@ fn judge(tree: &BspTree, score: &mut Score) -> Result<(), String> {
     tree.validate()
 }
 
-/// Whether the normal of a face's triangle, computed in floats, has another length.
+/// Whether floats give the normal of a face's triangle a wrong length.
 fn is_lost(tree: &BspTree, plane: binspace::internals::PlaneId, square: &Rational) -> bool {
     let binspace::internals::PlaneKind::Face(face) = plane.kind() else { return false };
     let triangle = tree.faces().reference_triangle(face);
@@ -121,14 +122,14 @@ fn is_lost(tree: &BspTree, plane: binspace::internals::PlaneId, square: &Rationa
     ((q - p).cross(r - p).length() - length).abs() > 1e-9 * length
 }
 
-/// Slivers, polygons in their planes and a few lengths off these, and some that are anywhere.
+/// Slivers, polygons in their planes, polygons a few tolerances off these planes, and some polygons anywhere.
 fn scene(dice: &mut Dice, size: i64, near: i64) -> Vec<Vec<Point>> {
     let mut polygons = Vec::new();
     for _ in 0..1 + dice.below(2) {
         let Sliver { corners, steps } = Sliver::new(dice, size);
         polygons.push(corners.to_vec());
         for _ in 0..dice.below(4) {
-            // Along the steps, and a bit off, corner by corner or as a whole.
+            // Along the steps, and slightly off, corner by corner or as a whole.
             let off = [0; 3].map(|_| whole(dice, near));
             let is_rough = dice.below(2) == 0;
             let corner = |_: usize| {
@@ -150,7 +151,7 @@ fn doubles(polygons: &[Vec<Point>]) -> Vec<Vec<[f64; 3]>> {
     polygons.iter().map(|polygon| polygon.iter().map(|p| p.map(|c| c as f64)).collect()).collect()
 }
 
-/// The same in `f32`, where products of integers are exact. The sliver has a corner next to the middle of its
+/// A sliver in `f32`, where products of integers are exact. The sliver has a corner next to the middle of its
 /// long side, with far smaller numbers.
 fn singles(dice: &mut Dice) -> Vec<[Vec3; 3]> {
     const SIZE: f64 = (1 << 22) as f64;
@@ -161,7 +162,7 @@ fn singles(dice: &mut Dice) -> Vec<[Vec3; 3]> {
     let across = (off - axis * (off.dot(axis) / axis.dot(axis))).normalize() * SIZE;
     let mut polygons = vec![[long, -long, middle]];
     for k in 0..7 {
-        // Three in its plane, up to rounding or a bit more.
+        // Three polygons in its plane, up to rounding or a bit more.
         let corner = |_: usize| match k {
             0..3 => {
                 let [s, t] = point(1.0).truncate().to_array();
@@ -186,7 +187,7 @@ fn file(polygons: &[Vec<Point>]) -> Scene {
     Scene::from_obj("slivers", text.as_bytes(), |_| None).unwrap().0
 }
 
-/// All heuristics, and frames: each tree of the polygons, as given.
+/// Judges the trees of the polygons by all heuristics, and of frames.
 fn judge_all<P: binspace::Polygon>(polygons: &[P], name: &str, score: &mut Score) {
     for (by, tree) in &trees(polygons, BuildOptions::DEFAULT) {
         judge(tree, score).unwrap_or_else(|what| panic!("{name}, {by}: {what}"));

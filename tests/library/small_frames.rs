@@ -1,5 +1,5 @@
-//! Trees of frames of small sets, whose own planes are tried first: squares of a few planes, many on one
-//! plane and many cut.
+//! Trees of frames with small sets, for which the builder tries own planes first. Squares lie in a few
+//! planes: many on one plane, and many cut.
 
 use testkit::prelude::*;
 
@@ -21,8 +21,8 @@ fn rectangles(dice: &mut Dice, count: usize) -> Vec<Square> {
     (0..count).map(&mut rectangle).collect()
 }
 
-/// A builder without the sort of the pieces on a node's plane, or that divides a set by the sides of its
-/// pieces of another plane, fails here.
+/// A builder fails here if it does not sort the pieces on a node's plane, or if it divides a set by the sides
+/// of pieces against another plane.
 #[test]
 fn small_sets_with_many_cuts_are_divided_right() {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT.with_tolerance(0.0));

@@ -1,4 +1,4 @@
-//! The combinations in the table of the crate page.
+//! Tests the combinations in the table of the crate page.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::partition::Extent;
@@ -17,14 +17,14 @@ fn squares() -> Vec<Vec<DVec3>> {
     (0..6).map(|k| rectangle([0.0, 0.25 * f64::from(k)], [2.0, 3.0], f64::from(k % 3))).collect()
 }
 
-/// All uses except drawings; returns the kind of a drawing's error.
+/// Uses a tree in every way. Returns the kind of the error of a drawing.
 fn use_all(tree: &BspTree) -> Option<ErrorKind> {
     let culling = Culling::NONE.with_facing(Facing::Front);
     let mut order = Vec::new();
     tree.order(ABOVE).culled(&culling).write_into(&mut order);
     assert_eq!(order.len(), tree.len());
     let down = Ray::new([1.0, 1.6, 8.0], [0.0, 0.0, -1.0]);
-    // Through all squares, of which a cell has some.
+    // The ray goes through all squares; a cell has some of them.
     let hits = tree.hits(down).count();
     assert!(hits == 6 || tree.is_of_cell() && hits < 6, "{hits}");
     assert_eq!(tree.is_occluded(down), hits > 0);
@@ -54,7 +54,7 @@ fn trees_frames_and_cells() {
     cells.for_each(|tree| assert_eq!(use_all(tree), Some(ErrorKind::Unsupported)));
 }
 
-/// Drawings refuse polygons of an overlay, and regions do not see them.
+/// Drawings refuse polygons of an overlay, and regions ignore them.
 #[test]
 fn trees_and_overlays() {
     let tree = BspTree::build(squares()).expect("a tree");

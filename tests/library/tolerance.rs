@@ -1,4 +1,4 @@
-//! The orders that the coplanar tolerance leaves open: the statements of `docs/guide/exact.md`.
+//! Tests the statements of `docs/guide/exact.md` on orders that the coplanar tolerance leaves open.
 
 use binspace::internals::LATTICE_LIMIT;
 use testkit::prelude::*;
@@ -18,7 +18,7 @@ fn is_met(outline: &[DVec3], eye: DVec3, target: DVec3) -> bool {
     sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
 }
 
-/// The polygon visible from an eye at a target: the last one painted.
+/// The polygon visible from an eye at a target: the last painted polygon.
 fn shown(tree: &BspTree, eye: DVec3, target: DVec3) -> usize {
     let mut painted = Vec::new();
     for fragment in tree.back_to_front(Viewpoint::Eye(eye)) {
@@ -37,7 +37,7 @@ fn built(polygons: &[[DVec3; 4]], tolerance: Option<f64>) -> BspTree {
     options.build(polygons).unwrap()
 }
 
-/// One layer above the plane of a third polygon and one below it, by less than the tolerance each.
+/// One layer is above the plane of a third polygon, and another is below it, both by less than the tolerance.
 #[test]
 fn only_layers_up_to_twice_the_tolerance_apart_may_be_exchanged() {
     let tolerance = 1e-3;
@@ -54,9 +54,9 @@ fn only_layers_up_to_twice_the_tolerance_apart_may_be_exchanged() {
     assert_eq!(shown_at(1.9 * tolerance, 0.0), upper);
 }
 
-/// A near wall that reaches below the plane of a floor, and a far one that reaches above it, by less than
-/// the tolerance each. The eye is a hundred tolerances away from that plane, but its ray keeps within the
-/// tolerance from one wall to the other.
+/// A near wall reaches below the plane of a floor, and a far wall reaches above it, both by less than the
+/// tolerance. The eye is a hundred tolerances away from this plane, but its ray stays within the tolerance of
+/// the plane from one wall to the other.
 #[test]
 fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_tolerance_of_a_plane() {
     let unit = 1e-3;
@@ -66,7 +66,8 @@ fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_toleran
     let floor = layer(DVec2::new(3.0, 5.0), DVec2::new(4.0, 6.0), 0.0);
     let polygons = [floor, wall(1.0, -0.5 * unit, 1.0), wall(2.0, -1.0, 0.5 * unit)];
     let (near, far) = (1, 2);
-    // From 0.4 units below the plane at the near wall to 0.4 units above it at the far one.
+    // The ray goes from 0.4 units below the plane at the near wall to 0.4 units above the plane at the far
+    // wall.
     let rise = 0.8 * unit;
     let eye = |distance: f64| dvec3(1.0 - distance, 0.1, -0.4 * unit - distance * rise);
     let target = dvec3(1.0, 0.1, -0.4 * unit);
@@ -74,12 +75,12 @@ fn polygons_far_apart_may_be_exchanged_along_a_ray_that_keeps_within_the_toleran
     assert!(eye.z < -100.0 * unit);
     assert_eq!(shown(&built(&polygons, Some(unit)), eye, target), far);
     assert_eq!(shown(&built(&polygons, Some(0.0)), eye, target), near);
-    // A ray that is steeper meets them in their order.
+    // A steeper ray meets both walls in the right order.
     let (above, target) = (dvec3(-1.0, 0.1, 0.8), dvec3(2.0, 0.1, -0.1));
     assert_eq!(shown(&built(&polygons, Some(unit)), above, target), near);
 }
 
-/// In metres: a millimetre between the layers, and a thousand kilometres to the stray vertex.
+/// In metres: the layers are a millimetre apart, and the stray vertex is a thousand kilometres away.
 #[test]
 fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
     let wide = [DVec2::splat(-1.0), DVec2::splat(1.0)];
@@ -96,9 +97,10 @@ fn a_stray_vertex_makes_thin_layers_interchangeable_by_default() {
     assert_eq!(look(&[upper, lower, stray], Some(0.0)), 0);
 }
 
-/// Layers count as coplanar, and so come in input order from below, up to the effective tolerance.
+/// Layers whose distance is at most the effective tolerance count as coplanar, so they come in input order
+/// from below.
 #[test]
-fn a_tolerance_beyond_a_share_of_the_extent_counts_as_that() {
+fn a_tolerance_is_limited_to_a_share_of_the_extent() {
     let wide = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let layer = |z: f64| wide.map(|[x, y]| [x, y, z]);
     let is_coplanar = |gap: f64, tolerance: f64| {

@@ -23,7 +23,7 @@ impl World {
         let origin = std::array::from_fn(|axis| {
             let corners = || scene.polygons.iter().flatten();
             let place = |corner: &DVec3| rational::exact(corner[axis]) / &step;
-            // Halfway between two grid points, a corner may be rounded to either.
+            // A corner halfway between two grid points may be rounded to either point.
             let is_halfway = |corner: &&DVec3| (place(corner).fract().abs() - &half) == zero;
             match corners().find(|corner| !is_halfway(corner)) {
                 Some(corner) => {
@@ -46,11 +46,11 @@ fn ulp(value: f64) -> f64 {
 struct Errors {
     vertices: usize,
     far: usize,
-    /// The largest error in lattice steps, where the coordinates' own steps are smaller, and in the
-    /// coordinate's own steps where they are larger.
+    /// The largest error in lattice steps, where the steps of coordinates are smaller; and the largest error
+    /// in steps of the coordinate, where these are larger.
     steps: f64,
     ulps: f64,
-    /// The largest error in steps of the coordinate, wherever it is.
+    /// The largest error in steps of the coordinate, everywhere.
     relative: f64,
 }
 
@@ -68,7 +68,7 @@ impl Errors {
                 let vertex_id =
                     meeting(lines[(i + lines.len() - 1) % lines.len()], lines[i], corners);
                 let point = exact.resolve(faces, vertex_id);
-                // The same, bit for bit, for all pieces that the same cuts made.
+                // The vertex is the same, bit for bit, in all pieces that the same cuts made.
                 let bits = vertex.to_array().map(f64::to_bits);
                 let name = format!("{} {name:?}", fragment.face());
                 prop_assert_eq!(*places.entry(name).or_insert(bits), bits, "{:?}", vertex_id);
@@ -100,15 +100,15 @@ fn vertices_in_the_world_are_as_near_their_exact_places_as_stated() {
     });
     let Errors { vertices, far, steps, ulps, relative } = errors;
     enough!(vertices > 10_000, far > 500; "{vertices} coordinates, {far} far out");
-    // The stated bounds are not far from the actual errors.
+    // The actual errors are not far below the documented bounds.
     assert!(steps > 0.2 && ulps > 0.4, "{steps} steps, {ulps} of the coordinates' own");
     // Near zero a coordinate's own steps are smaller than any error.
     assert!(relative > 100.0, "{relative}");
 }
 
 /// Vertices on planes perpendicular to an axis have their coordinate exactly, whatever the rounding of the
-/// others. Counts them: by the plane alone that cuts an edge, as the first of two planes, and as the
-/// second.
+/// others. Counts these vertices by the role of the plane: it alone cuts an edge, it is the first of two
+/// planes, or it is the second.
 fn check_axis_planes(tree: &BspTree, compared: &mut [usize; 3]) {
     for fragment in tree.fragments() {
         for (vertex_id, position) in fragment.vertex_ids().zip(fragment.lattice_vertices()) {

@@ -10,7 +10,7 @@ use testkit::prelude::*;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Corners that repeat, up to a number, with a hint of their number.
+/// A polygon of `len` repeating corners, with a size hint of `claim`.
 fn round(len: usize, claim: usize, read: &Cell<usize>) -> impl Polygon {
     let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
     let items = (0..len).map(move |k| {
@@ -24,7 +24,7 @@ fn claimed<I>(items: I, claim: usize) -> Hinted<I> {
     Hinted { items, hint: (claim, Some(claim)) }
 }
 
-/// A result, and the largest memory in use until then.
+/// The result of a function, and the largest memory in use while it ran.
 fn peak<T>(run: impl FnOnce() -> T) -> (T, usize) {
     (run(), most_bytes())
 }
@@ -42,7 +42,7 @@ fn hints_and_polygons_without_end_take_little_memory() {
     counted(read_too_much);
 }
 
-/// In the order of the allowed memory.
+/// The cases, in the order of the allowed memory.
 fn read_too_much() {
     // A claim beyond every limit is an error after a million polygons.
     let claims: [fn() -> Option<Error>; 5] = [
@@ -77,7 +77,7 @@ fn read_too_much() {
         let error = error.expect("a limit");
         assert_eq!(error.polygon(), Some(1));
         assert!(error.to_string().contains("corners"), "{error}");
-        // The precision of the triangle before reads its corners again.
+        // The triangle before it is read a second time, for its precision.
         assert_eq!(read.get(), 2 * 3 + MAX_CORNERS + 1);
         assert!(bytes < 300 << 20, "{bytes} bytes");
     }

@@ -1,4 +1,4 @@
-//! A frame whose layers did not change allocates nothing, nor does reading it.
+//! A frame whose layers did not change allocates nothing, and reading it allocates nothing.
 
 use super::{allocations, counted, least_allocations};
 use binspace::layers::{Layer, Layers};

@@ -4,7 +4,7 @@ use super::{counted, most_bytes};
 use testkit::prelude::*;
 
 #[test]
-fn a_false_length_asks_for_little_memory() {
+fn a_false_length_allocates_little_memory() {
     let tree = BspTree::build(scene::city(2000, 1).polygons()).unwrap();
     let mut file = Vec::new();
     tree.write(&mut file).unwrap();
@@ -22,7 +22,7 @@ fn read_forged(file: &[u8]) {
             refused += usize::from(BspTree::read(&forged[..]).is_err());
         }
     }
-    // Also for right files: the tree, the file, and a copy of each.
+    // The limit also holds for correct files: the tree, the file, and a copy of each.
     assert!(BspTree::read(file).is_ok());
     let most = most_bytes();
     assert!(most < 8 * file.len() + (1 << 20), "{most} bytes for {} ", file.len());

@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 #[global_allocator]
 static COUNTING: dhat::Alloc = dhat::Alloc;
 
-/// Counts while `work` runs and nothing else of this program does.
+/// Runs `work` while no other test of this program runs, and counts.
 fn counted(work: impl FnOnce()) {
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -27,8 +27,8 @@ fn allocations(work: impl FnOnce()) -> u64 {
     HeapStats::get().total_blocks - before
 }
 
-/// The fewest allocations of many runs. The test runner starts and ends threads beside a test, and
-/// they allocate: only a run that allocates each time fails.
+/// The fewest allocations of many runs. The test runner starts and ends threads while a test runs, and these
+/// allocate. So a test fails only if every run allocates.
 fn least_allocations(mut work: impl FnMut()) -> u64 {
     let mut least = u64::MAX;
     for _ in 0..1000 {

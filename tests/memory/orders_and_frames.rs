@@ -1,4 +1,4 @@
-//! A second order into the same list allocates nothing, nor does a second frame.
+//! A second order into the same list allocates nothing, and a second frame allocates nothing.
 
 use super::{allocations, counted, least_allocations};
 use binspace::Ray;
@@ -28,8 +28,8 @@ fn order_again() {
         scene::random_triangles(300, 1),
         scene::city(3000, 1),
     ];
-    // Eyes outside the scenes, in them and on planes, and directions along axes and others: for the filter
-    // and for the integers.
+    // Eyes outside the scenes, inside them and on planes, and directions along axes and others. The filter
+    // decides some, and integers decide others.
     let viewpoints = [
         Viewpoint::eye(FROM_ABOVE),
         Viewpoint::eye([0.0, 0.0, 0.0]),
@@ -67,7 +67,7 @@ fn order_again() {
     }
 }
 
-/// Rays and points: for the filter and for the integers.
+/// Rays and points that the filter decides, and others that integers decide.
 fn ask() {
     for scene in [scene::random_triangles(300, 1), scene::terrain(3000, 1)] {
         let tree = BspTree::build(scene.polygons()).unwrap();
@@ -111,6 +111,6 @@ fn frame_again() {
     // The lists have grown to their sizes after a few similar frames.
     (1..6).for_each(|turn| _ = frame(turn));
     let rounds = [6..12, 12..18, 18..24].map(|turns| turns.map(&mut frame).sum::<u64>());
-    // The program that runs the tests may allocate beside one of them.
+    // The test runner may allocate while a test runs.
     assert_eq!(rounds.into_iter().min(), Some(0), "{rounds:?}");
 }

@@ -1,4 +1,4 @@
-//! All fragments as arrays, compared with fragments one by one, and with the polygons as given.
+//! Compares the arrays of all fragments with the fragments one by one, and with the given polygons.
 
 use binspace::mesh::FragmentArrays;
 use proptest::test_runner::TestCaseError;
@@ -53,8 +53,8 @@ fn assert_copied(tree: &BspTree) {
     assert_eq!((double.edges, double.weight_corners), (single.edges, single.weight_corners));
 }
 
-/// Each vertex as the sum of the polygon's given corners by its weights, in rationals. Returns the number
-/// of vertices with one weight, two, and three.
+/// Checks each vertex against the weighted sum of the polygon's given corners, in rationals. Returns the
+/// number of vertices with one weight, two, and three.
 fn sums(tree: &BspTree, polygons: &[Corners]) -> Result<[usize; 3], TestCaseError> {
     let arrays = tree.arrays().expect("room");
     let lattice = tree.faces().lattice();
@@ -100,7 +100,7 @@ fn arrays_have_the_numbers_of_all_fragments() {
     // Frames store the positions of their vertices.
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
     assert_copied(builder.build(scene::random_triangles(150, 2).polygons()).expect("a tree"));
-    // No fragments: only the end of the offsets.
+    // Without fragments, only the end of the offsets remains.
     let arrays = BspTree::build([[[0.0; 3]; 3]; 0]).expect("a tree").arrays().expect("room");
     assert_eq!((arrays.offsets, arrays.weight_offsets), (vec![0], vec![0]));
 }
@@ -118,7 +118,7 @@ fn weights_give_the_vertices_back_from_the_given_corners() {
     enough!(counts[0] > 2000, counts[1] > 500, counts[2] > 20; "{counts:?}");
 }
 
-/// A square, cut in two by the plane of an upright one: drawn by hand.
+/// A hand-drawn case: a square that is cut in two by the plane of an upright square.
 #[test]
 fn a_square_cut_in_two() {
     let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];

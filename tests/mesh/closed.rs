@@ -1,4 +1,4 @@
-//! Closed bodies stay closed when they are cut and welded, and do not when they are not welded.
+//! Closed bodies stay closed if they are cut and welded. Without welding, they do not.
 
 use super::{is_closed_once, open_edges};
 use binspace::Tolerance;
@@ -21,7 +21,7 @@ fn boxes(count: usize) -> Vec<Vec<DVec3>> {
         .collect()
 }
 
-/// A body, and the least number of its cuts.
+/// Checks that the welded mesh of a body is closed. Returns the number of open edges without welding.
 fn check(name: &str, polygons: &[Vec<DVec3>], heuristic: Heuristic, tolerance: Tolerance) -> usize {
     let mut options = BuildOptions::DEFAULT.with_heuristic(heuristic);
     options.tolerance = tolerance;
@@ -56,8 +56,8 @@ fn closed_bodies_stay_closed() {
     enough!(open > 1000; "only {open} edges to be welded: the cases show little");
 }
 
-/// A body in `f32`, whose quads are bent, among random triangles that cut it. It comes first, or last: then
-/// other polygons are prepared before it, in other parts.
+/// A body in `f32` with bent quads, among random triangles that cut it. The body comes first or last in the
+/// input. If it is last, other polygons are prepared before it, in other parts.
 #[test]
 fn a_body_that_others_cut_stays_closed() {
     let body: Vec<Vec<[f32; 3]>> = boxes(2)

@@ -19,7 +19,7 @@ pub(crate) struct Seen {
     fragments: usize,
     /// Fragments of faces that have moved corners.
     moved: usize,
-    /// Fragments that are not judged because two of their vertices are too near to be distinguished.
+    /// Fragments that are not judged, because two vertices are too near to each other to be distinguished.
     skipped: usize,
 }
 
@@ -41,7 +41,7 @@ fn places(
             vertices.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
             prop_assert!(vertices.len() >= 3, "a fragment without triangles");
             prop_assert!(distance(&vertices[0]) <= 1e-12 * hard_size(tree));
-            // Two vertices that a rounding may have exchanged: neither is known from here.
+            // Rounding may have exchanged two vertices, so neither position is known from this fragment.
             if distance(&vertices[1]) <= 4e-12 * hard_size(tree) {
                 continue;
             }
@@ -102,7 +102,7 @@ fn check(tree: &BspTree, polygons: &[Vec<DVec3>], seen: &mut Seen) -> Result<(),
     inner_edges_match(tree, &mesh, 1e-11 * hard_size(tree))
 }
 
-/// The weights of every vertex give its place, up to a length.
+/// Checks that the weights of every vertex give its place, up to the length `slack`.
 fn weights_match(mesh: &Mesh, polygons: &[Vec<DVec3>], slack: f64) -> Result<(), TestCaseError> {
     for vertex in mesh.vertices() {
         let sum: f64 = vertex.weights.iter().map(|&(_, weight)| weight).sum();
@@ -117,8 +117,8 @@ fn weights_match(mesh: &Mesh, polygons: &[Vec<DVec3>], slack: f64) -> Result<(),
     Ok(())
 }
 
-/// If corners are moved onto planes, points stay at their given places. In the face's plane they are found
-/// by their weights, in `f64`: up to the tolerance, triangles fill their fragments there.
+/// If corners are moved onto planes, points stay at their given places. Their weights, in `f64`, give the
+/// positions in the face's plane. There, triangles fill their fragments up to the tolerance.
 pub(crate) fn check_moved(
     tree: &BspTree,
     polygons: &[Vec<DVec3>],
@@ -157,11 +157,11 @@ pub(crate) fn check_moved(
             sum += area;
             seen.triangles += 1;
         }
-        // A sliver that has no area as given has no triangles.
+        // A sliver whose given corners have no area has no triangles.
         prop_assert!((sum - whole).abs() <= slack * fragment.vertex_count() as f64);
         seen.fragments += 1;
         seen.moved += usize::from(face.moved);
-        // Vertices of a sliver may be one point where corners were given.
+        // The vertices of a sliver may be one point in the given corners.
         seen.inserted += (triangles.len() / 3 + 2).saturating_sub(fragment.vertex_count());
     }
     let moved = 4.0 * faces.lattice().length_to_world(faces.tolerance());
@@ -169,7 +169,7 @@ pub(crate) fn check_moved(
     inner_edges_match(tree, &mesh, 1e-11 * hard_size(tree) + moved)
 }
 
-/// Between the fragments of a face no edge is open: all open edges lie on the face's own.
+/// No edge between fragments of a face is open: all open edges lie on the edges of the face.
 fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), TestCaseError> {
     let mut by_face: HashMap<u32, Vec<u32>> = HashMap::new();
     let mut on_edges: HashMap<u32, usize> = HashMap::new();
@@ -186,7 +186,8 @@ fn inner_edges_match(tree: &BspTree, mesh: &Mesh, slack: f64) -> Result<(), Test
     }
     for (face, fragments) in by_face {
         let open = open_edges(mesh, mesh.triangles(), &fragments);
-        // The open edges are one closed path: each point has as many outgoing as incoming edges.
+        // The open edges are closed paths: at each point, the numbers of outgoing and incoming edges are
+        // equal.
         let mut balance: HashMap<u32, i32> = HashMap::new();
         for (&[a, b], &count) in &open {
             *balance.entry(a).or_default() += count;

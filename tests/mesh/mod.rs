@@ -10,8 +10,8 @@ mod tips;
 use binspace::mesh::{Mesh, Triangles};
 use std::collections::HashMap;
 
-/// The directed edges between points of some fragments' triangles, each with the number of times that it is
-/// run through, minus those in reverse; only those that do not cancel.
+/// The directed edges of some fragments' triangles, from point to point. Each has the number of times that it
+/// occurs, minus the number of times that its reverse occurs. Edges that cancel are left out.
 fn open_edges(mesh: &Mesh, triangles: &Triangles, fragments: &[u32]) -> HashMap<[u32; 2], i32> {
     let mut edges: HashMap<[u32; 2], i32> = HashMap::new();
     for &fragment in fragments {
@@ -27,7 +27,7 @@ fn open_edges(mesh: &Mesh, triangles: &Triangles, fragments: &[u32]) -> HashMap<
     edges
 }
 
-/// Whether every directed edge is matched by its reverse, and runs once.
+/// Whether every directed edge occurs once, and its reverse occurs once.
 fn is_closed_once(mesh: &Mesh) -> bool {
     let mut edges: HashMap<[u32; 2], u32> = HashMap::new();
     for triangle in mesh.triangles().indices().chunks(3) {

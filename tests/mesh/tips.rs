@@ -1,14 +1,14 @@
-//! Tips that a plane cuts off a face with moved corners, but not off the face as given.
+//! Tips that a plane cuts off a face with moved corners, but would not cut off the given polygon.
 
 use crate::mesh::exact::{Seen, check_moved};
 use binspace::Fragment;
 use testkit::prelude::*;
 
-/// The distance of a quad's topmost corner, as given, below the plane of the others: less than the
+/// The distance of a quad's topmost given corner below the plane of the other corners: less than the
 /// tolerance.
 const OFF: f64 = 1.0 / 64.0;
 
-/// A floor through that corner as given, triangles that cut the tip above it, and the quad.
+/// A floor through the given topmost corner, triangles that cut the tip above it, and the quad.
 fn polygons(triangles: usize, dice: &mut Dice) -> Vec<Vec<DVec3>> {
     let quad = [[2.0, 1.0, -2.625], [4.0, 4.0, -7.0], [1.0, 2.0, -2.625], [0.0, 0.0, -OFF]];
     let floor = [(-3.0, -3.0), (-2.0, -3.0), (-2.0, -2.0), (-3.0, -2.0)].map(|(x, y)| [x, y, -OFF]);

@@ -41,13 +41,14 @@ fn malformed_and_missing_parts_are_left_out_and_counted() {
     let (scene, report) =
         read(with_corners("vt x 1\nvn 0 1\nvt 1 1\nf 1/1/1 2/2/7 3/0 4/-5\nf 1/x 2/9 3//y"))
             .unwrap();
-    // Two lines; two references to them, which are without a value; 7, 0, -5, x, 9 and y.
+    // Skipped are two lines, two references to these lines, which have no value, and the references 7, 0, -5,
+    // x, 9 and y.
     assert_eq!(report.skipped_attributes, 8);
     assert!(report.to_string().contains("texture coordinates and normals skipped: 8"), "{report}");
     let uv: Vec<_> = (0..4).map(|k| scene.uv(0, k)).collect();
     assert_eq!(uv, [None, Some(DVec2::ONE), None, None]);
     assert_eq!(scene.normal(0, 0), None);
-    // A later one in the file exists.
+    // The referenced element comes later in the file.
     let (scene, report) = read(with_corners("f 1/1 2/1 3/1\nvt 0.5 0.5")).unwrap();
     assert!(report.is_clean(), "{report}");
     assert_eq!(scene.uv(0, 2), Some(DVec2::splat(0.5)));

@@ -56,7 +56,7 @@ fn bad_coordinates_are_refused_with_their_line() {
     }
 }
 
-/// Each of these is another number, or none, in 32 bits.
+/// In 32 bits, each of these would be another number or not a number.
 #[test]
 fn coordinates_are_read_in_64_bits() {
     for text in ["1e39", "0.1", "16777217", "1.7976931348623157e308", "5e-324"] {

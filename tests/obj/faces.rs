@@ -1,4 +1,4 @@
-//! The data kept of faces, and their syntax.
+//! The data of faces that are kept, and the syntax of faces.
 
 use crate::obj::{CORNERS, read, sides, with_corners};
 use binspace::scene::ObjReport;

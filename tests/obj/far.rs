@@ -5,8 +5,8 @@ use testkit::prelude::*;
 
 use super::read;
 
-/// A ground of 100 m by 100 m at a place, and two slabs on it, a given number of decimal units apart; the ground
-/// is not quite level.
+/// A ground of 100 m by 100 m at a place, not quite level, and two slabs on it whose distance is a given
+/// number of decimal units.
 fn site(at: [f64; 2], places: usize, units: [f64; 2]) -> String {
     let unit = 10f64.powi(-(places as i32));
     let mut text = String::new();
@@ -52,8 +52,8 @@ fn slabs_of_a_site_plan_keep_their_order_wherever_it_lies() {
     }
 }
 
-/// Cards of a tilted plane, rotated by a matrix of `f32` far from the origin, and written with all digits
-/// of an `f32`: their steps count, however large a share of the extent they are.
+/// Cards of a tilted plane, rotated by a matrix of `f32` far from the origin, and written with all digits of
+/// an `f32`: the steps of these numbers count, however large a share of the extent they are.
 #[test]
 fn files_of_single_precision_far_out_are_as_precise_as_that() {
     let mut text = String::new();

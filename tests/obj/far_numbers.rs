@@ -1,4 +1,5 @@
-//! Faces that name vertices far beyond the number in the file: an error, before any memory is allocated.
+//! Faces that name vertices far beyond the last vertex of the file are an error, before any memory is
+//! allocated.
 
 use std::fs;
 use testkit::prelude::*;
@@ -8,9 +9,9 @@ use binspace::scene::ObjStream;
 use super::file;
 
 #[test]
-fn a_vertex_number_beyond_the_file_asks_for_no_memory() {
+fn a_vertex_number_beyond_the_file_allocates_no_memory() {
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    // A bit for each vertex would be a gigabyte, a petabyte, more than any machine has.
+    // A bit for each vertex would take a gigabyte, a petabyte, or more than any machine has.
     for number in ["8000000000", "9000000000000000", "9000000000000000000", "9223372036854775807"] {
         for text in [
             format!("{corners}f 1 2 {number}\n"),
@@ -35,7 +36,8 @@ fn peak() -> usize {
     line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
 }
 
-/// Vertices may come after the faces that name them, and each is a corner once.
+/// Vertices may come after the faces that name them. Each vertex is a corner once, however many faces name
+/// it.
 #[test]
 fn vertices_that_come_later_are_corners() {
     let mut text = String::new();
@@ -53,7 +55,7 @@ fn vertices_that_come_later_are_corners() {
     assert!(stream.corners().map(|corner| corner.x).eq((0..600).map(f64::from)));
 }
 
-/// Whatever faces came before: the number is one more than the highest so far, or than the vertices.
+/// The number is one above the number of vertices, whatever faces come before it.
 #[test]
 fn a_number_one_past_the_last_vertex_is_an_error() {
     for (name, vertices, faces) in

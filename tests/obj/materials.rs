@@ -45,7 +45,7 @@ fn several_libraries_may_stand_in_one_line() {
 }
 
 #[test]
-fn libraries_that_lead_out_of_the_folder_are_never_asked_for() {
+fn libraries_outside_the_folder_are_never_read() {
     for (name, asked) in [
         ("../a.mtl", vec![]),
         ("sub/../../a.mtl", vec![]),
@@ -95,7 +95,7 @@ fn bad_lines_in_a_library_spoil_nothing_else() {
 fn materials_whose_names_differ_in_one_byte_that_is_no_utf8_have_their_own_colours() {
     let mut text = with_corners("").into_bytes();
     let mut library = Vec::new();
-    // 0xA0 and 0x85 are spaces in Latin-1, and halves of letters elsewhere.
+    // 0xA0 and 0x85 are spaces in Latin-1, and parts of letters in UTF-8.
     let names = [&b"\xe8"[..], b"\xe9", b"a", b"a\xa0", b"a\x85", b"\xc3\xa9"];
     for (number, name) in names.iter().enumerate() {
         text.extend([b"usemtl ", *name, b"\nf 1 2 3\n"].concat());

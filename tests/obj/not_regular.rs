@@ -58,12 +58,12 @@ fn folders_and_devices_are_refused() {
     for (device, says) in [("/dev/zero", "zero byte"), ("/dev/null", "no faces")] {
         let [whole, streamed] = refused(Path::new(device));
         assert!(whole.contains(says), "{device}: {whole}");
-        // It would be read twice.
+        // A pipe would have to be read twice.
         assert!(streamed.contains("regular"), "{device}: {streamed}");
     }
 }
 
-/// An unnamed pipe, as a shell passes to a program, has a writer.
+/// An unnamed pipe, which a shell passes to a program, has a writer, so the pipe is read.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_pipe_without_a_name_is_read() {
@@ -103,7 +103,7 @@ fn a_material_library_that_is_no_file_is_missing() {
     assert_eq!(report.missing_libraries, ["m.mtl"]);
 }
 
-/// Between one reading and the next.
+/// The file becomes a pipe between the two readings.
 #[test]
 fn a_file_that_becomes_a_pipe_is_refused() {
     let folder = folder("becomes_pipe");
@@ -119,7 +119,7 @@ fn a_file_that_becomes_a_pipe_is_refused() {
     assert!(message.contains("regular"), "{message}");
 }
 
-/// As with the shell's `<`: the file is open, and named by its number.
+/// As with the shell's `<`, the file is open, and its path is the number of the descriptor.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_regular_file_behind_a_device_is_read() {

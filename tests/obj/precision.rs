@@ -5,7 +5,8 @@ use testkit::prelude::*;
 
 use super::{read, with_corners};
 
-/// Quads with a normal, `units` units of the last of six decimals apart, written with a number format.
+/// Quads with a common normal, written with a number format. Their distance is `units` units of the last of
+/// six decimals.
 fn layers(count: usize, units: f64, write: impl Fn(f64) -> String) -> (Scene, DVec3) {
     let normal = DVec3::new(1.0, 2.0, 3.0).normalize();
     let (across, along) = normal.any_orthonormal_pair();
@@ -40,7 +41,7 @@ fn quads_that_only_the_decimals_bend_stay_whole() {
     let prepared = *BspTree::build(scene.polygons()).unwrap().preparation();
     enough!(prepared.flattened > 40; "{prepared:?}");
     assert!(prepared.triangulated == 0, "{prepared:?}");
-    // With the same numbers taken as exact, most are triangulated.
+    // If the same numbers count as exact, most quads are triangulated.
     let exact: Vec<Vec<DVec3>> =
         scene.polygons().map(|polygon| polygon.points().to_vec()).collect();
     let prepared = *BspTree::build(&exact).unwrap().preparation();
@@ -64,7 +65,7 @@ fn writers() -> [Box<dyn Fn(f64) -> String>; 4] {
                 c.to_string()
             }
         }),
-        // The noise of a computation in each of them.
+        // Each writer adds the noise of a computation.
         Box::new(|c| {
             let c: f64 = format!("{c:.6}").parse().unwrap();
             f64::from_bits(c.to_bits() + 1).to_string()
@@ -91,8 +92,8 @@ fn layers_some_units_apart_keep_their_order() {
     }
 }
 
-/// Cards of one tilted plane, computed by a matrix, written with six decimals: none is cut, and those that
-/// overlap come in the file's order.
+/// Cards of one tilted plane, computed by a matrix and written with six decimals. No card is cut, and
+/// overlapping cards come in the file's order.
 #[test]
 fn cards_of_one_plane_keep_their_order() {
     let mut random = testkit::dice::Dice(5);
@@ -132,7 +133,8 @@ fn cards_of_one_plane_keep_their_order() {
     enough!(compared > 5000; "{compared}");
 }
 
-/// Integers, padded with zeros, and two thin layers over a floor: they are few, but not strays.
+/// Integers padded with zeros, and two thin layers over a floor. The numbers of the layers are few, but they
+/// are not strays.
 #[test]
 fn few_thin_layers_among_short_numbers_keep_their_order() {
     let mut text = String::new();

@@ -70,8 +70,8 @@ fn torture_files_are_read_or_refused_with_a_reason() {
     assert!(read("empty_mat.obj").is_ok());
 }
 
-/// Two independent evaluations of the published patches: every corner of one is
-/// a corner of the other. The file has 5 decimals.
+/// Compares two independent evaluations of the published patches: every corner of one is a corner of the
+/// other. The file has 5 decimals.
 #[test]
 #[ignore = "needs the real scenes: BINSPACE_SCENES"]
 fn generated_teapot_agrees_with_the_real_one() {

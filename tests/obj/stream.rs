@@ -1,4 +1,4 @@
-//! Files read polygon by polygon: the same polygons, materials, precision and errors.
+//! Files read polygon by polygon give the same polygons, materials, precision and errors.
 
 use std::fs;
 use std::path::PathBuf;
@@ -41,7 +41,7 @@ fn same(test: &str, text: impl AsRef<[u8]>) {
 }
 
 #[test]
-fn what_is_read_is_the_same() {
+fn streams_read_the_same_polygons() {
     let text = "mtllib m.mtl\r\nv 0.25 0 0\nv 1e1 -0.125 0.5 1 0 0\nv 0 7 0\nv 99 99 99\nvt 0 1\n\
         vn 0 0 1\nusemtl a\nf 1/1/1 2 \\\n 3\n# \\\nusemtl b c\rf -4 -2 -3\nl 1 2\np 1\nusemtl\nf 5 6 1 1\n\
         curv 1\nusemtl none\nv 3 3 3\nv 1 2 3 0.5\nf 1 2 3 5 6\nf\n";
@@ -51,7 +51,7 @@ fn what_is_read_is_the_same() {
 }
 
 #[test]
-fn what_is_refused_is_the_same() {
+fn streams_refuse_the_same_files() {
     for text in [
         "",
         "v 1 2\nf 1 1 1\n",

@@ -1,4 +1,4 @@
-//! A cleared overlay is as one that was never given anything.
+//! A cleared overlay is equal to an overlay that never had contents.
 
 use binspace::Preparation;
 use binspace::overlay::{Overlay, Shapes};
@@ -23,7 +23,7 @@ fn a_cleared_overlay_keeps_no_preparation() {
     assert_eq!(*overlay.preparation(), Preparation::default());
     assert_eq!(format!("{overlay:?}"), fresh);
     assert_eq!(overlay.faces().len(), tree.faces().len());
-    // So it is after an error.
+    // The same holds after an error.
     overlay.replace(&tree, [square]).expect("on the grid");
     assert!(overlay.replace(&tree, [square.map(|[x, y, _]| [x, y, f64::NAN])]).is_err());
     assert_eq!(*overlay.preparation(), Preparation::default());

@@ -60,7 +60,7 @@ fn an_overlay_of_nothing_gives_the_order_of_the_tree() {
     }
 }
 
-/// Without a tree the overlay is a tree of its own.
+/// If the tree is empty, the overlay orders its contents alone.
 #[test]
 fn an_empty_tree_can_have_an_overlay() {
     let bounds = [DVec3::splat(-5.0), DVec3::splat(5.0)];
@@ -106,14 +106,14 @@ fn lines_and_points_of_a_plane_come_after_its_polygons_in_input_order() {
         [dvec3(0.0, 0.0, 0.0), dvec3(2.0, 2.0, 0.0)],
         [dvec3(0.0, 2.0, 0.0), dvec3(2.0, 0.0, 0.0)],
     ];
-    // Beyond the polygons, but in their plane; and on a corner.
+    // Points beyond the polygons but in their plane, and a point on a corner.
     let points = [dvec3(3.0, 3.0, 0.0), dvec3(1.0, 1.0, 0.0), dvec3(0.0, 0.0, 0.0)];
     let shapes = Shapes::NONE.with_polygons([decal]).with_lines(cross).with_points(points);
     overlay.replace_with(&tree, shapes).expect("on the grid");
     for z in BOTH_SIDES {
         assert_eq!(painted(&tree, &overlay, from(z)), "0 1 l0 l1 p0 p1 p2");
     }
-    // The same if the polygons move and the tree is empty: in one cell.
+    // The order is the same if the polygons move and the tree is empty, so all is in one cell.
     let tree = tree_of(&[], 0.0);
     let mut overlay = Overlay::new(&tree);
     let shapes = Shapes::NONE.with_polygons([square(0.0, 0.0), square(1.0, 0.0)]);
@@ -122,7 +122,7 @@ fn lines_and_points_of_a_plane_come_after_its_polygons_in_input_order() {
     for z in BOTH_SIDES {
         assert_eq!(painted(&tree, &overlay, from(z)), "0 1 l0 l1 p0 p1 p2");
     }
-    // And without a polygon.
+    // Lines and points without a polygon.
     let shapes = Shapes::NONE.with_lines(cross).with_points(points);
     overlay.replace_with(&tree, shapes).expect("on the grid");
     for z in BOTH_SIDES {
@@ -176,8 +176,8 @@ fn a_line_goes_through_a_polygon_in_two_pieces() {
     }
 }
 
-/// A polygon that reaches no further from a plane than the tolerance lies on it; one that reaches further
-/// on one side is not cut for less than the tolerance on the other.
+/// A polygon that reaches no further from a plane than the tolerance lies on the plane. A polygon that
+/// reaches further on one side is not cut if it reaches less than the tolerance on the other side.
 #[test]
 fn the_tolerance_counts_for_lines_and_points_as_for_polygons() {
     let tree = tree_of(&[0.0], 0.01);

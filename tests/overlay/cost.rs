@@ -1,10 +1,10 @@
-//! Moving polygons are cut where necessary, and no more.
+//! Moving polygons are cut only where necessary.
 
 use binspace::overlay::Overlay;
 use testkit::prelude::*;
 
-/// Small polygons in free air stay whole; one across the whole scene is cut by a few of its planes,
-/// not by all.
+/// Small polygons in free air stay whole. A polygon across the whole scene is cut by a few planes of the
+/// scene, not by all.
 #[test]
 fn pieces_are_few() {
     let scene = scene::terrain(40, 3);

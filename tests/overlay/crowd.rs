@@ -1,14 +1,16 @@
-//! Crowds go to one side of a plane at once, by their boxes: only where each of them would go there.
+//! A crowd of shapes goes to one side of a plane at once, by its box, only if each shape alone would go
+//! there.
 
 use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;
 
-/// Polygons above each other, each slightly tilted, and as many lines: enough that their box is tested.
+/// The number of polygons above each other, each slightly tilted, and the number of lines: enough that the
+/// builder tests their box.
 const LAYERS: usize = 140;
 
-/// For each polygon, and then for each line, whether it has pieces that come before the only polygon of
-/// the tree, and after it, seen from above and from below.
+/// Returns, for each polygon and then for each line, whether it has pieces before and after the only polygon
+/// of the tree in the order, seen from above and from below.
 fn sides(tree: &BspTree, polygons: &[[DVec3; 3]], lines: &[[DVec3; 2]]) -> Vec<[[bool; 2]; 2]> {
     let mut overlay = Overlay::new(tree);
     let shapes = Shapes::NONE.with_polygons(polygons).with_lines(lines);
@@ -30,7 +32,7 @@ fn sides(tree: &BspTree, polygons: &[[DVec3; 3]], lines: &[[DVec3; 2]]) -> Vec<[
     sides
 }
 
-/// The lowest polygon reaches a plane, misses it, or goes through it, by any length. Polygons of the crowd
+/// The lowest polygon reaches a plane, or misses it or goes through it by any length. Polygons of the crowd
 /// are cut as if each were alone.
 #[test]
 fn polygons_of_a_crowd_are_cut_as_if_each_were_alone() {
@@ -68,7 +70,7 @@ fn polygons_of_a_crowd_are_cut_as_if_each_were_alone() {
     assert!(compared == 240 && (60..240).contains(&cut), "{cut} in {compared}");
 }
 
-/// A crowd that has gone to its leaf says nothing of the next one.
+/// The place of one crowd does not decide the place of the next.
 #[test]
 fn crowds_in_several_leaves_are_placed_each_by_its_own_box() {
     let wall =
@@ -78,7 +80,7 @@ fn crowds_in_several_leaves_are_placed_each_by_its_own_box() {
     let tree = BuildOptions::DEFAULT.with_bounds(-room, room).build(walls).expect("a tree");
     let mut overlay = Overlay::new(&tree);
     let mut checked = 0;
-    // Between which walls the crowds are.
+    // The slabs between walls in which the crowds are.
     for slabs in [vec![0, 2], vec![2, 0], vec![3, 1], vec![0, 1, 2, 3], vec![3, 2, 1, 0]] {
         let of_slab = |&slab: &usize| {
             (0..300).map(move |k| {

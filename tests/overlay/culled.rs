@@ -4,7 +4,7 @@ use binspace::overlay::{Overlay, Shape, Shapes};
 use binspace::{Culling, Facing, Frustum};
 use testkit::prelude::*;
 
-/// The points that decide whether a shape is in a frustum, and the side that it shows.
+/// The points that decide whether a shape is in a frustum, and the side that the shape shows.
 fn looked_at(shape: Shape<'_>, viewpoint: Viewpoint) -> (Vec<DVec3>, Option<Facing>) {
     match shape {
         Shape::Fragment(piece) => (piece.vertices().collect(), Some(piece.facing(viewpoint))),
@@ -82,8 +82,8 @@ fn a_culled_order_is_the_whole_order_without_outside_and_back_facing_fragments()
     enough!(kept > 200, outside > 200, turned > 200, lines > 60; "{kept} {outside} {turned} {lines}");
 }
 
-/// Coplanar pieces keep their input order after the fragments on their plane, culled or not, and a buffer's
-/// earlier contents are gone.
+/// Coplanar pieces keep their input order after the fragments on their plane, with and without culling. The
+/// earlier contents of a buffer are replaced.
 #[test]
 fn coplanar_pieces_keep_their_places() {
     let square = |x: f64, z: f64| [[x, 0.0, z], [x + 1.0, 0.0, z], [x + 1.0, 1.0, z], [x, 1.0, z]];
@@ -108,7 +108,7 @@ fn coplanar_pieces_keep_their_places() {
     enough!(left > 40, right > 4; "{left} {right}");
 }
 
-/// Without shapes, it is the tree's own culled order.
+/// Without shapes, the culled order is the tree's own culled order.
 #[test]
 fn an_empty_overlay_culls_as_its_tree_does() {
     let tree = BspTree::build(scene::city(200, 1).polygons()).expect("within budget");
@@ -122,7 +122,7 @@ fn an_empty_overlay_culls_as_its_tree_does() {
     assert!(own == both && !own.is_empty() && own.len() < tree.len(), "{}", own.len());
 }
 
-/// Pieces that are seen edge-on are kept alone, or left out.
+/// Pieces that are seen edge-on are kept only by `Facing::EdgeOn`.
 #[test]
 fn pieces_seen_edge_on_are_of_neither_side() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];

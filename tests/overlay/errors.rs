@@ -72,8 +72,7 @@ fn bounds_must_be_finite() {
     }
 }
 
-/// Trees of other sizes, and trees that differ in nothing that is counted: in the grid alone, or in the
-/// tolerance alone.
+/// Trees of other sizes, and trees with equal counts that differ only in the grid or only in the tolerance.
 #[test]
 fn another_tree_is_refused() {
     let scene = scene::city(100, 1);
@@ -82,7 +81,8 @@ fn another_tree_is_refused() {
             scene.polygons().map(|p| p.points().iter().map(|&c| c * by).collect::<Vec<_>>());
         BspTree::build(polygons).expect("within budget")
     };
-    // Twice as large, its grid is as fine for its size, and its tolerance as many steps.
+    // In a tree twice as large, the grid is as fine for its size, and the tolerance has the same number of
+    // steps.
     let (tree, twice, thrice) = (scaled(1.0), scaled(2.0), scaled(3.0));
     assert_eq!(tree.faces().tolerance(), twice.faces().tolerance());
     let tolerance = scene.bounds().map(|(low, high)| (high - low).max_element() * 2e-9);
@@ -107,7 +107,7 @@ fn another_tree_is_refused() {
 }
 
 #[test]
-fn lines_and_points_to_blame_are_named() {
+fn faulty_lines_and_points_are_named() {
     let tree = BspTree::build(scene::city(100, 1).polygons()).expect("within budget");
     let mut overlay = Overlay::new(&tree);
     let inside = triangle(DVec3::ONE);
@@ -162,7 +162,7 @@ fn a_replacement_reports_progress_and_can_be_cancelled() {
     assert_eq!(overlay.len(), whole);
 }
 
-/// At any step of the overlay when the caller's callback or iterator panics.
+/// The caller's callback or iterator panics at any step of the overlay.
 #[test]
 fn after_a_panic_in_a_callback_an_overlay_is_empty_and_goes_on() {
     let scene = scene::random_triangles(60, 3);

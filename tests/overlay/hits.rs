@@ -1,4 +1,4 @@
-//! Hits of rays on a tree and an overlay, against integers: every ray against every polygon.
+//! Compares the hits of rays on a tree and an overlay with integers: every ray with every polygon.
 
 use binspace::overlay::{Overlay, Shapes};
 use binspace::{ErrorKind, Ray};
@@ -11,8 +11,8 @@ use testkit::shots::Shots;
 
 use super::{Divided, divide};
 
-/// The score, the number of hits of the overlay's polygons, and the number of these between two hits of the
-/// tree's polygons.
+/// The score, the number of hits of the overlay's polygons, and how many of these hits are between two hits
+/// of the tree's polygons.
 #[derive(Debug, Default)]
 struct Counts {
     score: Score,
@@ -31,8 +31,7 @@ fn rays_agree_with_integers() {
         if polygons.faces().is_empty() {
             return Ok(());
         }
-        // Other contents first, so that a remainder of them would be hit; and lines and points, which are
-        // never hit.
+        // Other contents come first, so that remains of them would be hit. Lines and points are never hit.
         let mut overlay = Overlay::new(&tree);
         overlay.replace(&tree, &all).map_err(fail)?;
         let _ = overlay.is_occluded(&tree, Ray::between(DVec3::ZERO, DVec3::ONE));
@@ -60,7 +59,7 @@ fn rays_agree_with_integers() {
     assert!(score.blocked.min(score.clear) > 3000, "{counts:?}");
 }
 
-/// Thousands of pieces, whose boxes are summed up in boxes several times.
+/// Thousands of pieces, so that boxes are grouped in boxes on several levels.
 #[test]
 fn rays_at_large_overlays_agree_with_integers() {
     let body = polygons(&scene::sphere(3000));
@@ -79,7 +78,7 @@ fn rays_at_large_overlays_agree_with_integers() {
     enough!(score.hits > 2000, score.in_plane > 100, score.ties > 1000; "{score:?}");
 }
 
-/// At one point the tree's polygons come first, whichever is nearer in the input.
+/// At one point, the tree's polygons come before the overlay's polygons.
 #[test]
 fn ties_come_in_input_order() {
     let square = |z: f64| rectangle([0.0, 0.0], [4.0, 4.0], z);

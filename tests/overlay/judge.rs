@@ -1,5 +1,5 @@
-//! Judges an overlay's order: the painter's picture of both parts against an exact depth buffer of
-//! all faces.
+//! Judges an overlay's order: compares the painter's picture of both parts with an exact depth buffer of all
+//! faces.
 
 use std::collections::HashMap;
 use testkit::prelude::*;
@@ -16,19 +16,20 @@ use testkit::rational::Point;
 #[derive(Debug, Default)]
 pub(crate) struct Judged {
     pub(crate) pictures: usize,
-    /// Pixels that show a polygon, and pixels that show a moving one.
+    /// Pixels that show a polygon, and pixels that show a moving polygon.
     pub(crate) covered: usize,
     pub(crate) moving: usize,
     pub(crate) contested: usize,
 }
 
 impl Judged {
-    /// Looks at both from a camera that may not fit the grid.
+    /// Judges both parts from a camera that may not fit the grid.
     pub(crate) fn look(&mut self, tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Verdict {
         self.look_at_polygons(tree, overlay, overlay.faces(), camera)
     }
 
-    /// The same check, with the faces of the tree and of the overlay's polygons, without lines and points.
+    /// Runs the check of `look` with given faces of the tree and of the overlay's polygons, without lines and
+    /// points.
     pub(crate) fn look_at_polygons(
         &mut self,
         tree: &BspTree,
@@ -76,8 +77,8 @@ impl Judged {
         Ok(())
     }
 
-    /// At least this many pictures, pixels, and pixels that show moving polygons; a tenth contested at
-    /// most.
+    /// Asserts at least this many pictures, pixels, and pixels that show moving polygons. At most a tenth may
+    /// be contested.
     pub(crate) fn assert_floor(&self, pictures: usize, covered: usize, moving: usize) {
         let is_enough = self.pictures >= pictures && self.covered >= covered;
         assert!(
@@ -87,8 +88,8 @@ impl Judged {
     }
 }
 
-/// The order as a list, if all forms agree, each number comes once, and the tree's fragments come as
-/// in the tree.
+/// Returns the order as a list. Returns an error unless all forms agree, each number occurs once, and the
+/// tree's fragments are in the tree's order.
 fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>, String> {
     let viewpoint = camera.viewpoint();
     let (mut order, mut still, mut near) = (vec![7], Vec::new(), Vec::new());
@@ -112,7 +113,8 @@ fn forms(tree: &BspTree, overlay: &Overlay, camera: &Camera) -> Result<Vec<u32>,
     Ok(order)
 }
 
-/// Whether the pieces of every moving face have its area, exactly; returns the number of faces.
+/// Checks that the pieces of every moving face have exactly the area of the face. Returns the number of
+/// faces.
 pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> {
     let faces = overlay.faces();
     let first = tree.faces().len() as u32;
@@ -125,7 +127,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
         let points: Vec<Point> =
             piece.vertex_ids().map(|vertex_id| models[at].resolve(faces, vertex_id)).collect();
         let area = rational::area(&points);
-        // Pieces have their face's orientation: none counts against another.
+        // Pieces have the orientation of their face, so areas do not cancel.
         let along = rational::scalar(&area, &models[at].plane.normal);
         ensure(rational::sign(&along).is_gt(), || format!("piece {number} is turned over"))?;
         sums[at] =
@@ -138,7 +140,7 @@ pub(crate) fn areas(tree: &BspTree, overlay: &Overlay) -> Result<usize, String> 
     Ok(models.len())
 }
 
-/// Whether two overlays have the same pieces: earlier contents leave no trace.
+/// Checks that two overlays have the same pieces, so that earlier contents leave no trace.
 pub(crate) fn same(tree: &BspTree, overlays: [&Overlay; 2]) -> Verdict {
     let [bytes, others] = overlays.map(|overlay| overlay.faces().memory_usage());
     ensure(bytes == others, || format!("faces of {bytes} and {others} bytes"))?;

@@ -20,7 +20,7 @@ struct Scene {
 }
 
 fn whole(dice: &mut Dice) -> DVec3 {
-    // Multiples of four, so that the middle of a middle is whole.
+    // Multiples of four, so that a midpoint between midpoints has integer coordinates.
     dice.whole_point(3) * 4.0
 }
 
@@ -31,7 +31,7 @@ fn polygon(dice: &mut Dice) -> Corners {
         0 => vec![at, at + u, at + v],
         1 => vec![at, at + u, at + u + v, at + v],
         _ => {
-            // Perpendicular to an axis, where others lie as well.
+            // Perpendicular to an axis, in a plane that contains other polygons as well.
             let axis = dice.below(3);
             let [u, v] =
                 [DVec3::AXES[(axis + 1) % 3], DVec3::AXES[(axis + 2) % 3]].map(|a| 8.0 * a);
@@ -40,17 +40,17 @@ fn polygon(dice: &mut Dice) -> Corners {
     }
 }
 
-/// A line that has something to do with a polygon or another line.
+/// A line that touches or crosses a polygon or another line.
 fn line(scene: &Scene, dice: &mut Dice) -> Corners {
     let of = &scene.polygons[dice.below(scene.polygons.len())];
     let n = of.len();
     let k = dice.below(n);
     let (a, b, c) = (of[k], of[(k + 1) % n], of[(k + 2) % n]);
     match dice.below(8) {
-        // Along an edge, and on.
+        // Along an edge, and beyond the edge.
         0 => vec![a, b],
         1 => vec![a - (b - a), b + (b - a), whole(dice)],
-        // Across, in its plane.
+        // Across the polygon, in its plane.
         2 => vec![(a + b) / 2.0, c, (b + c) / 2.0],
         // Through a corner, or through the middle of an edge.
         3 => {
@@ -61,7 +61,7 @@ fn line(scene: &Scene, dice: &mut Dice) -> Corners {
             let (step, middle) = (whole(dice), (a + b) / 2.0);
             vec![middle + step, middle - step]
         }
-        // A part of another, or across it.
+        // A part of another line, or across another line.
         5 if !scene.lines.is_empty() => {
             let other = &scene.lines[dice.below(scene.lines.len())];
             vec![(other[0] + other[1]) / 2.0, other[1], other[0]]
@@ -99,7 +99,7 @@ fn scene(dice: &mut Dice) -> Scene {
     scene
 }
 
-/// Viewpoints anywhere, and in line with a point and something else; whole numbers.
+/// Viewpoints in whole numbers: anywhere, or in line with a point and another place.
 fn eyes(scene: &Scene, dice: &mut Dice) -> Vec<DVec3> {
     let mut eyes: Vec<DVec3> = (0..4).map(|_| whole(dice) * 2.0 + dvec3(1.0, 2.0, -1.0)).collect();
     eyes.push(whole(dice));
@@ -114,15 +114,15 @@ fn eyes(scene: &Scene, dice: &mut Dice) -> Vec<DVec3> {
     eyes
 }
 
-/// Puts the polygons of odd number into the tree, and everything else into the overlay, and judges it from
-/// some eyes.
+/// Puts the polygons with odd numbers into the tree, and everything else into the overlay. Judges the order
+/// from some eyes.
 fn judge(scene: &Scene, by: Heuristic, eyes: &[DVec3], counts: &mut Counts) {
     let bounds = DVec3::splat(ROOM);
     let options = BuildOptions::DEFAULT.with_heuristic(by).with_tolerance(0.0);
     let still = scene.polygons.iter().skip(1).step_by(2);
     let tree = options.with_bounds(-bounds, bounds).build(still).expect("a tree");
     let mut overlay = Overlay::new(&tree);
-    // Other contents before, so that remains of them would be visible.
+    // Other contents come first, so that remains of them would be visible.
     let before = Shapes::NONE.with_lines(&scene.lines);
     let before = before.with_points(scene.lines[0].iter().copied());
     overlay.replace_with(&tree, before).expect("on the grid");
@@ -165,7 +165,7 @@ fn lines_and_points_come_in_the_exact_order_where_much_coincides() {
     assert!(counts.edge_on < point_line + points && counts.pieces > counts.segments * 3 / 2);
 }
 
-/// Numbers of many digits: nothing coincides, and much is rounded.
+/// A scene of numbers with many digits: nothing coincides, and most numbers are rounded.
 fn tangle(polygons: usize, lines: usize, points: usize, dice: &mut Dice) -> Scene {
     let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
     let mut scene = Scene::default();
@@ -189,7 +189,7 @@ fn lines_and_points_come_in_the_exact_order_in_a_tangle() {
         let scene = tangle(dice.below(12), 3 + dice.below(12), 12, &mut dice);
         let by = Heuristic::ALL[dice.below(Heuristic::ALL.len())];
         let mut eyes: Vec<DVec3> = (0..4).map(|_| whole(&mut dice) * 1.7).collect();
-        // Not quite in line with two points: rounding leaves them beside each other.
+        // The eye is not exactly in line with the two points, because of rounding.
         eyes.push(scene.points[0] * 2.0 - scene.points[1]);
         judge(&scene, by, &eyes, &mut counts);
     }

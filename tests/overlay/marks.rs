@@ -1,4 +1,4 @@
-//! A mark on a curve is painted over the curve: over both segments that meet there.
+//! A mark on a curve is painted over both segments of the curve that meet there.
 
 use std::collections::HashSet;
 use testkit::prelude::*;
@@ -10,8 +10,8 @@ const ROOM: f64 = 64.0;
 /// Different corners of a curve.
 const CORNERS: usize = 8;
 
-/// A line, and points at every second of its corners: a plane cannot contain both meetings at two
-/// consecutive corners.
+/// A line, and points at every second corner. Two consecutive corners have no points, because one plane
+/// cannot contain the segments at both.
 struct Curve {
     corners: Vec<DVec3>,
     marks: Vec<Mark>,
@@ -25,8 +25,8 @@ struct Mark {
 }
 
 impl Curve {
-    /// Corners that have nothing in common; `most` is how many times each may be repeated in a row. A
-    /// closed curve has its first corner at its end as well.
+    /// Creates a curve with random corners. Each corner may be repeated up to `most` times in a row. A closed
+    /// curve ends with its first corner.
     fn new(dice: &mut Dice, is_closed: bool, most: usize) -> Self {
         let mut any = |size: f64| dice.point(-0.5, 0.5) * size;
         let middle = any(60.0);
@@ -34,7 +34,7 @@ impl Curve {
         let (mut corners, mut numbers) = (Vec::new(), Vec::new());
         for k in 0..CORNERS + usize::from(is_closed) {
             corners.extend((0..1 + dice.below(most)).map(|_| distinct[k % CORNERS]));
-            // The segment that leads on from here begins at the last of them.
+            // The next segment begins at the last repetition.
             numbers.push(corners.len() - 1);
         }
         let marked = if is_closed { 0..CORNERS } else { 1..CORNERS - 1 };
@@ -115,10 +115,10 @@ fn a_point_where_a_line_closes_comes_after_the_segments_there() {
     check(true, 3);
 }
 
-/// Thousands of points in one place, where thousands of segments meet: the callback counts the examined
-/// pieces, which is not each point for each segment.
+/// Thousands of points in one place, where thousands of segments meet: the progress calls count the examined
+/// pieces, which are fewer than all pairs of a point and a segment.
 #[test]
-fn points_where_many_segments_meet_take_no_square_of_the_work() {
+fn the_work_at_points_where_many_segments_meet_is_not_quadratic() {
     let tree = tree_of_nothing();
     let mut overlay = Overlay::new(&tree);
     let many = 4000;
@@ -145,7 +145,8 @@ fn points_where_many_segments_meet_take_no_square_of_the_work() {
         lines.iter().map(|line| &line[..]).collect()
     }
     for lines in [slices(&rays), slices(&reversed), slices(&through), vec![&flower[..]]] {
-        // Each call stands for 65 536 examined pieces. A square would be 244 calls and more; n log n is 3.
+        // Each call stands for 65 536 examined pieces. Quadratic work would be 244 calls or more; n log n is
+        // 3 calls.
         let calls = calls(&lines);
         assert!(calls < 40, "{calls} calls for {} lines", lines.len());
     }

@@ -20,8 +20,8 @@ fn area(triangles: &[u32], position: impl Fn(u32) -> DVec3) -> DVec3 {
     triangles.chunks(3).map(of).sum()
 }
 
-/// One buffer of both meshes: each fragment and piece of the order has triangles of its polygon, which face and
-/// fill as it does.
+/// One buffer contains both meshes. Each fragment and piece of the order has triangles with its polygon,
+/// orientation and area.
 #[test]
 fn one_list_of_indices_draws_the_order_of_both() {
     let cases = (hard::scene(), any::<u64>(), hard::heuristic(), any::<u64>());
@@ -38,7 +38,7 @@ fn one_list_of_indices_draws_the_order_of_both() {
         let extent = hard::extent(&scene.polygons);
         let corners = scene.polygons.iter().flatten();
         let largest = corners.map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
-        // Vertices are rounded, and corners that the tolerance moved are drawn where they were given.
+        // Vertices are rounded, and corners that the tolerance moved are drawn at their given positions.
         let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
         let slack = (1e-12 * extent + 1e-14 * largest + 8.0 * tolerance) * extent;
         let eye = Viewpoint::Eye(Dice(seed).point(-2.0, 2.0) * extent);
@@ -68,7 +68,7 @@ fn one_list_of_indices_draws_the_order_of_both() {
             }
             prop_assert!(rest.is_empty());
         }
-        // The pieces alone, by the numbers of the order.
+        // Only the pieces, by their numbers in the order.
         let mut numbers: Vec<u32> = vec![];
         overlay.order(&tree, eye).map_err(fail)?.write_into(&mut numbers);
         numbers.retain(|&number| number as usize >= tree.len());
@@ -151,7 +151,8 @@ fn empty_overlays_and_other_trees() {
     assert_eq!(error.unwrap_err().kind(), ErrorKind::OtherTree);
 }
 
-/// Meshes are distinguished even if they have equally many fragments; some of the triangles keep the pieces' numbers.
+/// Meshes are distinguished even if their numbers of fragments are equal. A part of the triangles keeps the
+/// pieces' numbers.
 #[test]
 fn a_mesh_of_pieces_is_neither_a_trees_nor_loses_its_numbers() {
     let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
@@ -176,7 +177,7 @@ fn a_mesh_of_pieces_is_neither_a_trees_nor_loses_its_numbers() {
     assert!(polygons.eq([0, 2, 3, 1]));
 }
 
-/// The room after the last fragment's indices is not a fragment.
+/// The space after the indices of the last fragment is not a fragment.
 #[test]
 #[should_panic(expected = "out of bounds")]
 fn a_tree_has_no_triangles_of_an_overlays_pieces() {

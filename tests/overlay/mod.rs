@@ -37,7 +37,7 @@ struct Divided {
     all: Vec<Corners>,
 }
 
-/// Divides a scene by the bits of a number. The bounds hold all.
+/// Divides a scene by the bits of a number. The tree's bounds contain both parts.
 fn divide(scene: &HardScene, bits: u64, by: Heuristic) -> Result<Divided, TestCaseError> {
     let is_moving = |i: usize| bits >> (i % 64) & 1 == 1;
     let part = |moving: bool| -> Vec<Corners> {
@@ -59,7 +59,7 @@ fn the_painter_agrees_with_the_depth_buffer() {
         let scene = scene.with_tolerance(Tolerance::Share(0.0));
         let Divided { tree, moving, all } = divide(&scene, bits, by)?;
         let mut overlay = Overlay::new(&tree);
-        // Other contents before, so that remains of them would be visible.
+        // Other contents come first, so that remains of them would be visible.
         overlay.replace(&tree, &all).map_err(fail)?;
         overlay.replace(&tree, &moving).map_err(fail)?;
         let bounds = hard::bounds(&all).expect("corners");

@@ -1,6 +1,6 @@
-//! An exact judge of lines and points: along rays from the eye, in rationals, which of two comes first.
-//! It knows the faces, lines and points as they were rounded to the grid, and no plane that divides
-//! them.
+//! An exact judge of lines and points. It decides in rationals, along rays from the eye, which of two shapes
+//! is nearer. It uses only the faces, lines and points as they were rounded to the grid, and no partition
+//! plane.
 
 use binspace::overlay::{Overlay, Shape};
 use num_traits::One;
@@ -14,8 +14,8 @@ use testkit::rational::{Plane, Point};
 
 type Verdict = Result<(), String>;
 
-/// Shares and distances closer to an end or an edge than this are not judged, because compared ends are
-/// rounded: a share of a segment, and of the grid.
+/// Places closer to an end or an edge than this are not judged, because compared ends are rounded. It is a
+/// share of a segment, and of the grid.
 const NEAR: f64 = 1e-7;
 /// The number of judged places of each piece.
 const PLACES: u32 = 3;
@@ -49,10 +49,10 @@ struct PolygonPiece {
     vertices: Vec<DVec3>,
 }
 
-/// One order, taken apart.
+/// The parts of one order.
 struct Painted {
     segments: Vec<SegmentPiece>,
-    /// By face.
+    /// The pieces of each face.
     polygons: Vec<Vec<PolygonPiece>>,
     /// The places of points.
     points: Vec<usize>,
@@ -86,13 +86,14 @@ impl Painted {
         painted
     }
 
-    /// The piece of a segment around a share of it, if none ends near.
+    /// The piece of a segment around a point, given as a share of the segment; `None` if a piece ends near
+    /// the point.
     fn piece_at(&self, segment: usize, share: f64) -> Option<&SegmentPiece> {
         let mut pieces = self.segments.iter().filter(|piece| piece.segment == segment);
         pieces.find(|piece| piece.shares[0] + NEAR < share && share < piece.shares[1] - NEAR)
     }
 
-    /// The piece of a face around one of its points, if the point is not near an edge of any.
+    /// The piece of a face around a point of the face; `None` if the point is near an edge of a piece.
     fn fragment_at(&self, face: usize, point: &Point) -> Option<&PolygonPiece> {
         let at = to_f64(point);
         self.polygons[face].iter().find(|piece| {
@@ -107,7 +108,7 @@ impl Painted {
     }
 }
 
-/// Judges the order of an eye at a place of the grid; an eye that is rounded again is left out.
+/// Judges the order of an eye at a point of the grid. Eyes that would be rounded again are left out.
 pub(crate) fn judge(
     tree: &BspTree,
     overlay: &Overlay,
@@ -137,7 +138,7 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// The nearer must come later.
+    /// Checks that the nearer shape comes later.
     fn ensure(&self, far: usize, near: usize, what: impl FnOnce() -> String) -> Verdict {
         if far < near { Ok(()) } else { Err(format!("{} from {:?}", what(), to_f64(&self.eye))) }
     }
@@ -212,7 +213,7 @@ impl Judge<'_> {
             let seen = between(&[self.eye.clone(), at.clone()], &ratio);
             let Some(fragment) = self.painted.fragment_at(number, &seen) else { continue };
             let is_on = ratio.is_one();
-            // A segment that goes through a face is on neither side of it there.
+            // A segment that goes through a face is on neither side of the face there.
             let leaves = |ends: &[Point; 2]| ends.iter().any(|end| !face.plane.at(end).is_zero());
             if is_on && ends.is_some_and(leaves) {
                 continue;
@@ -228,7 +229,7 @@ impl Judge<'_> {
         Ok(judged)
     }
 
-    /// Points in front of points, and of lines, as seen from an eye that is in line with both.
+    /// Compares points with other points and with lines that are in line with them, as seen from the eye.
     fn points(&self, overlay: &Overlay, counts: &mut Counts) -> Verdict {
         let eye = to_f64(&self.eye);
         let points = self.given.points.iter().zip(&self.painted.points);
@@ -263,8 +264,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Holds a point against a segment, or another point, that it may be in line with: how many were
-    /// compared, and how many lie in one plane with it and the eye.
+    /// Compares a point with a segment or another point, if both are in line with the eye. Returns the number
+    /// of comparisons, and the number of pairs that are left out because a plane contains both shapes.
     fn in_line(
         &self,
         overlay: &Overlay,
@@ -279,7 +280,7 @@ impl Judge<'_> {
         if !ratio.is_positive() || ratio.is_one() {
             return Ok([0, 0]);
         }
-        // A plane that holds both holds the eye as well.
+        // A plane that contains both also contains the eye.
         if is_in_one_plane(overlay, &[x, &ends[0], &ends[1]]) {
             return Ok([0, 1]);
         }
@@ -289,8 +290,8 @@ impl Judge<'_> {
     }
 }
 
-/// Whether some plane that may divide the overlay holds all of some points: a face's, a segment's, or
-/// one perpendicular to an axis.
+/// Whether one plane that may divide the overlay contains all given points: a plane of a face, of a segment,
+/// or perpendicular to an axis.
 fn is_in_one_plane(overlay: &Overlay, points: &[&Point]) -> bool {
     let faces = overlay.faces();
     if (0..3).any(|axis| points.iter().all(|point| point[axis] == points[0][axis])) {

@@ -1,10 +1,10 @@
-//! Whether two viewpoints have the same order of a tree and an overlay.
+//! Tests whether two viewpoints have the same order of a tree and an overlay.
 
 use binspace::overlay::Overlay;
 use testkit::prelude::*;
 
-/// Two eyes of one cell see one order; where a plane of the overlay lies between them, they are told apart
-/// though they are in one cell of the tree.
+/// Two eyes in one cell have the same order. If a plane of the overlay lies between two eyes, they are
+/// distinguished, although they are in one cell of the tree.
 #[test]
 fn eyes_with_the_same_order_write_the_same_list() {
     let mut dice = Dice(5);

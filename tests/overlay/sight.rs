@@ -43,15 +43,15 @@ pub(crate) fn crossing(
     ratio.is_positive().then_some(([of_a, of_b], ratio))
 }
 
-/// Whether the ends of a segment are on different sides of the plane through the eye and another, if floats
-/// decide: only to save time.
+/// Whether the ends of a segment may be on different sides of the plane through the eye and another segment.
+/// Floats decide, to save time.
 pub(crate) fn may_cross(eye: DVec3, of: [DVec3; 2], by: [DVec3; 2]) -> bool {
     let normal = (by[0] - eye).cross(by[1] - eye);
     let [from, to] = of.map(|end| normal.dot((end - eye).normalize_or_zero()) / GRID / GRID);
     (from < 1e-6 || to < 1e-6) && (from > -1e-6 || to > -1e-6)
 }
 
-/// The same for the ray from an eye through a point, and the inside of a face.
+/// Whether the ray from an eye through a point may meet the inside of a face. Floats decide, to save time.
 pub(crate) fn may_hit(eye: DVec3, through: DVec3, corners: &[DVec3]) -> bool {
     let ray = (through - eye).normalize_or_zero();
     let n = corners.len();
@@ -75,8 +75,8 @@ pub(crate) fn hit(eye: &Point, through: &Point, face: &Face) -> Option<Rational>
     face.place(&at).is_gt().then_some(ratio)
 }
 
-/// The share of a segment, which may be a point, that the line through the eye and a point goes
-/// through.
+/// The place where the line through the eye and a point meets a segment, as a share of the segment. The
+/// segment may be a point.
 pub(crate) fn share_in_line(eye: &Point, x: &Point, [p, q]: &[Point; 2]) -> Option<Rational> {
     let arm = rational::difference(x, eye);
     let off = |at: &Point| rational::product(&arm, &rational::difference(at, eye));

@@ -1,18 +1,18 @@
-//! Almost straight lines: the plane through two segments is the plane of a sliver, and its tolerance is a
-//! length too.
+//! Almost straight lines. The plane through two segments is the plane of a sliver, and its tolerance must be
+//! a length too.
 
 use binspace::overlay::{Overlay, Shape, Shapes};
 use testkit::prelude::*;
 
 #[test]
-fn a_line_that_is_all_but_straight_does_not_make_lines_coplanar() {
+fn a_nearly_straight_line_does_not_make_lines_coplanar() {
     let bent = [
         dvec3(-1.0, -1.0, 0.0),
         dvec3(0.719_638_576_572_251_9, 0.75, 0.0),
         dvec3(0.931_029_674_363_226_3, 0.965_123_355_671_395_6, 0.0),
     ];
     let [upper, lower] = [dvec3(0.5, 0.25, 0.125), dvec3(0.25, 0.5, -0.125)];
-    // Seen from above and from below, the two cross.
+    // Seen from above and from below, the two lines cross.
     let ends = |to: DVec3| vec![dvec3(-to.x, -to.y, to.z), to];
     let lines = [bent.to_vec(), ends(upper), ends(lower)];
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::NEG_ONE, DVec3::ONE);

@@ -10,7 +10,7 @@ use testkit::rational::Point;
 
 /// The contents of an overlay, on its grid.
 pub(crate) struct Given {
-    /// Each with its line, its number in the line, and its ends.
+    /// Each segment with its line, its number in the line, and its ends.
     pub(crate) segments: Vec<(usize, usize, [Point; 2])>,
     pub(crate) points: Vec<Point>,
     pub(crate) faces: Vec<Face>,
@@ -41,7 +41,7 @@ impl Given {
     }
 }
 
-/// The shares of a piece's ends, where they are, and whether they were cut.
+/// For both ends of a piece: their shares of the segment, their positions, and whether they are cuts.
 type SegmentEnds = ([f64; 2], [DVec3; 2], [bool; 2]);
 
 /// Whether the pieces of each segment tile it, and share the bits of their ends.
@@ -80,7 +80,8 @@ pub(crate) fn tiles(
     }
     for (pieces, (_, _, segment)) in pieces.iter_mut().zip(&given.segments) {
         counts.pieces += pieces.len();
-        // From end to end: by their shares alone, pieces shorter than a rounding may seem out of order.
+        // Pieces are followed from end to end. If they were sorted by their shares, pieces shorter than a
+        // rounding error might be out of order.
         let mut end = (0.0, None);
         while !pieces.is_empty() {
             let joins = |piece: &SegmentEnds| {

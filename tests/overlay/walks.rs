@@ -1,4 +1,4 @@
-//! Movers on random walks, frame after frame: no pixel is wrong.
+//! Movers walk at random, frame after frame, and no pixel may be wrong.
 
 use binspace::glam::DMat3;
 use binspace::overlay::{Overlay, Shapes};
@@ -36,7 +36,7 @@ impl Mover {
         let length = 0.03 * (high - low).max_element();
         self.at = (self.at + any(dice) * length).clamp(low, high);
         self.turn *= DMat3::from_axis_angle((any(dice) + DVec3::Z).normalize(), dice.share());
-        // Now and then flat on the ground, where much is coplanar.
+        // Some movers lie flat on the ground, where many polygons are coplanar.
         if dice.below(8) == 0 {
             self.at.z = low.z;
             self.turn = DMat3::IDENTITY;

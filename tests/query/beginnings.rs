@@ -3,7 +3,7 @@
 use binspace::{Facing, Ray};
 use testkit::prelude::*;
 
-/// The hit is the ray's own beginning, not a place that an edge defines.
+/// The hit is the start of the ray, not a place that an edge defines.
 #[test]
 fn a_ray_in_a_plane_that_begins_on_an_edge_is_hit_where_it_begins() {
     let square = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
@@ -22,7 +22,7 @@ fn a_ray_in_a_plane_that_begins_on_an_edge_is_hit_where_it_begins() {
             }
         }
     }
-    // From outside, an edge defines it.
+    // If the ray comes from outside, an edge defines the hit.
     let hits: Vec<_> = tree.hits(Ray::new([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0])).collect();
     assert!(hits.len() == 1 && hits[0].grid_points().is_some());
 }

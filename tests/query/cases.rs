@@ -1,4 +1,4 @@
-//! By hand: the statements of the pages of `BspTree::hits` and `BspTree::is_occluded`.
+//! Tests the statements in the docs of `BspTree::hits` and `BspTree::is_occluded` on hand-made cases.
 
 use binspace::{Facing, Ray};
 use testkit::prelude::*;
@@ -19,7 +19,7 @@ fn sides_and_parameters() {
     assert_eq!(hits(&tree, down), [(1, 4.0, Facing::Front), (0, 8.0, Facing::Front)]);
     let up = Ray::between([1.0, 1.0, -1.0], [1.0, 1.0, 3.0]);
     assert_eq!(hits(&tree, up), [(0, 0.25, Facing::Back), (1, 0.75, Facing::Back)]);
-    // Both ends count, and a beginning is hit from the side that the ray would come from.
+    // Both ends count. At the start, a polygon is hit from the side from which a longer ray would come.
     let between = Ray::between([1.0, 1.0, 0.0], [1.0, 1.0, 2.0]);
     assert_eq!(hits(&tree, between), [(0, 0.0, Facing::Back), (1, 1.0, Facing::Back)]);
     assert!(!tree.is_occluded(between));
@@ -30,7 +30,7 @@ fn sides_and_parameters() {
 
 #[test]
 fn edges_and_corners_belong_to_a_polygon() {
-    // Two squares that share an edge, and a third that one is cut by.
+    // Two squares that share an edge, and a third square that cuts one of them.
     let right = vec![[4.0, 0.0, 0.0], [8.0, 0.0, 0.0], [8.0, 4.0, 0.0], [4.0, 4.0, 0.0]];
     let upright = vec![[2.0, -9.0, -9.0], [2.0, 9.0, -9.0], [2.0, 9.0, 9.0], [2.0, -9.0, 9.0]];
     let tree = BspTree::build([square(0.0), right, upright]).unwrap();
@@ -42,7 +42,7 @@ fn edges_and_corners_belong_to_a_polygon() {
     assert_eq!(down(4.0, 1.0), [0, 1]);
     assert_eq!(down(4.0, 0.0), [0, 1]);
     assert_eq!(down(0.0, 0.0), [0]);
-    // Along the polygon in the way, through the cut: once.
+    // A ray along the polygon, through the cut, hits it once.
     assert_eq!(down(2.0, 1.0), [2, 0]);
     assert_eq!(down(-1e-30, 1.0), [0; 0]);
     assert_eq!(down(8.0_f64.next_up(), 1.0), [0; 0]);
@@ -53,17 +53,17 @@ fn a_ray_in_the_plane_of_a_polygon_hits_it_where_it_enters() {
     let upright = vec![[2.0, -9.0, -9.0], [2.0, 9.0, -9.0], [2.0, 9.0, 9.0], [2.0, -9.0, 9.0]];
     let tree = BspTree::build([square(0.0), square(2.0), upright]).unwrap();
     let along = Ray::between([-4.0, 1.0, 0.0], [12.0, 1.0, 0.0]);
-    // It goes through two fragments of the square, and through the upright one.
+    // The ray goes through two fragments of the square, and through the upright square.
     assert_eq!(hits(&tree, along), [(0, 0.25, Facing::EdgeOn), (2, 0.375, Facing::Back)]);
     let inside = Ray::new([1.0, 1.0, 0.0], [0.0, 1.0, 0.0]);
     assert_eq!(hits(&tree, inside), [(0, 0.0, Facing::EdgeOn)]);
-    // Along an edge, and through a corner alone.
+    // Rays along an edge, and through a corner only.
     assert_eq!(hits(&tree, Ray::new([-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]))[0].1, 0.5);
     let corner = Ray::between([-1.0, 1.0, 2.0], [1.0, -1.0, 2.0]);
     assert_eq!(hits(&tree, corner), [(1, 0.5, Facing::EdgeOn)]);
     assert!(tree.is_occluded(corner));
     assert!(tree.is_occluded(Ray::between([0.0, 0.0, 0.0], [1.0, 0.0, 0.0])));
-    // It touches with its last point only.
+    // Only the last point of the ray touches.
     assert!(!tree.is_occluded(Ray::between([-1.0, 1.0, 0.0], [0.0, 1.0, 0.0])));
     assert_eq!(hits(&tree, Ray::between([-1.0, 1.0, 0.0], [0.0, 1.0, 0.0]))[0].1, 1.0);
 }
@@ -106,7 +106,7 @@ fn a_polygon_that_is_not_convex_is_hit_wherever_it_is_entered() {
     let tree = BspTree::build([comb, bent]).unwrap();
     let parameters = |ray: Ray| hits(&tree, ray).iter().map(|hit| hit.1).collect::<Vec<_>>();
     assert_eq!(parameters(Ray::new([-1.0, 1.5, 0.0], [1.0, 0.0, 0.0])), [1.0, 3.0, 5.0]);
-    // The ray runs along edges from the beginning of the teeth, and never leaves.
+    // The ray runs along edges from the start of the teeth, and does not leave the polygon.
     assert_eq!(parameters(Ray::new([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0])), [1.0]);
     assert_eq!(parameters(Ray::new([2.5, 1.5, 1.0], [0.0, 0.0, -1.0])), [1.0]);
     // The ray goes through both triangles, for either diagonal.
@@ -143,7 +143,7 @@ fn invalid_rays_hit_nothing() {
     assert!(!nothing.is_occluded(Ray::new(good, DVec3::NEG_Z)));
 }
 
-/// Directions of any length, and rays from as far away as may be.
+/// Directions of any length, and rays from the largest allowed distance.
 #[test]
 fn parameters_follow_the_direction() {
     let tree = BspTree::build([square(0.0), square(-3.0)]).unwrap();
@@ -162,9 +162,9 @@ fn parameters_follow_the_direction() {
     }
 }
 
-/// Like other iterators of the library.
+/// Iterators over hits behave like other iterators of the library.
 #[test]
-fn hits_can_be_copied_and_go_on_saying_none() {
+fn hits_can_be_copied_and_keep_returning_none() {
     let tree = BspTree::build((0..20).map(|k| square(f64::from(k)))).unwrap();
     let mut hits = tree.hits(Ray::new([1.0, 2.0, 30.0], [0.0, 0.0, -1.0]));
     assert_eq!(hits.next().map(|hit| hit.polygon()), Some(19));
@@ -175,7 +175,7 @@ fn hits_can_be_copied_and_go_on_saying_none() {
     assert!(format!("{hits:?}").contains("Hits"));
 }
 
-/// However small or large a scene is. (Rays in units far from the scene's are looked at without boxes.)
+/// Scenes of any size are hit. (If the units of a ray differ much from the scene's, boxes are not used.)
 #[test]
 fn scenes_of_every_size_are_hit() {
     for scale in [1e-300, 1e-260, 1e-180, 1.0, 1e180, 1e250, 1e300] {
@@ -195,7 +195,7 @@ fn scenes_of_every_size_are_hit() {
     }
 }
 
-/// Its two ends are finite, but the vector from one to the other is not.
+/// Both ends are finite, but the vector from one end to the other is not.
 #[test]
 fn a_segment_longer_than_any_number_hits_the_polygons_on_it() {
     let most = 1.5 * 2.0_f64.powi(1023);

@@ -1,4 +1,5 @@
-//! Thousands of polygons at one place. Were the time quadratic in their number, these would take minutes.
+//! Thousands of polygons at one place. If the time were quadratic in their number, these tests would take
+//! minutes.
 
 use binspace::Ray;
 use testkit::prelude::*;
@@ -7,7 +8,7 @@ fn polygons(tree: &BspTree, ray: Ray) -> Vec<usize> {
     tree.hits(ray).map(|hit| hit.polygon()).collect()
 }
 
-/// Squares in one plane, each about all before it.
+/// Squares in one plane, each around all squares before it.
 fn nested(n: usize) -> impl Iterator<Item = [[f64; 3]; 4]> {
     (0..n).map(move |i| {
         let s = 1.0 + i as f64 / n as f64;
@@ -27,7 +28,7 @@ fn squares_in_one_plane_are_hit_in_input_order_from_both_sides() {
     }
     let point = [0.1, 0.2, 0.0];
     assert!(polygons(&tree, Ray::between(point, point)).into_iter().eq(0..n));
-    // Along the plane, each is entered where it begins.
+    // A ray along the plane hits each square where it enters the square.
     let along = Ray::new([-9.0, 0.125, 0.0], [1.0, 0.0, 0.0]);
     assert!(polygons(&tree, along).into_iter().eq((0..n).rev()));
 }
@@ -49,7 +50,7 @@ fn a_ray_through_the_apex_of_a_fan_hits_all_of_it() {
     assert!(tree.is_occluded(ray));
 }
 
-/// More than the few that are looked through one by one, each in two fragments at the ray.
+/// More polygons than the few that are compared one by one. The ray meets two fragments of each.
 #[test]
 fn polygons_that_are_cut_where_the_ray_meets_them_are_hit_once() {
     for n in [7, 8, 9, 30, 20_000] {
@@ -57,16 +58,16 @@ fn polygons_that_are_cut_where_the_ray_meets_them_are_hit_once() {
         let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
         let tree = options.build(std::iter::once(upright).chain(nested(n))).unwrap();
         assert_eq!(tree.len(), 2 * n + 1, "each is cut");
-        // Through the cut, from it, and in no length.
+        // Rays through the cut, rays that start at the cut, and rays without length.
         for (from, to) in [(1.0, -1.0), (0.0, -1.0), (1.0, 0.0), (0.0, 0.0)] {
             let ray = Ray::between([0.5, 0.1, from], [0.5, 0.1, to]);
             // The upright polygon is met where the ray begins.
             assert!(polygons(&tree, ray).into_iter().eq(0..=n), "{from} {to}");
         }
-        // Along the squares: from one fragment of each to the other.
+        // Rays along the squares, from one fragment of each to the other.
         let along = Ray::new([-9.0, 0.125, 0.0], [1.0, 0.0, 0.0]);
         assert!(polygons(&tree, along).into_iter().eq((1..=n).rev().chain([0])));
-        // From where the cut is.
+        // Rays that start at the cut.
         let along = Ray::new([0.5, 0.125, 0.0], [1.0, 0.0, 0.0]);
         assert!(polygons(&tree, along).into_iter().eq(0..=n));
     }

@@ -19,7 +19,7 @@ fn sheaf(n: u32) -> Polygons {
     (0..n).map(wing).collect()
 }
 
-/// Layers, each with holes: many thin gaps, and every polygon coplanar with others.
+/// Layers with holes and thin gaps between the layers. Every polygon is coplanar with others.
 fn sheets(layers: usize, gap: f64, dice: &mut Dice) -> Polygons {
     let mut polygons = Vec::new();
     for at in 0..36 * layers {

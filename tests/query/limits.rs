@@ -1,4 +1,4 @@
-//! The distance along a ray searched for hits that may come before the nearest so far.
+//! How far along a ray the search continues for hits that may come before the nearest hit so far.
 
 use binspace::Ray;
 use testkit::prelude::*;
@@ -8,9 +8,9 @@ fn hits(tree: &BspTree, ray: Ray) -> Vec<usize> {
     tree.hits(ray).map(|hit| hit.polygon()).collect()
 }
 
-/// A ray that comes down on a floor so flat that it is known only roughly, in floats, where. The wall before
-/// that place reaches across the floor's plane by less than the tolerance, so that it counts as behind:
-/// the floor is looked at before it.
+/// A ray meets a floor at such a flat angle that floats give only a rough place. A wall before this place
+/// reaches across the floor's plane by less than the tolerance, so it counts as behind the floor. So the
+/// search tests the floor before the wall.
 #[test]
 fn a_wall_before_a_floor_that_is_met_flat_is_hit_first() {
     const S: f64 = ((1_u64 << 51) - 1) as f64;
@@ -25,7 +25,7 @@ fn a_wall_before_a_floor_that_is_met_flat_is_hit_first() {
     assert_eq!(hits(&tree, flat), [2, 0]);
 }
 
-/// Distances count from the scene, not from the origin: a small scene far out is hit from beside it.
+/// Distances count from the scene, not from the origin: rays from beside a small scene far out hit it.
 #[test]
 fn rays_from_within_2_to_the_67_extents_of_a_small_scene_far_out_hit_it() {
     for exponent in [-20, -60, -100, -115] {

@@ -18,7 +18,7 @@ fn points_are_where_rationals_say() {
         scene::layers(20, 1e-4),
     ] {
         for heuristic in [Heuristic::Auto, Heuristic::First, Heuristic::FreePlanes] {
-            // Half with the default tolerance, by which a polygon may reach out of its leaf.
+            // Half of the trees have the default tolerance, with which a polygon may reach out of its leaf.
             let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
             let exact = options.clone().with_tolerance(0.0);
             let options = if heuristic == Heuristic::Auto { options } else { exact };
@@ -70,7 +70,7 @@ fn check(oracle: &Oracle<'_>, point: DVec3) -> Found {
     assert_eq!((location.node(), location.is_in_front()), (last, is_in_front), "{point}");
     assert_eq!(Child::Leaf(location.fragments()), part);
     assert_eq!(location.planes(), planes);
-    // On no plane, it is inside of its leaf.
+    // A point on no plane is inside its leaf.
     let mut inside = 0;
     if planes.is_empty() && tree.faces().tolerance() == 0.0 {
         let polygon = |fragment| tree.fragment(fragment).polygon();

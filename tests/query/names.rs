@@ -64,7 +64,8 @@ fn hits_can_be_computed_again_from_points_of_the_grid() {
                     None => Rational::one(),
                 };
                 ends += usize::from(hit.grid_points().is_none());
-                // On the line by its making: on the fragment's plane, in order, and where floats say.
+                // The point is on the line by construction. It must be on the fragment's plane, in order, and
+                // at the place that floats give.
                 let point = rational::sum(&from, &direction.clone().map(|c| c * &t));
                 assert!(own.at(&point).is_zero(), "{hit:?}");
                 let slope = rational::sign(&rational::scalar(&own.normal, &direction));
@@ -100,7 +101,7 @@ fn planes_of_nodes_and_fragments_agree_with_their_corners() {
         let (low, high) = scene.bounds().unwrap();
         let slack = 1e-8 * (high - low).max_element();
         for fragment in tree.fragments() {
-            // The corners as given, except for the rounding to the grid.
+            // These are the given corners, except for the rounding to the grid.
             for point in fragment.grid_points().map(|point| world(grid, point)) {
                 let near = |c: &DVec3| rational::distance_to_rounded(&point, c.to_array());
                 let least = polygons[fragment.polygon()].iter().map(near).fold(1.0, f64::min);
@@ -114,12 +115,12 @@ fn planes_of_nodes_and_fragments_agree_with_their_corners() {
             let offset = exact.offset.to_f64().value() / normal.length();
             assert!((offset - node.offset()).abs() <= 1e-9 * (1.0 + offset.abs()));
             axes += usize::from(node.polygon().is_none());
-            // A free plane is exactly the one that floats give.
+            // A free plane is exactly the plane that floats give.
             if node.polygon().is_none() {
                 let unit = rational::exact(normal.length());
                 assert_eq!(&exact.offset / unit, rational::exact(node.offset()));
             }
-            // All fragments are where it says, and where its rounded form says.
+            // All fragments are on the sides that the plane and its rounded form give.
             let unit = rational::exact(normal.length());
             for (fragments, sides) in
                 [(node.on(), &[1, -1][..]), (node.in_front(), &[1]), (node.behind(), &[-1])]

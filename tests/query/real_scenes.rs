@@ -23,7 +23,7 @@ const SCENES: [&str; 7] = [
     "teapot_quads_2k.obj",
 ];
 
-/// Each shoots rays from a seed of its own.
+/// Parts that run in parallel; each shoots rays from a separate seed.
 const PARTS: usize = 64;
 
 #[test]

@@ -1,4 +1,4 @@
-//! The fragments that meet a region, by clipping every one of them in rationals.
+//! Compares the fragments that meet a region with every fragment clipped in rationals.
 
 use binspace::{Culling, Frustum};
 use proptest::prelude::*;
@@ -19,10 +19,10 @@ struct Score {
     /// Pairs that do not meet, although the fragment is behind none of the planes.
     passed: usize,
     /// Pairs that culling keeps although they do not meet.
-    kept_in_vain: usize,
+    kept_needlessly: usize,
 }
 
-/// The part of a polygon in front of planes: of the closed sides, or of the open ones.
+/// The part of a polygon in front of planes.
 fn clip(polygon: &[Point], planes: &[Plane]) -> Vec<Point> {
     let mut part = polygon.to_vec();
     for plane in planes {
@@ -52,8 +52,8 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
         let region = Frustum::new([(normal, offset)]);
         tree.fragments_in(&region).count()
     };
-    // x + n·y ≥ n·y + c, where y is far out and the same for all, and n·y exact or rounded to what
-    // differs by far more than the scene's size.
+    // The region x + n·y ≥ c, where c is n·y in floats. y is far out and the same for all corners. The
+    // rounding of c may be far larger than the scene.
     for y in [1e10, 1e15, 1e30, 1.1e38, 1e40, 1e45, 1e60, 1e150, 1e300] {
         let polygon = [[1.0, y, 1.0], [2.0, y, 1.0], [1.0, y, 2.0]];
         for n in [1.0, 2.0, 3.0, 5.0, 7.0] {
@@ -81,7 +81,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
             assert_eq!(found, expected, "{x} {normal} {share}");
         }
     }
-    // The least numbers that there are.
+    // The least numbers of `f64`.
     let u = 5e-324;
     let polygon = [[10.0 * u, 0.0, 0.0], [10.0 * u, 40.0 * u, 0.0], [10.0 * u, 0.0, 40.0 * u]];
     for (steps, expected) in [(19.0, 1), (20.0, 1), (21.0, 0)] {
@@ -89,7 +89,7 @@ fn regions_of_scenes_far_out_and_at_the_ends_of_numbers() {
     }
 }
 
-/// A region of some kind that is hard for a scene.
+/// A region of a random kind that is hard to decide for a scene.
 fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
     let normal = |dice: &mut Dice| dice.whole_point(2);
     let through = |normal: DVec3, point: DVec3| (normal, normal.dot(point));
@@ -103,7 +103,7 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
             let [a, b] = [shots.corner(dice), shots.around(1.1, dice)];
             Frustum::from_box([a.min(b), a.max(b)])
         }
-        // A point, and a line.
+        // Regions that are a point or a line.
         3 => {
             let face = dice.below(tree.faces().len()) as u32;
             let a =
@@ -120,7 +120,7 @@ fn region(tree: &BspTree, shots: &Shots<'_>, dice: &mut Dice) -> Frustum {
             let (apex, count) = (shots.corner(dice), 1 + dice.below(4));
             Frustum::new((0..count).map(|_| through(normal(dice), apex)).collect::<Vec<_>>())
         }
-        // Between parallel planes through corners.
+        // A region between parallel planes through corners.
         6 => {
             let (normal, [a, b]) = (normal(dice), [shots.corner(dice), shots.corner(dice)]);
             Frustum::new([through(normal, a), through(-normal, b)])
@@ -156,7 +156,7 @@ fn check(oracle: &Oracle<'_>, region: &Frustum, score: &mut Score) -> Result<(),
             |plane: &Plane| polygon.iter().all(|point| rational::sign(&plane.at(point)).is_lt());
         if part.is_empty() {
             score.passed += usize::from(!planes.iter().any(is_behind));
-            score.kept_in_vain += usize::from(order.contains(&fragment));
+            score.kept_needlessly += usize::from(order.contains(&fragment));
         } else {
             truth.push(fragment);
             let on = |plane: &Plane| {
@@ -193,7 +193,8 @@ fn fragments_in_regions_agree_with_rationals() {
     enough!(score.touching > 300, score.passed > 100; "{score:?}");
 }
 
-/// Larger scenes, where blocks of fragments are passed over or taken at once, and far-off ones.
+/// Larger scenes, in which blocks of fragments are rejected or accepted at once, and scenes far from the
+/// origin.
 #[test]
 fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
     let mut score = Score::default();
@@ -214,7 +215,7 @@ fn regions_of_larger_scenes_have_the_fragments_of_rationals() {
             check(&oracle, &region, &mut score).unwrap();
         }
     }
-    enough!(score.pairs > 10_000, score.met > 2000, score.kept_in_vain > 4; "{score:?}");
+    enough!(score.pairs > 10_000, score.met > 2000, score.kept_needlessly > 4; "{score:?}");
 }
 
 #[test]
@@ -243,12 +244,12 @@ fn planes_of_odd_numbers_keep_everything_or_nothing() {
     assert_eq!(nothing.fragments_in(&Frustum::default()).count(), 0);
 }
 
-/// A corner that the tolerance moves counts where it is exactly, between two points of the grid.
+/// A corner that the tolerance moves counts at its exact place, between two points of the grid.
 #[test]
 fn a_moved_corner_is_where_its_plane_is() {
     let room = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-1.0), DVec3::ONE);
     let step = 2f64.powi(room.build([[DVec3::X, DVec3::Y, DVec3::Z]]).unwrap().grid().exponent);
-    // On the plane z = x / 3 of the three others, the third is at z = 2/3, and stored at 1.
+    // On the plane z = x / 3 of the other corners, the third corner is at z = 2/3, and is stored at 1.
     let corners = [[0.0, 0.0, 0.0], [3.0, 0.0, 1.0], [2.0, 2.0, 1.0], [0.0, 3.0, 0.0]];
     let tree = room.build([corners.map(|corner| corner.map(|c| c * step))]).unwrap();
     assert_eq!((tree.len(), tree.preparation().flattened), (1, 1));
@@ -260,7 +261,7 @@ fn a_moved_corner_is_where_its_plane_is() {
     }
 }
 
-/// Blocks that are not full end where the tree does.
+/// Blocks that are not full end where the tree ends.
 #[test]
 fn all_fragments_of_trees_of_every_size_are_in_all_of_space() {
     for count in (1..70).chain([255, 256, 257, 271]) {

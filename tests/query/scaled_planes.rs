@@ -1,4 +1,4 @@
-//! A region's plane is the same if its numbers are multiplied by any power of two, down to the smallest
+//! A region's plane does not change if its numbers are multiplied by any power of two, down to the smallest
 //! numbers.
 
 use binspace::{Culling, Frustum};

@@ -6,7 +6,7 @@ use testkit::scenes::trees;
 use testkit::shots::Shots;
 use testkit::slivers::{Point, Sliver, along, whole};
 
-/// Slivers, polygons next to their planes, and some that are anywhere.
+/// Slivers, polygons next to their planes, and some polygons anywhere.
 fn scene(dice: &mut Dice) -> Vec<Vec<[f64; 3]>> {
     let size = 1 << (20 + dice.below(30));
     let mut polygons: Vec<[Point; 3]> = Vec::new();

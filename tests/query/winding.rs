@@ -1,4 +1,5 @@
-//! Winding numbers against signed crossings in integers: rays in directions in which they meet no edge.
+//! Compares winding numbers with signed crossings of rays in integers. The directions are chosen so that rays
+//! meet no edge.
 
 use testkit::prelude::*;
 
@@ -23,11 +24,12 @@ fn dot(a: Point, b: Point) -> i128 {
 #[derive(Default)]
 struct Bodies(Vec<Vec<Point>>);
 
-/// Points have this many parts of the unit of the polygons.
+/// Coordinates of points are multiples of 1 / `PARTS` of the polygons' unit.
 const PARTS: i128 = 64;
 
 impl Bodies {
-    /// A convex body as polygons of its corners' numbers, fronts outwards, or all turned inwards.
+    /// Adds a convex body, given as polygons of corner numbers, with fronts outwards, or with all fronts
+    /// inwards.
     fn push(&mut self, corners: &[Point], polygons: &[&[usize]], is_inwards: bool) {
         for polygon in polygons {
             let mut outline: Vec<Point> = polygon.iter().map(|&k| corners[k]).collect();
@@ -87,7 +89,8 @@ impl Bodies {
                     if edges().all(|(&a, &b)| dot(normal, cross(a, b)) >= 0) {
                         return None;
                     }
-                    // In the plane, beside the polygon: a ray that leaves it does not return.
+                    // The point is in the plane, beside the polygon. A ray that leaves the plane does not
+                    // return.
                     if way == 0 {
                         continue 'directions;
                     }
@@ -110,7 +113,7 @@ impl Bodies {
 }
 
 #[test]
-fn winding_numbers_are_those_of_rays_in_integers() {
+fn winding_numbers_agree_with_rays_in_integers() {
     let mut dice = Dice(29);
     let [mut boundary, mut inside, mut outside, mut overlaps, mut negative] = [0; 5];
     for round in 0..times(12) {
@@ -190,7 +193,7 @@ fn open_edges_are_named() {
     let mut bodies = Bodies::default();
     bodies.cuboid([[0, 0, 0], [2, 2, 2]], false);
     bodies.cuboid([[5, 5, 5], [9, 9, 9]], false);
-    // Without the top of the second: polygon 7 of 12.
+    // Without the top of the second body: polygon 7 of 12.
     bodies.0.remove(7);
     let tree = bodies.tree(Heuristic::Auto);
     let open: Vec<(usize, usize)> = tree.open_edges().collect();
@@ -209,7 +212,7 @@ fn open_edges_are_named() {
     assert_eq!(tree.winding_number([6.0, 7.0, 8.0]), Ok(Some(1)));
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 3);
-    // The same faces a second time: each edge is open twice.
+    // If the same faces are given a second time, each edge is open twice.
     bodies.0.push(vec![[6, 6, 6], [7, 6, 6], [6, 7, 6]]);
     assert_eq!(bodies.tree(Heuristic::Auto).open_edges().count(), 6);
 }
@@ -231,11 +234,11 @@ fn points_next_to_a_side_are_inside_or_outside() {
     }
 }
 
-/// A prism whose sides have a corner on an edge of the top, which is bent or not convex: triangles of the top skip
-/// that corner. And a side in two halves beside an edge of the top in one piece.
+/// A prism with a corner in the middle of an edge of the top. The top is bent or not convex, and its
+/// triangles skip this corner. In another case, a side is in two halves beside an undivided edge of the top.
 #[test]
 fn corners_on_straight_edges_keep_a_body_closed() {
-    // The outline of the top: with a corner in the middle of its first edge, and a dent.
+    // The outline of the top has a corner in the middle of its first edge, and a dent.
     let outline = [[0, 0], [2, 0], [4, 0], [4, 4], [2, 2], [0, 4]].map(|[x, y]| [x, y, 0]);
     for (top, splits) in
         [(vec![0, 1, 2, 3, 4, 5], 2), (vec![0, 2, 3, 4, 5], 2), (vec![0, 2, 3, 4, 5], 1)]
@@ -262,15 +265,15 @@ fn corners_on_straight_edges_keep_a_body_closed() {
                 }
             }
         }
-        // Without one half of a side that is in two, the whole edge of the top is open there.
+        // Without one of the two halves of a side, the whole edge of the top is open.
         bodies.0.remove(2);
         assert!(bodies.tree(Heuristic::Auto).open_edges().count() > 0);
     }
 }
 
-/// A box whose side at x = 1 has a corner beside its plane, by less than the tolerance, and is nearly upright or
-/// leans: as flattened it has hardly any area seen from below, and its plane meets a line along z anywhere. Its
-/// neighbours have the corner as given.
+/// A box whose side at x = 1 has a corner off the plane, by less than the tolerance. The side is nearly
+/// upright, or it leans. After flattening, it has almost no area seen from below, and its plane may meet a
+/// line along z anywhere. The neighbours of the side have the given corner.
 #[test]
 fn a_flattened_side_closes_a_body_for_points_far_below() {
     let mut flattened = 0;
@@ -283,7 +286,7 @@ fn a_flattened_side_closes_a_body_for_points_far_below() {
             for k in 0..4 {
                 let next = (k + 1) % 4;
                 let side = [bottom[k], bottom[next], top[next], top[k]];
-                // The first side is not planar: in triangles.
+                // The first side is not planar, so it becomes triangles.
                 let parts = if k == 0 {
                     vec![vec![0, 1, 2], vec![0, 2, 3]]
                 } else {

@@ -58,8 +58,8 @@ fn a_checksum_shows_every_changed_byte() {
     }
 }
 
-/// Every byte changed, in one way or with more effort in several, and the checksum corrected: refused, or
-/// as usable as any tree.
+/// Every byte is changed, in one way or with more effort in several, and the checksum is corrected. The file
+/// must be refused, or its tree must be usable.
 #[test]
 fn a_forged_file_is_refused_or_usable() {
     let (mut usable, mut refused) = (0, 0);
@@ -77,7 +77,7 @@ fn a_forged_file_is_refused_or_usable() {
             }
         }
     }
-    // Corners may be slightly moved, and counts be false.
+    // Corners may be slightly moved, and counts may be wrong.
     enough!(usable > 200, refused > 200; "{usable} {refused}");
 }
 
@@ -111,7 +111,7 @@ fn another_version_is_named() {
 }
 
 #[test]
-fn other_files_are_told() {
+fn other_kinds_of_files_are_named() {
     assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("not a binspace file"));
     assert!(message(b"binspacescene").contains("truncated"));
     assert!(message(b"binspacescen\x01\0\0\0").contains("it contains a \"scen\""));

@@ -1,5 +1,5 @@
-//! Forged nodes and fragments, in files of right faces: the tree read is right for the planes that the file
-//! names.
+//! Forged nodes and fragments in files with right faces. If a tree is read, it is right for the planes that
+//! the file names.
 
 use super::File;
 use std::time::Instant;
@@ -26,7 +26,7 @@ fn places(tree: &BspTree) -> (File, [usize; 2]) {
     (file, [fragments - 8 - NODE * tree.nodes().len(), fragments])
 }
 
-/// The same of squares, divided by the plane of the first.
+/// The file of a tree of squares, divided by the plane of the first square, and the same places.
 fn file(polygons: &[Square]) -> (File, [usize; 2]) {
     let options = BuildOptions::DEFAULT.with_heuristic(Heuristic::First);
     places(&options.with_tolerance(0.0).build(polygons).expect("a tree"))
@@ -45,9 +45,9 @@ fn every_node_but_the_first_has_a_parent() {
     file.refused("do not match its fragments");
 }
 
-/// The numbers of a node's fragments follow from those on its plane: no other is read.
+/// The planes determine the face of each fragment. A file with another face is refused.
 #[test]
-fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
+fn each_fragment_has_the_face_that_its_planes_determine() {
     let mut other = FLAT;
     other.iter_mut().for_each(|corner| corner[0] += 5.0);
     let (file, [_, fragments]) = file(&[FLAT, other, at_height(1.0)]);
@@ -65,7 +65,7 @@ fn each_fragment_is_of_the_face_that_its_plane_makes_it_of() {
     }
 }
 
-/// Two squares on one side, but the file puts both into its leaf.
+/// Two squares are on one side of a plane, and the file puts both into one leaf.
 #[test]
 fn a_leaf_has_no_more_than_one_piece() {
     let (mut file, [nodes, fragments]) = file(&[0.0, 1.0, 2.0].map(at_height));
@@ -78,7 +78,7 @@ fn a_leaf_has_no_more_than_one_piece() {
     file.refused("node 0 does not have the fragments that its plane makes");
 }
 
-/// A list of nodes of one plane, which separates something once.
+/// In a list of nodes, a node has the plane of the node before it, which separates nothing any more.
 #[test]
 fn a_plane_that_is_used_again_is_refused() {
     let squares: Vec<Square> = (0..400).map(|k| at_height(f64::from(k))).collect();
@@ -118,7 +118,7 @@ fn pieces_do_not_exceed_the_fragments_of_the_file() {
     assert!(begin.elapsed().as_secs() < 10, "it is cut all the same");
 }
 
-/// Planes of other faces and corners, in one node or in several: refused, or right.
+/// Planes of other faces and corners in one node or in several. The file is refused, or its tree is right.
 #[test]
 fn whatever_planes_a_file_names_its_tree_is_right() {
     let (mut dice, mut read) = (Dice(1), [0; 2]);
@@ -137,7 +137,7 @@ fn whatever_planes_a_file_names_its_tree_is_right() {
                 let mut file = file.clone();
                 for _ in 0..1 + dice.below(2) {
                     let plane = nodes + NODE * dice.below(tree.nodes().len());
-                    // One near it, which may separate the same, or any.
+                    // A plane near the right one, which may separate the same fragments, or any plane.
                     let near = file.get(plane) + 1 + dice.below(3) as u32;
                     let kind = 1 + dice.below(4) as u32;
                     let any = kind << 28 | dice.below(3 * tree.face_count()) as u32;

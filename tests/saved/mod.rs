@@ -44,7 +44,7 @@ impl File {
         BspTree::read(&bytes[..]).map_err(|error| error.to_string())
     }
 
-    /// The message of reading; empty for a tree.
+    /// The error message of reading the file; empty if a tree is read.
     fn message(&self) -> String {
         self.read().err().unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! Each check of a tree's file: a file that is wrong only there is refused with that message.
+//! Tests each check of a tree's file: a file that fails only this check is refused with its message.
 
 use super::File;
 use testkit::prelude::*;
@@ -30,7 +30,7 @@ fn frame(axis: u32, second: u32, third: u32) -> u32 {
     axis << 30 | second << 15 | third
 }
 
-/// A coordinate that is twice as far out as the grid is wide.
+/// Puts a coordinate far outside the grid.
 fn put_far(file: &mut File, at: usize, sign: i64) {
     file.put_bytes(at, &(sign << 52).to_le_bytes());
 }
@@ -60,7 +60,7 @@ fn each_fault_is_refused_with_its_own_message() {
         }),
         ("corner 1 is outside the grid", |file| put_far(file, corner(1), 1)),
         ("corner 7 is outside the grid", |file| put_far(file, corner(7) + 16, -1)),
-        // The corners of both faces together are as many.
+        // The number of corners of both faces together does not change.
         ("face 0 has too few corners", |file| {
             file.put(FACES + 4, 2);
             file.put(FACES + 12 + 4, 6);
@@ -71,7 +71,7 @@ fn each_fault_is_refused_with_its_own_message() {
         ("names corners that it does not have", |file| file.put(FACES + 8, frame(3, 0, 2))),
         ("names corners that it does not have", |file| file.put(FACES + 8, frame(3, 2, 2))),
         ("is moved along the wrong axis", |file| file.put(FACES + 8, frame(0, 1, 2))),
-        // Off by a step, and moved by half a step at most.
+        // The corner is off by a step, but moved by half a step at most.
         ("is not planar", |file| {
             file.0[corner(3) + 16] ^= 1;
             file.put(FACES + 8, frame(2, 1, 2));
@@ -82,7 +82,7 @@ fn each_fault_is_refused_with_its_own_message() {
         ("has more fragments than the tree", |file| file.put(NODES + 4, 9 << 4)),
         ("do not match its fragments", |file| file.put(NODES + 4, 2 << 4)),
         ("names a face or corner that does not exist", |file| file.put(NODES, 1 << 28 | 2)),
-        // The plane of the other square, which contains no part of this one.
+        // The plane of the other square, which contains no part of this square.
         ("node 0 does not have the fragments that its plane makes", |file| {
             file.put(NODES, 2 << 28)
         }),
@@ -119,10 +119,10 @@ fn triangles_are_checked() {
     }
 }
 
-/// A length one above its limit is refused for that, and the limit itself for another reason: the data are
-/// missing.
+/// A length one above its limit is refused for this reason. The limit itself is refused for another reason:
+/// the data are missing.
 #[test]
-fn limits_are_where_they_are_said_to_be() {
+fn documented_limits_are_exact() {
     let file = file();
     let (labels, fragments) = (1 << 28, (1 << 29) - 1);
     let lists = CORNERS + 8 * 24;
@@ -144,7 +144,7 @@ fn limits_are_where_they_are_said_to_be() {
             assert_eq!(says, is_too_many, "{what}, {len}: {message}");
         }
     }
-    // The corners of all faces together: one fewer than names.
+    // The number of corners of all faces together is one less than the number of names.
     for (corners, is_too_many) in [(labels - 1, false), (labels, true)] {
         let mut file = file.clone();
         file.put(FACES + 4, corners as u32 - 4);
@@ -153,7 +153,7 @@ fn limits_are_where_they_are_said_to_be() {
     }
 }
 
-/// A corner's number may be as large as a polygon may have corners, and no larger.
+/// A corner's number may not exceed the largest number of corners of a polygon.
 #[test]
 fn corner_numbers_are_checked() {
     let bay = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 4.0, 0.0]];
@@ -176,7 +176,7 @@ fn corner_numbers_are_checked() {
             assert!(error.contains("corner number 0 is too large"), "{error}");
         }
     }
-    // The last face with numbers is given as the one before it.
+    // The last face with numbers gets the number of the face before it.
     assert!(numbered > 1);
     let mut file = file;
     let before = file.get(first - 8);

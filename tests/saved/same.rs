@@ -15,7 +15,7 @@ fn again(tree: &BspTree) -> BspTree {
     again
 }
 
-/// The same fragments, statistics, weights and orders.
+/// Asserts that two trees have the same fragments, statistics, weights and orders.
 fn assert_same(tree: &BspTree, eyes: &[Viewpoint]) {
     let again = again(tree);
     assert_eq!(Snapshot::of(&again), Snapshot::of(tree));
@@ -48,7 +48,7 @@ proptest! {
         let tree = scene.build(by).unwrap();
         let mut eyes = EYES.to_vec();
         if !tree.is_empty() {
-            // Eyes on corners and planes as well.
+            // Eyes are also on corners and planes.
             let (mut dice, rays) = (Dice(seed), Rays::new(&tree));
             eyes.extend((0..4).map(|_| views::some_view(tree.faces(), &rays, &mut dice).viewpoint));
         }
@@ -155,7 +155,7 @@ fn errors_of_readers_and_writers_are_passed_on() {
     assert_eq!(tree.write(Broken).unwrap_err().to_string(), "the disk is full");
 }
 
-/// A writer that fails at one of its calls, counted from 0, and otherwise accepts everything.
+/// A writer that fails at one call, counted from 0, and accepts everything at other calls.
 struct FailsOnce {
     calls: usize,
     at: usize,
@@ -175,7 +175,7 @@ impl io::Write for FailsOnce {
     }
 }
 
-/// At any position, in each of the lists of a file.
+/// The writer fails at any position, in each list of a file.
 #[test]
 fn a_writer_that_fails_once_is_reported() {
     // Each list is longer than one write, 64 kB: a wall cuts all of many squares.

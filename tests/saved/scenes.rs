@@ -10,7 +10,7 @@ fn bytes(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
-/// With every attribute that a file can have.
+/// A scene with every attribute that a file can have.
 fn full() -> Scene {
     let text =
         b"mtllib m\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 5 5 5\nvt 0.5 0.25\nvn 0 0 1\n\

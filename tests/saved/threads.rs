@@ -1,4 +1,4 @@
-//! The tree read, and the fault found, on any number of threads.
+//! Any number of threads reads the same tree and finds the same fault.
 
 use super::File;
 use testkit::prelude::*;
@@ -17,14 +17,14 @@ fn read(file: &File, threads: usize) -> Result<Vec<u8>, String> {
 }
 
 #[test]
-fn the_same_is_read_by_any_number_of_threads() {
+fn any_number_of_threads_reads_the_same_tree() {
     let tree = BspTree::build(scene::terrain(30_000, 3).polygons()).expect("a tree");
     let file = File::of(&tree);
     let faces = file.len(FACES - 8);
-    // Faces of several parts, and nodes beside them.
+    // Faces in several parts, which threads read while others read nodes.
     enough!(faces > 20_000; "{faces}");
     let corners = FACES + 12 * faces;
-    // Triangles, with neither numbers nor moved corners, and none dropped.
+    // Triangles without numbers and without moved corners; none is dropped.
     let nodes = corners + 72 * faces + 3 * 8 + 6 * 8 + 8;
     assert_eq!(file.len(nodes - 8), tree.nodes().count());
     let far = (1_u64 << 52).to_le_bytes();
@@ -33,7 +33,7 @@ fn the_same_is_read_by_any_number_of_threads() {
         (corners + 72 * (faces / 2), "outside the grid"),
         (corners + 72 * 5000, "corner 15000 is outside the grid"),
     ];
-    // From the last to the first: the first fault is reported, regardless of later ones.
+    // Faults are added from the last place to the first. Always the first fault of the file is reported.
     let mut forged = file.clone();
     forged.0[nodes + 4] |= 3;
     let mut cases = vec![(file.clone(), Ok(file.0.clone()))];

@@ -1,4 +1,4 @@
-//! Numbers of a file that no tree has: each is refused, with a message that names it.
+//! Numbers that no tree has: each is refused, with a message that names the number.
 
 use super::File;
 use binspace::partition::Extent;
@@ -61,11 +61,11 @@ fn a_fragment_without_a_node_is_refused() {
     file.put_bytes(nodes, &0_u64.to_le_bytes());
     file.0.drain(nodes + 8..nodes + 16);
     file.refused("its nodes do not match its fragments");
-    // Neither: then the face has no fragment.
+    // Without the node and the fragment, the face has no fragment.
     file.put_bytes(nodes + 8, &0_u64.to_le_bytes());
     file.0.drain(nodes + 16..nodes + 20);
     file.refused("its nodes do not match its fragments");
-    // Nothing at all has neither.
+    // An empty tree has no node and no fragment.
     let empty = BspTree::build::<[[f64; 3]; 3]>([]).expect("a tree");
     assert_eq!(File::of(&empty).message(), "");
 }
@@ -78,9 +78,9 @@ fn unknown_flags_are_refused() {
         let mut file = file.clone();
         file.put(FLAGS, 1 << bit);
         match bit {
-            // It is read as the tree of one view.
+            // The file is read as the tree of one view.
             0 => assert_eq!(file.message(), ""),
-            // There is no cell in it.
+            // The file contains no cell.
             1 => file.refused(""),
             _ => file.refused("its flags are unknown"),
         }
@@ -144,7 +144,7 @@ fn the_box_of_a_cell_is_checked_on_each_side() {
                 assert!(!message.contains("its cell"), "{message}");
             }
         }
-        // The lower corner is the lower one.
+        // The lower corner must be below the upper corner.
         let mut file = file.clone();
         file.put_step(low, axis, 8);
         file.put_step(high, axis, 7);
@@ -197,7 +197,7 @@ fn a_corner_is_moved_along_its_faces_axis_and_from_the_grid() {
             file.put_step(given, axis, step);
             assert_eq!(file.message(), "", "on its border");
         }
-        // A corner of the flat square, even if it is not moved; and none at all.
+        // A corner of the flat square, even if it is not moved; and a corner that does not exist.
         let mut flat = file.clone();
         let corners = file.places().corners;
         let first = flat.0[corners..corners + 24].to_vec();

@@ -1,4 +1,4 @@
-//! Cases from the tests of other libraries, re-expressed.
+//! Cases from the tests of other libraries, rewritten.
 
 use testkit::judge::judge;
 use testkit::prelude::*;
@@ -35,7 +35,7 @@ fn three_parallel_squares_come_by_depth() {
         assert_eq!(order(Viewpoint::eye([0.0, 0.0, -9.0])), [0, 2, 1], "{by}");
         assert_eq!(order(Viewpoint::direction([0.1, 0.0, -1.0])), [1, 2, 0], "{by}");
         assert_eq!(order(Viewpoint::direction([0.1, 0.0, 1.0])), [0, 2, 1], "{by}");
-        // Between two of them, each is only behind those on its own side.
+        // From between two squares, each square is only behind the squares on its own side.
         let between = order(Viewpoint::eye([0.0, 0.0, 0.0]));
         let at = |polygon| between.iter().position(|&p| p == polygon);
         assert!(at(0) < at(2), "{by}: {between:?}");
@@ -51,7 +51,7 @@ fn two_crossing_squares_make_three_pieces() {
         let whole = tree.fragments().filter(|fragment| fragment.is_whole()).count();
         assert_eq!(whole, 1, "{by}");
         for eye in [[4.0, 1.0, 0.0], [-4.0, 1.0, 0.0], [4.0, -1.0, 0.0], [-4.0, -1.0, 0.0]] {
-            // The piece on the eye's side of the square left whole is last, the other one first.
+            // The piece on the eye's side of the uncut square is last, and the other piece is first.
             let order: Vec<_> = tree.back_to_front(Viewpoint::eye(eye)).collect();
             assert!(order[1].is_whole(), "{by}");
         }
@@ -60,7 +60,7 @@ fn two_crossing_squares_make_three_pieces() {
 
 #[test]
 fn a_square_on_one_side_of_the_other_is_not_cut_if_the_other_comes_first() {
-    // The second stands on the first; its own plane would cut the first in two.
+    // The second square stands on the first. The second square's plane would cut the first in two.
     let (floor, wall) = (square(2, [0.0; 3]), square(0, [0.0, 0.0, 1.5]));
     let first = |squares: [&Square; 2]| build(Heuristic::First, &squares.map(Clone::clone)).len();
     assert_eq!(first([&floor, &wall]), 2);

@@ -12,7 +12,7 @@ fn options(scene: &Scene, by: Heuristic) -> BuildOptions {
 }
 
 #[test]
-fn an_extended_tree_is_that_of_all_polygons() {
+fn an_extended_tree_equals_the_tree_of_all_polygons() {
     for scene in [scene::random_triangles(120, 3), scene::city(400, 2), scene::crossing(9)] {
         let all = polygons(&scene);
         for &by in Heuristic::ALL {
@@ -72,8 +72,8 @@ fn a_failed_extension_does_not_change_the_tree() {
     assert_eq!(tree.preparation().polygons, scene.len() + 1);
 }
 
-/// Among the new polygons and of old ones; whole ones and triangulated ones, from any corner and in
-/// either direction, with corners repeated, and moved by the tolerance.
+/// New polygons are duplicates of each other or of old polygons. They are whole or triangulated, start at any
+/// corner, run in either direction, have repeated corners, or have corners that the tolerance moves.
 #[test]
 fn duplicates_of_old_and_new_polygons_are_counted() {
     let mut dice = Dice(3);
@@ -91,7 +91,7 @@ fn duplicates_of_old_and_new_polygons_are_counted() {
                     };
                     around[..count].iter().copied().map(lift).collect()
                 }
-                // Flat ones, moved by less than the tolerance.
+                // Flat polygons, moved by less than the tolerance.
                 1 => {
                     let at = dice.whole_point(3);
                     let lift = DVec3::Z * dice.share() * 5e-7;

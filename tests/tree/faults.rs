@@ -1,10 +1,10 @@
-//! Faults found earlier, reduced.
+//! Reduced cases of earlier faults.
 
 use testkit::judge::judge;
 use testkit::prelude::*;
 
-/// Convexity was tested along one of two axes in which the plane is equally steep, and the corners
-/// moved onto the plane along the other.
+/// The plane was equally steep along two axes. Convexity was tested along one of them, and corners were moved
+/// onto the plane along the other.
 #[test]
 fn corners_moved_onto_a_plane_leave_the_face_convex() {
     let octagon = [

@@ -1,4 +1,4 @@
-//! One builder, scene after scene, compared with trees that are built alone.
+//! Compares the trees of one builder, scene after scene, with trees that are built alone.
 
 use crate::tree::{heuristic, shoot};
 use binspace::internals::{Tuning, tree_of};
@@ -14,7 +14,7 @@ fn assert_same(one: &BspTree, other: &BspTree, viewpoint: Viewpoint) {
     assert_eq!(order(one, viewpoint), order(other, viewpoint));
 }
 
-/// The tree of a frame, built alone and permanently.
+/// The tree of one frame, built alone and kept.
 fn alone<P: Polygon>(
     options: &BuildOptions,
     polygons: impl IntoIterator<Item = P>,
@@ -29,7 +29,7 @@ fn a_frame_has_the_tree_that_is_built_alone() {
     let [frames, cut] =
         tally(file!(), 128, scenes, |counts: &mut [usize; 2], (scenes, by, seed)| {
             let mut dice = Dice(seed);
-            // Options belong to the builder, so its scenes have one tolerance.
+            // Options belong to the builder, so all its scenes have one tolerance.
             let options = scenes[0].options(by);
             let mut builder = FrameBuilder::new(options.clone());
             for scene in &scenes {
@@ -60,7 +60,8 @@ fn after_an_error_the_tree_is_empty_and_the_builder_goes_on() -> Result<(), Erro
         assert_eq!(builder.build([square(0.0), square(1.0), upright])?.len(), 5);
         let many = (0..6).map(|i| square(f64::from(i)));
         let over = [many.clone().collect::<Vec<_>>(), vec![square(f64::NAN)]];
-        // Too many polygons, not finite, and more pieces than polygons.
+        // Scenes with too many polygons, with coordinates that are not finite, and with more pieces than
+        // polygons.
         for polygons in
             over.into_iter().chain([vec![square(0.0), square(1.0), square(2.0), upright]])
         {
@@ -104,7 +105,7 @@ fn the_default_tolerance_of_a_frame_follows_its_own_polygons() {
     }
 }
 
-/// More polygons than one thread prepares, sets that are passed to other threads.
+/// More polygons than one thread prepares, and sets that are passed to other threads.
 #[test]
 fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     let mut builder = FrameBuilder::new(BuildOptions::DEFAULT);
@@ -117,8 +118,8 @@ fn large_scenes_are_built_as_well() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Cards that all cross each other, in the number for which all planes of a small set are tried, and more:
-/// budgets are counted to the last piece and node.
+/// Cards that all cross each other. Their number goes up to beyond the size of small sets, for which all
+/// planes are tried. Budgets count exactly every piece and node.
 #[test]
 fn crossing_cards_of_every_small_number_keep_their_budgets()
 -> Result<(), Box<dyn std::error::Error>> {

@@ -1,4 +1,4 @@
-//! Input with little or no content, and degenerate viewpoints: stated results, no panics.
+//! Input with little or no content, and degenerate viewpoints: results are as documented, and nothing panics.
 
 use binspace::ErrorKind;
 use testkit::orders;
@@ -7,7 +7,7 @@ use testkit::snapshot::polygons;
 
 const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// Viewpoints without a picture, and some that are merely awkward.
+/// Viewpoints without a picture, and viewpoints that are only hard to decide.
 fn viewpoints() -> Vec<Viewpoint> {
     let odd =
         [0.0, -0.0, 1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 5e-324];
@@ -74,7 +74,7 @@ fn polygons_without_area_are_dropped_and_counted() {
     ];
     let square = SQUARE.map(DVec3::from_array).to_vec();
     for polygon in &degenerate {
-        // Alone, and beside one that has an area.
+        // Alone, and beside a polygon with area.
         let tree = BspTree::build([polygon]).unwrap();
         let found = tree.preparation();
         assert!(tree.is_empty() && tree.faces().is_empty(), "{polygon:?}");

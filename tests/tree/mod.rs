@@ -1,5 +1,5 @@
-//! Trees of hard scenes compared with separate oracles: exact rationals for the fragments, rays in big
-//! integers for the order.
+//! Compares trees of hard scenes with separate oracles: exact rationals judge the fragments, and rays in big
+//! integers judge the order.
 
 mod cases;
 mod extend;

@@ -1,5 +1,5 @@
-//! Small cards of one plane, whose corners are rounded by less than the tolerance: no heuristic cuts a card
-//! by the plane of another that lies within the tolerance of its own.
+//! Small cards of one plane, whose corners are rounded by less than the tolerance. No heuristic cuts a card
+//! by the plane of another card if the two lie in one plane within the tolerance.
 
 use binspace::glam::{DQuat, EulerRot};
 use binspace::internals::PlaneKind;
@@ -15,13 +15,13 @@ type Card = [DVec3; 4];
 
 struct Cards {
     all: Vec<Card>,
-    /// The number of the first cards that lie in one plane, and the plane's axes.
+    /// The number of cards in one plane, which come first, and the plane's axes.
     level: usize,
     axes: [DVec3; 3],
 }
 
-/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance, and possibly
-/// others that cross it.
+/// Cards of several sizes in one plane, rounded to `f32` or moved by a fifth of the tolerance. There may be
+/// other cards that cross this plane.
 fn cards(dice: &mut Dice, others: usize) -> Cards {
     let mut between = |low: f64, high: f64| low + (high - low) * dice.share();
     let mut turn = || {
@@ -69,7 +69,7 @@ fn is_on(faces: &Faces, face: u32, other: u32) -> bool {
     })
 }
 
-/// Pairs of fragments that overlap, seen along the plane's normal, out of input order.
+/// The number of pairs of fragments that overlap, seen along the plane's normal, and are not in input order.
 fn exchanged(tree: &BspTree, cards: &Cards) -> usize {
     let [x, y, z] = cards.axes;
     let flat = |p: DVec3| DVec2::new(p.dot(x), p.dot(y));
@@ -101,7 +101,8 @@ fn exchanged(tree: &BspTree, cards: &Cards) -> usize {
     found
 }
 
-/// The two cards of the original fault: one is a hundredth of the other's size, and cut it.
+/// The two cards of the original fault: one card has a hundredth of the other's size, and its plane cut the
+/// other.
 #[test]
 fn a_frame_does_not_cut_a_card_by_a_small_one_in_its_plane() {
     let small: [[f32; 3]; 4] = [
@@ -154,8 +155,8 @@ fn a_polygon_is_not_cut_by_the_plane_of_one_that_lies_on_its_own() {
     assert!(cuts > 3000 && pairs > 100, "{cuts} {pairs}");
 }
 
-/// If for any two cards one lies on the plane of the other, none is cut; and because the default heuristic
-/// and frames use the planes of large cards, the small ones keep their order too.
+/// If, of any two cards, one lies on the plane of the other, no card is cut. The default heuristic and frames
+/// use the planes of large cards, so small cards keep their order too.
 #[test]
 fn cards_of_one_plane_stay_whole_by_every_heuristic() {
     let mut dice = Dice(62);

@@ -26,8 +26,8 @@ impl<'t> Sides<'t> {
         Self { tree, planes: tree.nodes().map(plane).collect(), counts: [0; 3] }
     }
 
-    /// Whether every plane has the far side, then the fragments on it in input order, then the near side;
-    /// for an eye on the plane either side is right.
+    /// Checks that, at every plane, the far side comes first, then the fragments on the plane in input order,
+    /// then the near side. For an eye on the plane, either side may come first.
     fn check(&mut self, view: &View) -> Verdict {
         orders::check(self.tree, view.viewpoint)?;
         let mut place = vec![0; self.tree.len()];
@@ -66,8 +66,8 @@ impl<'t> Sides<'t> {
         })
     }
 
-    /// Whether the orders of two viewpoints are the same exactly if no plane lies between them; a plane
-    /// that contains an eye may count as between.
+    /// Checks that the orders of two viewpoints are equal exactly if no plane lies between the viewpoints. A
+    /// plane that contains an eye may count as between.
     fn check_same(&self, a: &View, b: &View) -> Verdict {
         let planes = self.planes.iter().map(|(_, plane)| plane);
         let sides: Vec<_> = planes.map(|plane| (a.side(plane), b.side(plane))).collect();
@@ -78,8 +78,8 @@ impl<'t> Sides<'t> {
     }
 }
 
-/// Eyes on the planes of a face, at its corners, level with them along an axis, and all of these missed by
-/// one step of the lattice.
+/// Eyes on the planes of a face, at its corners, and at the height of a corner along an axis; and the same
+/// eyes moved by one step of the lattice.
 fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let mut eyes = vec![p, q];
@@ -96,8 +96,8 @@ fn eyes_on(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     eyes.into_iter().chain(missed).map(|eye| View::eye(faces, eye)).collect()
 }
 
-/// Eyes from one extent away to where only their direction counts: along the axes, along planes and edges
-/// of a face, and anywhere.
+/// Eyes from one extent away to so far away that only their direction counts. Directions are along axes,
+/// along planes and edges of a face, and anywhere.
 fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let axis = DVec3::AXES[dice.below(3)];
@@ -113,7 +113,7 @@ fn eyes_far_from(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     eyes
 }
 
-/// Directions along the axes, along edges and in the plane of a face, and nearly so.
+/// Directions along the axes, along edges and in the plane of a face, and directions next to these.
 fn directions(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
     let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
@@ -123,7 +123,7 @@ fn directions(faces: &Faces, face: u32, dice: &mut Dice) -> Vec<View> {
     all.map(View::direction).collect()
 }
 
-/// All of these for some faces.
+/// All these viewpoints for some faces.
 fn awkward_views(faces: &Faces, count: usize, dice: &mut Dice) -> Vec<View> {
     let mut views = Vec::new();
     for _ in 0..count.min(faces.len()) {
@@ -154,7 +154,7 @@ fn eyes_far_away_and_on_planes_are_on_the_sides_that_rationals_say() {
 }
 
 /// The layout of orders relies on this: no plane has all fragments on one side, and no node has fewer than
-/// two, except the only one.
+/// two fragments, except the only node of a tree.
 #[test]
 fn every_plane_has_something_on_it_or_on_both_sides() {
     let scenes = [scene::sphere(900), scene::random_triangles(300, 8), scene::teapot(4)];

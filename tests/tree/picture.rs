@@ -1,4 +1,4 @@
-//! The painter's picture of a hard scene compared with the depth buffer's, which uses no tree.
+//! Compares the painter's picture of a hard scene with the picture of a depth buffer, which uses no tree.
 
 use binspace::paint::paint_tree;
 use binspace::raster::{Image, Verdict, zbuffer};
@@ -19,7 +19,7 @@ fn cameras(scene: &HardScene, count: usize, seed: u64) -> Vec<Camera> {
     views(bounds, DVec3::Z, count, SIZE, seed).unwrap_or_default()
 }
 
-/// A camera at one of the eyes where planes and corners are, looking at a fragment.
+/// A camera that looks at a fragment, with its eye in a plane or at a corner.
 fn awkward_camera(tree: &BspTree, dice: &mut Dice) -> Option<Camera> {
     let rays = Rays::new(tree);
     let view = some_view(tree.faces(), &rays, dice);
@@ -63,7 +63,8 @@ impl Compared {
         self.contested += result.comparison.verdicts.iter().filter(contested).count();
     }
 
-    /// At least this many pictures, and a tenth of their pixels not empty nor contested.
+    /// Asserts at least this many pictures. At least a tenth of their pixels must be neither empty nor
+    /// contested.
     fn assert_floor(&self, pictures: usize) {
         let clear = self.pixels - self.contested;
         let least = pictures * (SIZE[0] * SIZE[1]) as usize / 10;
@@ -106,8 +107,9 @@ fn the_painter_is_right_from_eyes_in_planes_and_corners() {
     compared.assert_floor(150);
 }
 
-/// The eye and the ray lie in the plane of the last polygon, which cuts the polygon nearest to the ray and
-/// which another one touches there: the two were assigned to different sides of the plane.
+/// The eye and the ray lie in the plane of the last polygon. This plane cuts the nearest polygon, and another
+/// polygon touches the plane there. In an earlier version, these two polygons were put on different sides of
+/// the plane.
 #[test]
 fn the_painter_is_right_along_a_partition_plane() {
     let points = |corners: &[[f64; 3]]| -> Vec<DVec3> {

@@ -7,7 +7,7 @@ use testkit::snapshot::Snapshot;
 const BY: [Heuristic; 3] =
     [Heuristic::Auto, Heuristic::FreePlanes, Heuristic::Sampled { candidates: 4 }];
 
-/// Builds with several threads, where there are any, until a call number `stop`.
+/// Builds with four threads, if the feature `parallel` is on, until call number `stop`.
 fn build(
     scene: &Scene,
     heuristic: Heuristic,
@@ -25,7 +25,7 @@ fn build(
     (tree, heard)
 }
 
-/// The first call from the build proper, after those from the preparation.
+/// The first call of the build itself, after the calls of the preparation.
 fn first_of_the_build(heard: &[Progress]) -> usize {
     let total = heard[heard.len() - 1].total;
     heard.iter().position(|progress| progress.done > 0 && progress.total == total).unwrap()
@@ -124,8 +124,8 @@ fn more_polygons_than_fragments_allowed_are_noticed_before_they_are_all_read() {
     assert_eq!(options.build(std::iter::repeat_n(square, 1000)).unwrap().len(), 1000);
 }
 
-/// A callback that waits for other work of the pool may get a part of the same build to do, which calls it
-/// again on the same stack.
+/// A callback that waits for other work of the pool may run a part of the same build, which calls the
+/// callback again on the same stack.
 #[test]
 fn a_callback_may_do_other_work_of_the_pool() {
     use std::sync::mpsc;

@@ -44,7 +44,7 @@ proptest! {
         prop_assert_eq!(build(), build());
     }
 
-    /// Each f64 operation on the lattice, and the lattice itself, scales without rounding.
+    /// The lattice and each `f64` operation on it scale without rounding.
     #[test]
     fn scaling_by_a_power_of_two_changes_nothing(
         scene in hard::scene(),

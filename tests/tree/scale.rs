@@ -1,4 +1,4 @@
-//! Large and deep: no recursion, no quadratic work, budgets that hold.
+//! Large scenes and deep trees: no recursion, no quadratic work, and budgets that hold.
 
 use binspace::{Error, ErrorKind};
 use std::thread;
@@ -22,7 +22,7 @@ pub(crate) fn with_a_small_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T 
     })
 }
 
-/// Builds, orders in every form, validates, drops.
+/// Builds a tree, orders it in every form, validates it, and drops it.
 fn go_through(scene: &Scene, options: BuildOptions) -> binspace::Stats {
     with_a_small_stack(|| {
         let tree = options.build(scene.polygons()).expect("within budget");
@@ -34,7 +34,8 @@ fn go_through(scene: &Scene, options: BuildOptions) -> binspace::Stats {
     })
 }
 
-/// A mean depth of a few times the logarithm, which bounds the work by n log n; and no long list.
+/// Asserts that the mean depth is at most a few times the logarithm of the size, so that the work is O(n log
+/// n), and that no list is long.
 fn assert_shallow(stats: &binspace::Stats) {
     let log = (stats.fragments.max(2) as f64).log2();
     assert!(stats.depth_mean <= 2.0 * log, "{stats:?}");
@@ -60,7 +61,7 @@ fn a_chain_of_100_000_polygons_needs_a_small_stack_and_a_shallow_tree() {
 fn a_sphere_of_100_000_faces_needs_a_small_stack_and_a_shallow_tree() {
     let sphere = scene::sphere(LARGE);
     let stats = go_through(&sphere, BuildOptions::DEFAULT);
-    // Never cut: free planes separate its rings, and the rest of a ring is divided in a list.
+    // The sphere is never cut: free planes separate its rings, and the rest of a ring is divided in a list.
     assert_eq!(stats.fragments, stats.faces, "{stats:?}");
     assert!(stats.depth_max < 1000, "{stats:?}");
     validate(&sphere, BuildOptions::DEFAULT);
@@ -93,7 +94,7 @@ pub(crate) fn mosaic(across: u32) -> Scene {
     scene_of("mosaic", (0..across * across).map(square))
 }
 
-/// Squares in one plane, each inside the one before.
+/// Squares in one plane, each inside the square before.
 fn nested(count: u32) -> Scene {
     let half = |i: u32| f64::from(count - i);
     scene_of("nested", (0..count).map(|i| rectangle([-half(i); 2], [half(i); 2], 1.0)))
@@ -158,7 +159,7 @@ fn a_hundred_thousand_duplicates_share_one_node() {
 
 #[test]
 fn coplanar_crowds_across_another_crowd_stay_shallow() {
-    // Two planes full of squares that cross: each piece is cut once at most.
+    // Two crossing planes full of squares: each piece is cut at most once.
     let mut scene = mosaic(100);
     for i in 0..10_000u32 {
         let (y, z) = (f64::from(i % 100), f64::from(i / 100) - 50.0);

@@ -48,7 +48,7 @@ fn globe(slices: u32, rings: u32, radius: f64) -> Vec<[DVec3; 3]> {
     faces
 }
 
-/// Each with the largest allowed number of fragments per face.
+/// Each scene has a largest allowed number of fragments per face.
 #[test]
 fn scenes_turned_off_the_axes_are_cut_little() {
     let stack = |gap: f64| {
@@ -98,7 +98,7 @@ fn a_disc_within_a_prism_does_not_keep_it_whole() {
     assert!(whole <= 2 * empty, "{whole} calls, and {empty} without the disc");
 }
 
-/// A prism with some polygons inside: the convex part is peeled at once, and the rest is divided.
+/// A prism with some polygons inside. The convex part is peeled at once, and the rest is divided.
 #[test]
 fn a_convex_set_with_things_inside_is_taken_apart_around_them() {
     let mut polygons = tilted(&scene_of("polygons", globe(600, 4, 2.0)));

@@ -9,7 +9,7 @@ use testkit::rational::Point;
 fn vertices(tree: &BspTree) -> Vec<Vec<Point>> {
     let faces = tree.faces();
     let lattice = faces.lattice();
-    // A power of two, and a whole number of these: both exact.
+    // The step is a power of two, and the origin is a whole number of steps, so both are exact.
     let step = rational::step(lattice);
     let origin = rational::point(lattice.to_world([0.0; 3]));
     let world = |p: Point| -> Point { std::array::from_fn(|i| &p[i] * &step + &origin[i]) };
@@ -65,16 +65,16 @@ fn boxes_hold_every_vertex_exactly_and_are_hardly_larger() {
     enough!(cut > 1000, exact > 1000; "{cut} {exact}");
 }
 
-/// Corners that the tolerance moves are stored as the nearest points of the grid: the exact ones may be
-/// beyond, by half a step. Exact vertices of cuts are on either side of the rounded ones. Scenes around the
-/// origin, where no rounding of the box itself compensates for it.
+/// Corners that the tolerance moves are stored as the nearest points of the grid, so exact corners may be
+/// outside by half a step. Exact vertices of cuts are on either side of the rounded vertices. Scenes are
+/// around the origin, where the box itself is not rounded outwards.
 #[test]
 fn boxes_hold_corners_that_are_moved_and_vertices_that_are_rounded() {
     let mut dice = Dice(8);
     let [mut moved, mut cut, mut beyond] = [0; 3];
     for _ in 0..times(60) {
         let mut share = || dice.point(-0.5, 0.5);
-        // Planar except for a rounding that counts, and crossing each other.
+        // Polygons that cross each other, and that are planar except for a rounding that counts.
         let quad = |_| {
             let (at, u, v) = (share() * 0.25, share(), share());
             [at - u, at - v, at + u * 0.9, at + v * 1.1].map(|p| p + share() * 1e-12)
@@ -104,8 +104,8 @@ fn a_tree_of_nothing_has_no_box() {
     assert_eq!(BspTree::build::<[[f64; 3]; 3]>([]).unwrap().bounds(), None);
 }
 
-/// A triangle with an edge that leans by 2⁻⁵⁰ over its height of 1, cut by a floor at 2⁻¹² of it: the cut is
-/// at x = ½ + 2⁻⁶², which an `f64` cannot hold.
+/// A triangle with an edge that leans by 2⁻⁵⁰ over its height of 1. A floor cuts it at the height 2⁻¹², at x
+/// = ½ + 2⁻⁶², which an `f64` cannot hold.
 #[test]
 fn a_box_has_room_for_the_rounding_of_a_cut() {
     let foot = 2f64.powi(-12);
@@ -123,7 +123,8 @@ fn a_box_has_room_for_the_rounding_of_a_cut() {
     assert!(root.bounds()[1].x > 0.5 && tree.bounds().unwrap()[1].x > 0.5);
 }
 
-/// The box of a tree is the box of its polygons, at any place in their bounds, and for any number of them.
+/// The box of a tree is the box of its polygons, for any number of polygons, and at any place in given
+/// bounds.
 #[test]
 fn polygons_in_a_corner_of_their_room_have_a_small_box() {
     let options = BuildOptions::DEFAULT.with_bounds(DVec3::splat(-100.0), DVec3::splat(100.0));

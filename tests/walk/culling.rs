@@ -1,5 +1,4 @@
-//! The fragments that culled orders leave out, compared with brute force in rationals and with exact
-//! pictures.
+//! Compares the fragments that culled orders leave out with brute force in rationals and with exact pictures.
 
 use crate::walk::{trees, viewpoints};
 use binspace::paint::paint_order;
@@ -14,8 +13,8 @@ use testkit::shapes;
 use testkit::snapshot::order;
 use testkit::views::View;
 
-/// A culled order, after checks that it is a part of the whole order, and that it is the same from both ends,
-/// read one by one and walked.
+/// Returns a culled order. Checks that it is a part of the whole order, and that all forms agree: read from
+/// both ends, one by one, and walked.
 fn culled(tree: &BspTree, viewpoint: Viewpoint, culling: &Culling) -> Vec<u32> {
     let mut found = vec![3; 5];
     tree.order(viewpoint).culled(culling).write_into(&mut found);
@@ -67,7 +66,7 @@ fn a_culled_walk_skips_subtrees() {
     assert_eq!(subtrees(above, &Culling::NONE.with_facing(Facing::Back)), (0, 0));
 }
 
-/// Whether a fragment's box reaches over a plane of the region, exactly; `None` if it falls short by so
+/// Whether a fragment's box reaches over each plane of the region, exactly; `None` if the box misses by so
 /// little that it may be kept.
 fn must_be_kept(tree: &BspTree, fragment: u32, frustum: &Frustum) -> Option<bool> {
     let corners = tree.fragment(fragment).bounds();
@@ -93,7 +92,7 @@ fn must_be_kept(tree: &BspTree, fragment: u32, frustum: &Frustum) -> Option<bool
     worst
 }
 
-/// Regions about a tree: slabs, wedges from a point, planes through corners of boxes.
+/// Regions around a tree: slabs, wedges from a point, planes through corners of boxes.
 fn frusta(tree: &BspTree, dice: &mut Dice) -> Vec<Frustum> {
     let Some([low, high]) = tree.bounds() else { return vec![] };
     let size = (high - low).max(DVec3::splat((high - low).max_element() * 1e-3));
@@ -109,7 +108,7 @@ fn frusta(tree: &BspTree, dice: &mut Dice) -> Vec<Frustum> {
             .collect();
         frusta.push(Frustum::new(planes));
     }
-    // A small cell, and one that is bounded by a box exactly.
+    // A small cell, and a cell whose bounds are exactly a box.
     for cell in [[low + size * 0.4, low + size * 0.5], tree.fragment(0).bounds()] {
         let [low, high] = cell;
         let sides = DVec3::AXES
@@ -165,7 +164,7 @@ fn sides_are_those_that_rationals_say() {
             at(tree.fragment(0).vertices().next().unwrap()),
             View::direction(DVec3::new(0.3, -0.2, -1.0)),
             View::direction(DVec3::Y),
-            // Its small components are lost when it is rounded.
+            // Rounding removes the small components of this direction.
             View::direction(DVec3::new(1e-19, 1.0, -1e-19)),
         ];
         views.extend((0..3).map(|_| at(low + (high - low) * dice.share())));
@@ -196,7 +195,7 @@ fn sides_are_those_that_rationals_say() {
     enough!(fronts > 5000, backs > 5000, edge_on > 100, whole > 500; "{fronts} {backs} {edge_on} {whole}");
 }
 
-/// A convex body: points on a sphere's lattice of circles, moved, turned and stretched.
+/// A convex body: points on the circles of a sphere, moved, rotated and stretched.
 fn body() -> impl Strategy<Value = Vec<Vec<DVec3>>> {
     let turn = prop::array::uniform3(-3.0..3.0f64);
     let size = prop::array::uniform3(0.1..10.0f64);
@@ -233,7 +232,7 @@ proptest! {
             let mut found = culled(&tree, viewpoint, &Culling::NONE.with_facing(shown));
             prop_assert!(found.len() < tree.len() || inside);
             let ordered = paint_order(&tree, &found, &rays);
-            // None covers another.
+            // No face covers another.
             found.sort_unstable();
             let unordered = paint_order(&tree, &found, &rays);
             for picture in [ordered, unordered] {
@@ -244,7 +243,7 @@ proptest! {
     }
 }
 
-/// Every pixel of the picture is that of the whole order; also with an eye on a corner, and wide
+/// Every pixel of the picture equals the pixel of the whole order, also with an eye on a corner, and in wide
 /// and narrow views.
 #[test]
 fn no_polygon_that_owns_a_pixel_is_outside_a_cameras_frustum() {
@@ -268,8 +267,7 @@ fn no_polygon_that_owns_a_pixel_is_outside_a_cameras_frustum() {
             let found = culled(&tree, camera.viewpoint(), &culling);
             let whole = paint_tree(&tree, camera.viewpoint(), &rays);
             let picture = paint_order(&tree, &found, &rays);
-            // Not only the visible fragments, but also the hidden ones: every one that covers a pixel is
-            // there.
+            // The culled order contains every fragment that covers a pixel, also hidden fragments.
             assert_eq!((picture.faces(), picture.drawn()), (whole.faces(), whole.drawn()));
             left_out += tree.len() - found.len();
             all += tree.len();
@@ -279,8 +277,8 @@ fn no_polygon_that_owns_a_pixel_is_outside_a_cameras_frustum() {
     assert!(pictures > 300 && left_out * 3 > all, "{pictures} {left_out} of {all}");
 }
 
-/// Within walls, few invisible fragments are visited; and floors, which lie in one plane with many others,
-/// are left out too.
+/// Within walls, few invisible fragments are visited. Floors, which lie in one plane with many others, are
+/// left out too.
 #[test]
 fn indices_of_a_culled_order_follow_the_list() {
     let tree = BspTree::build(cells(12, &mut Dice(12))).unwrap();
@@ -306,7 +304,7 @@ fn indices_of_a_culled_order_follow_the_list() {
 }
 
 /// The margin of a scene's boxes: at least a step of its grid, even where coordinates are 0 and nothing is
-/// rounded, and not more than documented.
+/// rounded, and at most the documented margin.
 #[test]
 fn boxes_count_as_larger_by_a_step_of_the_grid() {
     let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -323,8 +321,8 @@ fn boxes_count_as_larger_by_a_step_of_the_grid() {
     }
 }
 
-/// With 1 to 40 fragments, tiny, huge and far out, by planes through the corners of their boxes and beside
-/// them: from the first word of marks to the third, and to the ends of `f64`.
+/// Scenes of 1 to 40 fragments, so that marks need one to three words. Scenes are tiny, huge or far out, up
+/// to the limits of `f64`. Planes go through the corners of boxes, or just beside them.
 #[test]
 fn scenes_of_every_size_are_culled_as_boxes_say() {
     let mut dice = Dice(33);
@@ -353,7 +351,7 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
                 let normal = [normal, DVec3::X, DVec3::NEG_Y][(dice.share() * 3.0) as usize];
                 let [low, high] = tree.fragment(fragment).bounds();
                 let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
-                // It only touches the plane.
+                // The box only touches the plane.
                 let region = Frustum::new([(normal, normal.dot(corner))]);
                 let culling = Culling::NONE.with_frustum(region.clone());
                 let found = culled(&tree, Viewpoint::direction([0.1, 0.2, 1.0]), &culling);
@@ -374,8 +372,8 @@ fn scenes_of_every_size_are_culled_as_boxes_say() {
     assert!(kept > 3000 && left_out > 3000 && doubtful < 600, "{kept} {left_out} {doubtful}");
 }
 
-/// Planes through a corner of a far-off box, exactly or up to the step of an offset. Their products are a
-/// million times their sum, and their rounding exceeds a step of the grid.
+/// Planes through a corner of a distant box, exactly or up to a step of the offset. The terms of a plane's
+/// equation there are a million times their sum, so rounding exceeds a step of the grid.
 #[test]
 fn a_box_is_kept_however_the_test_is_rounded() {
     let mut dice = Dice(31);
@@ -389,7 +387,8 @@ fn a_box_is_kept_however_the_test_is_rounded() {
         for fragment in 0..tree.len() as u32 {
             for _ in 0..8 {
                 let [low, high] = tree.fragment(fragment).bounds();
-                // Nearly perpendicular to the way to the box, so that the products cancel.
+                // The normal is nearly perpendicular to the direction of the box, so that the products
+                // cancel.
                 let normal = (share() - 0.5).cross(shift.normalize()) + share() * 1e-6;
                 let corner = DVec3::select(normal.cmpgt(DVec3::ZERO), high, low);
                 let [n, c] = [normal, corner].map(rational::point);
@@ -413,7 +412,7 @@ fn a_box_is_kept_however_the_test_is_rounded() {
     enough!(kept > 960, inexact > 300; "{inexact} of {kept}");
 }
 
-/// Among many coplanar polygons, whose boxes are tested by the block, only those in the region.
+/// Of many coplanar polygons, whose boxes are tested in blocks, only the polygons in the region are drawn.
 #[test]
 fn blocks_that_a_plane_goes_through_are_looked_into() {
     let square = |k: u32| {
@@ -444,7 +443,8 @@ fn blocks_that_a_plane_goes_through_are_looked_into() {
     enough!(compared > 4000; "{compared}");
 }
 
-/// Among coplanar polygons that face either way and do not fill the last block, only those of one side.
+/// Of coplanar polygons that face either way and do not fill the last block, only the polygons of one side
+/// are drawn.
 #[test]
 fn one_side_of_a_plane_of_both_is_drawn() {
     for count in (1..70).chain([255, 257, 1000]) {

@@ -23,7 +23,7 @@ fn scenes() -> Vec<Vec<Vec<DVec3>>> {
     ]
     .map(|scene| polygons(&scene))
     .into();
-    // Off a grid and off the origin, so that every corner is rounded, and most are moved.
+    // Scenes off the grid and off the origin, so that every corner is rounded, and most corners are moved.
     for (scale, shift) in [(1e-9, 1.0), (0.3, 1e6), (1e120, -1e121)] {
         let turn = binspace::glam::DMat3::from_euler(binspace::glam::EulerRot::XYZ, 0.3, 1.1, 2.0);
         let place = |p: &DVec3| turn * *p * scale + DVec3::new(shift, -shift, 0.5 * shift);

@@ -53,7 +53,7 @@ fn the_children_lead_to_all_nodes_and_the_ranges_to_all_fragments() {
     enough!(deep > 20; "{deep}");
 }
 
-/// Planes compared with the polygons as given, in rationals: no lattice, no library.
+/// Compares planes with the given polygons in rationals, without the lattice and without code of the library.
 #[test]
 fn planes_belong_to_the_polygons_that_they_name() {
     let [mut named, mut free] = [0; 2];
@@ -77,9 +77,9 @@ fn planes_belong_to_the_polygons_that_they_name() {
                     free += 1;
                     continue;
                 };
-                // All corners are on it, up to the grid and the tolerance.
+                // All corners are on the plane, up to the grid and the tolerance.
                 let slack = step * 4.0 + tree.stats().tolerance;
-                // For a bent polygon, the corners of one of its triangles.
+                // The plane of a bent polygon contains the corners of one of its triangles.
                 let is_on = |p: &&DVec3| (normal.dot(**p) - offset).abs() <= slack;
                 let on = scene[polygon].iter().filter(is_on).count();
                 enough!(on >= 3; "{node:?} of {polygon}");
@@ -88,7 +88,7 @@ fn planes_belong_to_the_polygons_that_they_name() {
                     let largest = exact.normal.iter().map(Signed::abs).max().unwrap();
                     let unit = exact.normal.each_ref().map(|c| (c / &largest).to_f64().value());
                     let unit = DVec3::from(unit).normalize();
-                    // The grid moves a corner by a step, and a thin triangle turns by more.
+                    // The grid moves a corner by up to a step, which turns thin triangles by a larger angle.
                     let [u, v] = [b - a, c - a];
                     let height = u.cross(v).length() / u.length().max(v.length());
                     let turned = 4.0 * step / height + 1e-15;
@@ -101,7 +101,7 @@ fn planes_belong_to_the_polygons_that_they_name() {
     enough!(named > 300, free > 100; "{named} {free}");
 }
 
-/// Fragments have the planes of their faces, however they were cut, in rationals of the grid.
+/// Fragments have the planes of their faces, for any cuts. Compared in rationals on the grid.
 #[test]
 fn fragments_tell_the_planes_of_their_faces() {
     let (mut fragments, mut on_nodes) = (0, 0);

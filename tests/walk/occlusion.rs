@@ -44,7 +44,7 @@ fn no_polygon_that_owns_a_pixel_is_hidden() {
                     skipped += usize::from(visited < parts);
                     all += 1;
                     if cell == 1 {
-                        // Each owns a pixel: without it, the picture differs.
+                        // Each remaining fragment is visible in a pixel: without it, the picture differs.
                         for gone in (0..found.len()).step_by(17) {
                             let mut rest = found.clone();
                             rest.remove(gone);
@@ -64,8 +64,8 @@ fn no_polygon_that_owns_a_pixel_is_hidden() {
 
 /// The visible fragment in each pixel.
 fn paint_fragments(tree: &BspTree, order: &[u32], rays: &Rays) -> Vec<u32> {
-    // The number of times that pixels are covered reveals fragments of one face that hide nothing of each
-    // other.
+    // The number of fragments that cover each pixel is stored too, because fragments of one face look the
+    // same.
     let image = paint_order(tree, order, rays);
     let mut shown = image.faces().to_vec();
     shown.push(image.drawn() as u32);

@@ -15,7 +15,7 @@ fn walked(
     let (mut fragments, mut nodes) = (Vec::new(), Vec::new());
     let visit = |part: Part<'_>| match part {
         Part::Subtree(node) => {
-            // Nothing of a subtree comes before it.
+            // No part of a subtree comes before the subtree's node.
             assert!(fragments.iter().all(|fragment| !node.fragments().contains(fragment)));
             nodes.push(node.index());
             if skips(node) { Flow::Skip } else { Flow::Descend }

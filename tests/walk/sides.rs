@@ -1,5 +1,5 @@
-//! Back faces for eyes so far away, and so nearly in the polygons' planes, that rounded normals show the
-//! wrong side.
+//! Back faces for eyes that are so far away, and so close to the polygons' planes, that rounded normals give
+//! the wrong side.
 
 use binspace::{Culling, Facing};
 use testkit::prelude::*;
@@ -45,7 +45,7 @@ fn fronts_are_exact_where_normals_of_f32_are_not() {
                 let all = 0..tree.len() as u32;
                 assert!(found.into_iter().eq(all.filter(|&f| sides[f as usize] == side)));
             }
-            // The side by normals of `f32`, where all polygons are about equally high.
+            // The side that `f32` normals give, if all polygons are at about the same height.
             let rounded = tree.fragment(0).normal().as_vec3().as_dvec3();
             let eye = way + normal * above;
             misleading += usize::from(rounded.dot(eye) * above < 0.0 && above.abs() > 2.0);

@@ -4,8 +4,8 @@ use binspace::Ray;
 use rayon::prelude::*;
 use testkit::prelude::*;
 
-/// The first queries of a tree come from all threads of a pool, and from outside it. Large enough that the
-/// boxes take a while.
+/// The first queries of a tree come from all threads of a pool, and from outside it. The tree is large, so
+/// that making the boxes takes some time.
 #[test]
 fn the_first_queries_may_come_from_all_threads_at_once() {
     for round in 0..times(3) {

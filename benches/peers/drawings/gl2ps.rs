@@ -1,10 +1,11 @@
 //! `gl2ps`: triangles drawn by OpenGL as a vector picture, by a driver in C that is compiled here.
 //!
-//! It sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six digits
-//! of a coordinate. So its pixels are judged twice. The first count covers all pixels except those with one
-//! of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose eight neighbours all
-//! show the same polygon. Its time is the time of a page, from its beginning to the SVG file; ours is the time
-//! of the tree, the map, the paths and the SVG file. Both are times for which one thread ran.
+//! `gl2ps` sorts by its own tree (`bsp`) or by depths (`simple`). It uses `f32`, and its SVG files have six
+//! digits for each coordinate. So the pixels of `gl2ps` are judged twice. The first count covers all pixels
+//! except those with one of its outlines within 4·10⁻⁵ of a pixel. The second count covers only pixels whose
+//! eight neighbours all show the same polygon. Its time is the time of a page, from the beginning of the page
+//! to the SVG file. Our time is the time of the tree, the map, the paths and the SVG file. Both are the
+//! running times of one thread.
 
 use super::fill::{Picture, Pixel};
 use super::{SIZE, camera, cpu_time, drawn};
@@ -120,14 +121,14 @@ impl Ours {
     }
 }
 
-/// The driver's colour of a triangle, about.
+/// The approximate colour that the driver gives a triangle.
 fn colour(number: usize) -> [u8; 3] {
     [14, 7, 0].map(|from| (number >> from & 127) as u8 * 2)
 }
 
 /// A picture by gl2ps.
 struct Theirs {
-    /// The time of its page.
+    /// The time that `gl2ps` takes for a page.
     time: Duration,
     /// The filled triangles, in paint order.
     filled: Vec<Filled>,
@@ -175,7 +176,7 @@ impl Driver {
         self.folder.join("driver")
     }
 
-    /// The driver's drawing, by one of its ways to sort.
+    /// The driver's drawing, by one of the two ways to sort.
     fn draw(&self, scene: &Scene, camera: &Camera, sort: &str) -> io::Result<Theirs> {
         let [input, output] = ["triangles", "drawing.svg"].map(|name| self.folder.join(name));
         fs::write(&input, seen(scene, camera))?;
@@ -221,7 +222,8 @@ fn seen(scene: &Scene, camera: &Camera) -> String {
     text
 }
 
-/// A polygon of the file. Its fill is the number of the triangle, in the upper seven bits of each byte.
+/// A polygon of the file. The upper seven bits of each byte of its fill colour are the number of the
+/// triangle.
 fn filled_of(line: &str) -> Option<Filled> {
     let fill = usize::from_str_radix(line.split_once("fill=\"#")?.1.get(..6)?, 16).ok()?;
     let bits = |from: usize| (fill >> (from + 1)) & 127;
@@ -235,8 +237,8 @@ fn filled_of(line: &str) -> Option<Filled> {
     Some((number, corners?))
 }
 
-/// The visible polygon of each pixel, where a depth buffer and the tree's order agree; these are independent
-/// of each other.
+/// The visible polygon of each pixel, where a depth buffer and the tree's order agree. The two are
+/// independent of each other.
 struct Truth {
     pixels: Vec<Option<Pixel>>,
 }

@@ -1,8 +1,8 @@
-//! Drawings of one view: the number of paths, and their time, against building the tree; and `gl2ps`, which
-//! makes vector pictures of OpenGL drawings, on the same triangles. The whole scene is seen from around it,
-//! in 1600×1200 pixels.
+//! Drawings of one view: the number of paths, and the time against building the tree. On the same triangles,
+//! also `gl2ps`, which makes vector pictures of OpenGL drawings. The camera is outside and sees the whole
+//! scene in 1600×1200 pixels.
 //!
-//! Times of one thread are its running time; only the gain of a second one is by the clock.
+//! Times of one thread are its running time. Only the gain of a second thread is measured by the clock.
 //!
 //! Drawings are filled at the centres of pixels in floats and compared with the tree's order painted by
 //! integers. Centres nearer than 4·10⁻⁵ of a pixel to an outline are not judged.
@@ -40,7 +40,8 @@ const SCENES: [&str; 14] = [
     "level.obj",
     "level_large.obj",
 ];
-/// Drawings with nothing hidden take most of the time of this section; of more fragments, minutes.
+/// The largest number of fragments of a drawing with nothing hidden. These drawings take most of the time of
+/// this section; larger ones would take minutes.
 const MOST_TRANSLUCENT: usize = 50_000;
 
 pub(crate) fn run() {
@@ -89,7 +90,7 @@ fn timed(
 }
 
 /// The time for which threads of this program ran, the mean of some runs. Unlike the clock, it does not count
-/// the work of others on a shared machine. Where the system does not report it, by the clock.
+/// the work of others on a shared machine. Where the system does not report it, the clock is used.
 fn cpu_time<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
     let begin = Instant::now();
     let before = ran();
@@ -114,7 +115,7 @@ fn ran() -> Option<Duration> {
     Some(Duration::from_nanos(sum))
 }
 
-/// The whole scene, from around it.
+/// A camera outside the scene that sees all of it.
 fn camera(scene: &Scene, name: &str) -> Camera {
     let (low, high) = scene.bounds().expect("polygons");
     Camera::looking_at_all([low, high], up(name), SIZE).expect("a camera")
@@ -126,14 +127,14 @@ fn drawn(tree: &BspTree, camera: &Camera) -> Drawing {
 }
 
 /// A drawing's figures. It panics if a pixel is wrong, in the drawing or in the map, or if there is not
-/// exactly one path for each polygon that shows.
+/// exactly one path for each visible polygon.
 fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, name: &str) -> [String; 8] {
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     let visible = map.polygons().count();
     let mut score = Score::default();
     let mut checked = fill::check(tree, camera, &mut score);
-    // In real scenes, polygons lie within the tolerance of one another: there the tree's order decides the
-    // visible one, not the ray.
+    // In real scenes, some polygons lie within the tolerance of each other. There the tree's order decides
+    // which one is visible, not the ray.
     if !is_file(name) {
         checked = checked.and_then(|()| fill::check_rays(tree, camera, &mut score));
     }
@@ -153,7 +154,7 @@ fn judged(tree: &BspTree, camera: &Camera, scene: &Scene, name: &str) -> [String
     ]
 }
 
-/// The same paths, bit for bit.
+/// Asserts that two drawings have the same paths, bit for bit.
 fn assert_same(a: &Drawing, b: &Drawing) {
     assert_eq!(a.paths().len(), b.paths().len());
     for (a, b) in a.paths().zip(b.paths()) {

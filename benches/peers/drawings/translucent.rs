@@ -1,4 +1,4 @@
-//! Drawings in which nothing is hidden: pieces a polygon.
+//! Drawings in which nothing is hidden: the number of pieces for each polygon.
 
 use super::cpu_time;
 use super::fill::{Picture, Pixel};
@@ -52,8 +52,9 @@ pub(super) fn print(rows: &[Vec<String>]) {
     rows.iter().for_each(|row| table.row(row));
 }
 
-/// The number of judged pixels. In each, the number of covering paths equals the number of fragments of the
-/// tree, and the last path is the polygon that the tree paints last.
+/// Checks that, in each judged pixel, the number of covering paths equals the number of covering fragments of
+/// the tree, and that the last path and the last fragment have the same polygon. Returns the number of judged
+/// pixels.
 fn check(tree: &BspTree, camera: &Camera, rays: &Rays, drawing: &Drawing, name: &str) -> usize {
     let truth = paint_tree(tree, camera.viewpoint(), rays);
     let layers = layers(tree, rays);

@@ -1,7 +1,7 @@
 //! Rays: the nearest hit, and whether a line of sight is blocked, against the ray casts of `parry3d` (in
 //! `f64` and in `f32`) and of `bvh` (in `f64`), on the same triangles with the same rays, one thread. A
-//! second table has rays through corners and edges, and the number of wrong answers. At the boundary of an open
-//! mesh rounding decides between a hit and a miss; such rays are counted apart from rays that pass through a
+//! second table has rays through corners and edges, and the number of wrong answers. At the boundary of an
+//! open mesh, rounding decides between a hit and a miss. Such rays are counted separately from rays through a
 //! closed surface.
 
 mod peers;
@@ -38,7 +38,7 @@ pub(crate) fn run() {
     errors(&scenes);
 }
 
-/// A scene as triangles, and a tree of them.
+/// A scene as triangles, and the tree of the triangles.
 struct Case {
     name: String,
     tree: BspTree,
@@ -50,7 +50,7 @@ impl Case {
         let scene = triangulated(&scene(name));
         let tree = BspTree::build(scene.polygons()).expect("within budget");
         check(&tree, &scene);
-        // As in the tree, so that all libraries get the same triangles.
+        // Corners are rounded as in the tree, so that all libraries get the same triangles.
         let (faces, lattice) = (tree.faces(), tree.faces().lattice());
         let triangle = |face: u32| {
             let corners = faces.corners(face);
@@ -80,7 +80,7 @@ impl Points {
         Self { dice: Dice(support::SEED), bounds }
     }
 
-    /// A point of the box, enlarged.
+    /// A random point of the box, which is enlarged by a factor.
     fn next(&mut self, by: f64) -> DVec3 {
         let [low, high] = self.bounds;
         let share = self.dice.point(0.5 - 0.5 * by, 0.5 + 0.5 * by);
@@ -111,7 +111,7 @@ fn times(cases: &[Case]) {
     let table = Table::new("Rays", &columns);
     for case in cases {
         let mut points = Points::new(case.extent());
-        // From around the scene through it, and between points in it.
+        // Rays from outside through the scene, and between points in the scene.
         let rays: Vec<[DVec3; 2]> = (0..TIMED)
             .map(|_| {
                 let (from, to) = (points.next(2.0), points.next(1.0));
@@ -171,7 +171,7 @@ fn measure(
             *shortest = shortest.min(each);
         }
     }
-    // Their answers agree, except for a few rays.
+    // The answers of the peers agree with ours, except for a few rays.
     let off = yes[1..].iter().map(|&other| other.abs_diff(yes[0])).max().unwrap_or(0);
     assert!(off * 100 <= questions.len(), "{yes:?}");
     shortest
@@ -207,7 +207,7 @@ fn errors(cases: &[Case]) {
             let is_open =
                 if k % 4 < 2 { ends.contains(&bits(a)) } else { boundary.contains(&edge(a, b)) };
             let kind = usize::from(is_open);
-            // From a point around the scene, or straight along an axis.
+            // Rays from a point around the scene, or straight along an axis.
             let from =
                 if k % 3 == 0 { target.with_z(points.next(2.0).z) } else { points.next(2.0) };
             let ray = [from, target - from];
@@ -258,8 +258,8 @@ fn boundary(triangles: &[[DVec3; 3]]) -> HashSet<[Bits; 2]> {
     uses.into_iter().filter(|&(_, count)| count == 1).map(|(edge, _)| edge).collect()
 }
 
-/// Both hit nothing, or the same place within a tolerance far above rounding: the ray's length to the target
-/// is 1.
+/// Whether both hit nothing, or both hit the same place within a tolerance far above rounding. The ray's
+/// length to the target is 1.
 fn agree(expected: Option<f64>, found: Option<f64>) -> bool {
     match (expected, found) {
         (Some(expected), Some(found)) => (expected - found).abs() < 1e-4 * (1.0 + expected),

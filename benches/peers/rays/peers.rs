@@ -62,8 +62,8 @@ fn indices(triangles: &[[DVec3; 3]]) -> Vec<[u32; 3]> {
     (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect()
 }
 
-/// A hierarchy of boxes, and the triangles in them. Its own test of a triangle leaves out backs, so
-/// the triangle is tested with the winding that faces the ray.
+/// A hierarchy of boxes, and the triangles in them. The triangle test of `bvh` leaves out back faces, so each
+/// triangle is tested with the winding that faces the ray.
 pub(crate) struct Bvh {
     hierarchy: bvh::bvh::Bvh<f64, 3>,
     triangles: Vec<Triangle>,
@@ -124,7 +124,7 @@ impl Peer for Bvh {
         let length = ray[1].length();
         let ray = Self::ray(ray);
         let mut best = f64::INFINITY;
-        // By the distance of their boxes: a box behind the best hit cannot hold a nearer one.
+        // Boxes are sorted by distance: a box behind the best hit cannot contain a nearer hit.
         for triangle in self.hierarchy.nearest_traverse_iterator(&ray, &self.triangles) {
             let entry = ray.intersection_slice_for_aabb(&triangle.bounds);
             if entry.is_some_and(|(entry, _)| entry > best) {

@@ -8,29 +8,30 @@ use crate::residue::{Residue, twice_area};
 use crate::tree::{self, Node, Tree};
 use binspace::internals::{Faces, PlaneId, PlaneKind, Side, VertexId};
 
-/// The errors of the vertices of a tree's fragments, and the number of those on a wrong side; see
-/// [`accuracy`].
+/// The errors of the vertices of a tree's fragments; see [`accuracy`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Accuracy {
     /// Vertices of all fragments.
     pub vertices: usize,
-    /// Vertices that by their definition are on the other side of a partition plane than their
-    /// fragment was put, or off a plane that it was put on, by more than the tolerance.
+    /// Vertices that, by more than the tolerance, lie on the wrong side of a partition plane above their
+    /// fragment, or off the plane on which their fragment was put. Their exact definitions decide.
     pub misplaced: usize,
     /// Vertices without a position, because the planes that define them are parallel.
     pub undefined: usize,
-    /// Faces whose fragments do not add up to the face's own area. Areas follow from the definitions of the
-    /// vertices, exactly (except for a probability of 2⁻⁶¹ that a difference is missed).
+    /// Faces whose area differs from the sum of the areas of their fragments. Areas are computed from the
+    /// exact definitions of the vertices. A difference is missed with a probability of 2⁻⁶¹.
     pub torn: usize,
-    /// The largest difference between a vertex's coordinate and the exact one, in units of the scene's
-    /// lattice, 2⁻⁵² to 2⁻⁵⁰ of the extent: units in the last place of a coordinate at the scene's boundary.
+    /// The largest difference between a vertex's coordinate and the exact coordinate, in steps of the scene's
+    /// lattice. A step is 2⁻⁵² to 2⁻⁵⁰ of the extent: the unit in the last place of a coordinate at the
+    /// scene's boundary.
     pub drift_max: f64,
-    /// The mean over all vertices of the largest such difference among the vertex's coordinates.
+    /// The largest difference of the three coordinates of a vertex, averaged over all vertices, in steps of
+    /// the lattice.
     pub drift_mean: f64,
 }
 
-/// A plane on the way to a fragment, and where the fragment was put.
+/// A partition plane above a fragment, and the side on which the fragment was put.
 struct Above {
     id: PlaneId,
     plane: Plane,
@@ -42,20 +43,20 @@ struct Above {
     side: Side,
 }
 
-/// A vertex where its definition puts it.
+/// The exact position of a vertex.
 struct Vertex {
     vertex_id: VertexId,
     place: Place,
-    /// The place, each coordinate within three roundings.
+    /// The position, each coordinate within three roundings.
     rounded: [f64; 3],
 }
 
-/// Compares every vertex with its definition, and its definition with every plane above it,
-/// exactly: O(n · mean depth).
+/// Compares the position of every vertex with its definition, and the definition with every partition plane
+/// above the fragment, exactly. Takes O(n · mean depth) time.
 ///
 /// The library's tree misplaces nothing, and its vertices are off only by their last rounding. This function
 /// computes planes and vertices in its own big integers, behind its own filter. So a mistake in the library's
-/// arithmetic is counted and not repeated. Tests count the same in rationals, on hard scenes of up to some
+/// arithmetic is counted and not repeated. Tests repeat the counts in rationals, on hard scenes of up to some
 /// hundred faces.
 pub fn accuracy(tree: &Tree) -> Accuracy {
     let mut count = Count::new(&tree.faces);
@@ -90,7 +91,7 @@ struct Count<'a> {
     faces: &'a Faces,
     result: Accuracy,
     drift_sum: f64,
-    /// For each face the sum of its fragments' areas; `None` if a vertex has no place.
+    /// For each face, the sum of its fragments' areas; `None` if a vertex has no position.
     areas: Vec<Option<Residue>>,
 }
 
@@ -147,11 +148,11 @@ impl<'a> Count<'a> {
     }
 }
 
-/// The largest error of a rounded distance from a plane, per unit of the sum of the magnitudes of
-/// its terms n₀x₀, n₁x₁, n₂x₂, the offset and the threshold. In units of 2⁻⁵³, conversions from big
-/// integers are off by at most 2: a coordinate, the quotient of two, by 5, a component of the
-/// normal by 2, so a product by 8, and the four sums that follow by 4. The rest is for the rounding
-/// of the sum of magnitudes, and terms of second order.
+/// The largest error of a rounded distance from a plane, per unit of the sum of the magnitudes of its terms
+/// n₀x₀, n₁x₁, n₂x₂, the offset and the threshold. In units of 2⁻⁵³, a conversion from a big integer has an
+/// error of at most 2. A coordinate is the quotient of two conversions: 5. A component of the normal is one
+/// conversion: 2. The product of both: 8. The four sums that follow add 4. The rest covers the rounding of
+/// the sum of magnitudes, and terms of second order.
 const ERROR: f64 = 16.0 * (f64::EPSILON / 2.0);
 
 impl Above {
@@ -166,8 +167,8 @@ impl Above {
         Self { id, plane, normal, offset, band, side: Side::Coplanar }
     }
 
-    /// Whether a vertex of a face's fragment, by its definition, is not where the fragment was put;
-    /// `own` is the face's plane.
+    /// Whether the exact position of a vertex contradicts the sides on which its fragment was put. `own` is
+    /// the plane of the fragment's face.
     fn has_misplaced(&self, own: PlaneId, vertex: &Vertex) -> bool {
         if self.id == own {
             return self.side != Side::Coplanar;

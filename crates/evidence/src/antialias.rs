@@ -10,7 +10,7 @@ use binspace::{BspTree, Error};
 
 use crate::translucent::Colour;
 
-/// The visible polygons of each pixel with the shares of the pixel that they own.
+/// The visible polygons of each pixel, each with the share of the pixel that it covers.
 ///
 /// The cells of a visibility map are clipped to the pixels (E. Catmull, "A hidden-surface algorithm with
 /// anti-aliasing", 1978). The set of cells and their lines are exact; areas are rounded.
@@ -20,7 +20,7 @@ pub struct Areas {
 }
 
 impl Areas {
-    /// The areas of a map.
+    /// Creates the areas of a map.
     pub fn of(map: &VisibilityMap<'_>) -> Self {
         let [width, height] = map.size();
         let mut pixels = vec![Vec::new(); width as usize * height as usize];
@@ -37,12 +37,12 @@ impl Areas {
         Self { pixels }
     }
 
-    /// For each pixel, row by row, the visible polygons and their shares of it.
+    /// Returns the visible polygons of each pixel and their shares of the pixel, row by row.
     pub fn pixels(&self) -> impl ExactSizeIterator<Item = &[(usize, f64)]> {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// The picture: each pixel is the mean of its visible polygons.
+    /// Returns the picture: each pixel is the mean of its visible polygons.
     pub fn picture(&self, colour: impl Fn(usize) -> Colour, background: Colour) -> Vec<Colour> {
         let pixel = |shares: &[(usize, f64)]| {
             let rest = 1.0 - shares.iter().map(|(_, area)| area).sum::<f64>();
@@ -53,7 +53,7 @@ impl Areas {
     }
 }
 
-/// The picture by `side` by `side` rays in each pixel, evenly spread.
+/// Returns the picture by `side` × `side` evenly spaced rays in each pixel.
 ///
 /// # Errors
 ///
@@ -83,12 +83,12 @@ pub fn supersampled(
         .collect())
 }
 
-/// Paints the fragments of a tree back to front. The opacity of a fragment in a pixel is the share of the pixel
-/// that it covers.
+/// Paints the fragments of a tree back to front. The opacity of a fragment in a pixel is the share of the
+/// pixel that it covers.
 ///
-/// Painting programs do this. It is wrong along edges that fragments share: the share is the covered area of
-/// a pixel, not the covered part (T. Porter and T. Duff, "Compositing digital images", 1984, take the parts
-/// to be independent).
+/// Painting programs do this. The result is wrong along common edges of fragments: the opacity says how much
+/// of a pixel is covered, but not which part (T. Porter and T. Duff, "Compositing digital images", 1984,
+/// assume that the parts are independent).
 pub fn blended(
     tree: &BspTree,
     camera: &Camera,
@@ -108,7 +108,7 @@ pub fn blended(
     picture
 }
 
-/// The largest difference of two pictures in a channel, and the root of the mean of its squares.
+/// Returns the largest difference of two pictures in a channel, and the root mean square of all differences.
 pub fn distance(a: &[Colour], b: &[Colour]) -> (f64, f64) {
     let both = a.iter().flatten().zip(b.iter().flatten());
     let off = both.map(|(a, b)| f64::from(a - b).abs());
@@ -126,14 +126,14 @@ fn mean(parts: impl IntoIterator<Item = (Colour, f64)>) -> Colour {
     sum.map(|c| c as f32)
 }
 
-/// Clips a convex polygon to each pixel, and calls with the pixel's number and the area there if there is
-/// any. Pixel (x, y) is the square from (x, y) to (x + 1, y + 1).
+/// Clips a convex polygon to each pixel, and calls `f` with the number of each pixel that it overlaps and the
+/// area of the overlap. Pixel (x, y) is the square from (x, y) to (x + 1, y + 1).
 fn for_each_share(corners: &[[f64; 2]], [width, height]: [u32; 2], mut f: impl FnMut(usize, f64)) {
     let span = |corners: &[[f64; 2]], axis: usize, end: u32| {
         let ends = corners.iter().map(|p| p[axis]);
         let (low, high) =
             ends.fold((f64::MAX, f64::MIN), |(low, high), c| (low.min(c), high.max(c)));
-        // As casts do, numbers below 0 become 0.
+        // `as u32` turns numbers below 0 into 0.
         low.floor() as u32..(high.ceil() as u32).min(end)
     };
     for y in span(corners, 1, height) {
@@ -147,7 +147,7 @@ fn for_each_share(corners: &[[f64; 2]], [width, height]: [u32; 2], mut f: impl F
     }
 }
 
-/// The part of a convex polygon whose coordinate is between a number and the next.
+/// The part of a convex polygon whose coordinate is between `low` and `low + 1`.
 fn between(corners: &[[f64; 2]], axis: usize, low: u32) -> Vec<[f64; 2]> {
     let low = f64::from(low);
     let right = part(corners, |p| p[axis] - low);

@@ -1,4 +1,4 @@
-//! The remainder of a scene after each step of culling.
+//! The fragments of a scene that remain after each step of culling.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -13,7 +13,7 @@ use binspace::{BspTree, Culling, Error, Facing, Flow, Fragment, Part};
 /// The result of a step.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The polygons it leaves out, in words.
+    /// The name of the polygons that this step leaves out.
     pub name: &'static str,
     /// The fragments that are left, back to front.
     pub left: Vec<u32>,
@@ -21,11 +21,11 @@ pub struct Step {
     pub time: Duration,
 }
 
-/// The steps of culling for a camera, each after the steps before it: none, polygons outside the view volume,
-/// back faces, and hidden polygons.
+/// Runs the steps of culling for a camera. They leave out nothing, polygons outside the view volume, back
+/// faces, and hidden polygons; each step includes the steps before it.
 ///
-/// Backs may only be left out of closed bodies that are seen from outside. Hidden polygons are found on one
-/// front-to-back traversal, which skips subtrees that the other steps leave out.
+/// Back faces may be left out only if all bodies are closed and seen from outside. Hidden polygons are found
+/// on one front-to-back traversal, which skips subtrees that the other steps leave out.
 pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
     // Boxes are made once, before the frames that are timed.
     tree.bounds();
@@ -55,13 +55,13 @@ pub fn steps(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Step> {
 /// The figures of a step.
 #[derive(Clone, Debug)]
 pub struct Left {
-    /// The polygons it leaves out, in words.
+    /// The name of the polygons that this step leaves out.
     pub name: &'static str,
     /// The polygons that are left.
     pub polygons: usize,
     /// The time for this step and the steps before it together.
     pub time: Duration,
-    /// The number of pixels drawn to paint them.
+    /// The number of pixels drawn to paint the remaining polygons.
     pub drawn: u64,
     /// The number of wrong pixels of this picture.
     pub wrong: usize,
@@ -80,7 +80,7 @@ pub fn measure(tree: &BspTree, camera: &Camera, rays: &Rays) -> Vec<Left> {
     steps(tree, camera, rays).into_iter().map(left).collect()
 }
 
-/// An eye over a crossing of streets of a city, above the highest roof.
+/// Creates a camera over a street crossing of the city, above the highest roof.
 ///
 /// # Errors
 ///
@@ -90,11 +90,11 @@ pub fn over_the_city(size: [u32; 2]) -> Result<Camera, Error> {
     Camera::perspective(eye, eye + dvec3(1.0, 0.8, -0.3), DVec3::Z, 1.0, size)
 }
 
-/// Sets `left` to the fragments that own a pixel, back to front, from the wanted fragments. Returns the
-/// number of subtrees entered to find them.
+/// Sets `left` to the wanted fragments that are visible in at least one pixel, back to front. Returns the
+/// number of subtrees that were entered to find them.
 ///
 /// One front-to-back traversal finds them: it skips subtrees that are out of view or hidden by earlier
-/// fragments. The mask alone would find most of the subtrees out of view as well.
+/// fragments. The mask alone would skip most subtrees out of view, but not all.
 pub fn unhidden(
     tree: &BspTree,
     camera: &Camera,
@@ -135,7 +135,8 @@ mod tests {
     use binspace::raster::NONE;
     use binspace::scene;
 
-    /// Compares every step with the exact picture of all polygons, and the last step with the owners of pixels.
+    /// Compares every step with the exact picture of all polygons, and the last step with the set of visible
+    /// fragments.
     fn check(tree: &BspTree, camera: &Camera) -> Vec<usize> {
         let rays = Rays::new(camera, tree.faces()).unwrap();
         let truth = zbuffer(&rays, tree.faces());
@@ -157,12 +158,12 @@ mod tests {
     }
 
     #[test]
-    fn pictures_do_not_change_and_what_is_left_owns_a_pixel() {
+    fn pictures_do_not_change_and_remaining_polygons_own_a_pixel() {
         let tree = BspTree::build(scene::city(3000, 1).polygons()).unwrap();
         let mut random = SplitMix64::new(3);
         let mut sums = [0; 4];
         for _ in 0..12 {
-            // Over the streets or just above the roofs, never in a house.
+            // Eyes are over the streets or just above the roofs, never in a house.
             let street = dvec3(
                 1.0 + random.range(0.0, 23.0).floor(),
                 1.0 + random.range(0.0, 23.0).floor(),
@@ -178,7 +179,8 @@ mod tests {
         assert!(sums[3] * 20 < sums[0], "{sums:?}");
     }
 
-    /// The number of subtrees entered if only the mask detects subtrees out of view, and the fragments left.
+    /// The number of subtrees entered if only the mask detects subtrees out of view, and the remaining
+    /// fragments.
     fn entered_by_the_mask_alone(
         tree: &BspTree,
         camera: &Camera,
@@ -214,7 +216,7 @@ mod tests {
             assert_eq!(left, same);
             by_mask += others;
         }
-        // 7 more of 2450: the mask has no pixels for most subtrees out of view.
+        // Only 7 of 2450 more: most subtrees out of view cover no pixel of the mask, so the mask skips them.
         assert!(entered + 5 <= by_mask && entered > 1000, "{entered} of {by_mask}");
     }
 

@@ -11,8 +11,8 @@ use binspace::internals::{Eye, Faces};
 
 use crate::place::{self, Plane};
 
-/// The numbers of faces that show each side to a viewpoint, by the sign of Ax + By + Cz + D at the eye, in
-/// big integers. For parallel rays along the z axis this is the sign of C.
+/// Counts of faces by the side that they show to a viewpoint. The sign of Ax + By + Cz + D at the eye
+/// decides, computed in big integers. For parallel rays along the z axis this is the sign of C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Facing {
     /// Faces that show their front.
@@ -38,7 +38,7 @@ impl Facing {
         facing
     }
 
-    /// The faces that need not be drawn: all except front faces.
+    /// Returns the faces that need not be drawn: all except front faces.
     pub fn removed(&self) -> usize {
         self.back + self.edge_on
     }

@@ -7,9 +7,9 @@ use binspace::internals::Faces;
 use binspace::raster::{Image, Rays, zbuffer};
 use binspace::view::Camera;
 
-/// A sheet that fills the picture and recedes from 20 to 190 units, and another behind it whose
-/// distance from the eye is larger by a share `gap` along every ray. The further sheet comes first,
-/// so it shows wherever a buffer stores the same number for both.
+/// A sheet that fills the picture and recedes from 20 to 190 units, and a second sheet behind it. Along every
+/// ray, the distance of the second sheet from the eye is larger by a share `gap`. The further sheet comes
+/// first, so it is visible wherever a buffer stores the same number for both.
 #[derive(Debug)]
 pub struct Sheets {
     gap: f64,
@@ -44,13 +44,13 @@ pub struct Fight {
 pub struct Prediction {
     /// The nearest and the furthest depth at which the sheets are less than a step apart.
     pub begin: Option<[f64; 2]>,
-    /// The number of wrong pixels. Sheets that are a share s of a step apart are stored as the same in 1 − s
-    /// of all places.
+    /// The number of wrong pixels. Where the sheets are s steps apart, with s below 1, both are stored as the
+    /// same number in a share 1 − s of the pixels.
     pub wrong: f64,
 }
 
 impl Sheets {
-    /// The sheets, and a picture of them of this size, 4 to 3.
+    /// Creates the sheets, and their true picture of this size. Width and height should be as 4 to 3.
     ///
     /// # Panics
     ///
@@ -67,17 +67,17 @@ impl Sheets {
         Self { gap, faces, camera, rays, truth: truth.into_image(), depths }
     }
 
-    /// The four triangles: two of the further sheet, two of the nearer.
+    /// Returns the four triangles: two of the further sheet, two of the nearer.
     pub fn polygons(&self) -> Vec<[DVec3; 3]> {
         [1.0 + self.gap, 1.0].into_iter().flat_map(sheet).collect()
     }
 
-    /// The camera.
+    /// Returns the camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// The picture of a method.
+    /// Returns the picture of a method.
     ///
     /// # Errors
     ///
@@ -85,7 +85,7 @@ impl Sheets {
     pub fn shown_by(&self, method: &dyn Method) -> Result<Fight, MethodError> {
         let painted = method.prepare(&self.faces)?.paint(&self.camera, &self.rays)?;
         let image = painted.image;
-        // Both sheets are two triangles each: the other triangle of the same sheet is not wrong.
+        // Each sheet consists of two triangles. It is not wrong to show the other triangle of the same sheet.
         let mut wrong: Vec<f64> = Vec::new();
         for (i, (&shown, &nearest)) in image.faces().iter().zip(self.truth.faces()).enumerate() {
             if shown / 2 != nearest / 2 {
@@ -98,7 +98,7 @@ impl Sheets {
         Ok(Fight { image, wrong: wrong.len(), seen: (!wrong.is_empty()).then_some(ends) })
     }
 
-    /// The picture of a depth buffer.
+    /// Returns the picture of a depth buffer.
     ///
     /// # Errors
     ///
@@ -107,9 +107,9 @@ impl Sheets {
         self.shown_by(&DepthBuffer::new(format).with_range(PLANES[0], PLANES[1]))
     }
 
-    /// The prediction that includes the roundings of the pipeline: the planes as it sets them up, the
-    /// roundings in each pixel within their bounds, and the steps. No pixel is wrong outside the predicted
-    /// depths.
+    /// Returns the prediction that includes the roundings of the pipeline: it uses the planes that the
+    /// pipeline sets up, bounds of the roundings in each pixel, and the steps. No pixel is wrong outside the
+    /// predicted depths.
     ///
     /// # Errors
     ///
@@ -132,7 +132,7 @@ impl Sheets {
         let planes = method.set_up(&self.camera, &self.faces)?;
         let [width, _] = self.camera.size();
         let apart = |(k, &face): (u32, &u32)| {
-            // A triangle of the further sheet is behind one of the nearer, along the same rays.
+            // A triangle of the further sheet is behind a triangle of the nearer sheet, along the same rays.
             let [near, far] = [face, face - 2].map(|face| planes.at(face, k % width, k / width));
             let (near, far) = (near.expect("a sheet"), far.expect("a sheet"));
             let step = near.step.min(far.step);
@@ -144,7 +144,7 @@ impl Sheets {
         Ok((0..).zip(self.truth.faces()).map(apart).collect())
     }
 
-    /// The prediction from the steps of a format, by the formula of [`DepthFormat::step`].
+    /// Returns the prediction from the steps of a format, by the formula of [`DepthFormat::step`].
     pub fn predicted(&self, format: DepthFormat) -> Prediction {
         let mut prediction = Prediction { begin: None, wrong: 0.0 };
         for &depth in &self.depths {
@@ -162,8 +162,8 @@ impl Sheets {
     }
 }
 
-/// The distance of the further sheet's number beyond the nearer one's, in steps, and the largest effect of
-/// roundings on each of them.
+/// How far the number of the further sheet is beyond the number of the nearer sheet, in steps; and the
+/// largest effect of roundings on each number.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     steps: f64,
@@ -171,13 +171,14 @@ struct Apart {
 }
 
 impl Apart {
-    /// Whether they are certainly stored as different numbers, the nearer as the nearer.
+    /// Whether both are certainly stored as different numbers, in the right order.
     fn is_right(&self) -> bool {
         self.steps - self.roundings[0] - self.roundings[1] > 1.0
     }
 
-    /// The probability that they are not, if both roundings are anywhere within their bounds: numbers that
-    /// are a share s of a step apart are stored as the same in 1 − s of all places.
+    /// The probability of a wrong pixel, if each rounding is equally likely anywhere within its bound.
+    /// Numbers that are s steps apart, with s below 1, are stored as the same number with the probability 1 −
+    /// s.
     fn share_wrong(&self) -> f64 {
         const PARTS: u32 = 8;
         let middle = |k: u32| (2 * k + 1) as f64 / f64::from(PARTS) - 1.0;
@@ -232,8 +233,8 @@ mod tests {
             let sheets = Sheets::new(gap, SIZE);
             let (fight, predicted) = (sheets.in_format(format).unwrap(), sheets.predicted(format));
             let ([first, last], [begin, end]) = (fight.seen.unwrap(), predicted.begin.unwrap());
-            // It is certain that nothing is wrong where the sheets are a step apart. It is likely that
-            // something is wrong soon after.
+            // Where the sheets are a step apart, no pixel may be wrong. Soon after this depth, some pixel
+            // should be wrong.
             assert!(first >= begin * (1.0 - 1e-9) && last <= end * (1.0 + 1e-9), "{format} {gap}");
             assert!(first <= begin * 1.05 && last >= end * 0.95, "{format} {gap}: {first} {begin}");
             let share = fight.wrong as f64 / predicted.wrong;
@@ -241,9 +242,9 @@ mod tests {
         }
     }
 
-    /// No pixel is wrong where roundings cannot make it so. If a tenth of the picture is predicted to be
-    /// wrong, the nearest wrong pixel is within 15 % of the predicted depth, and the number of wrong pixels
-    /// is half to twice the predicted number.
+    /// No pixel is wrong where roundings cannot make it so. If at least a tenth of the picture is predicted
+    /// to be wrong, then the nearest wrong pixel is within 15 % of the predicted depth, and the number of
+    /// wrong pixels is half to twice the predicted number.
     #[test]
     fn roundings_predict_where_every_format_fights() {
         let cases: [(DepthFormat, &[f64]); 6] = [
@@ -289,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_knows_no_distance_at_which_it_begins() {
+    fn the_tree_fights_at_no_distance() {
         for gap in [6e-4, 2.4e-6, 1e-9] {
             let sheets = Sheets::new(gap, SIZE);
             let tree = Bsp::exact(BuildOptions::DEFAULT.with_tolerance(0.0));

@@ -13,11 +13,11 @@ use self::components::{components, fewest_removed};
 use self::cone::Seen;
 use crate::place;
 
-/// Which faces hide parts of which from a viewpoint, for every direction of view, in big integers. For small
-/// scenes: every pair is tested, O(n²).
+/// Which faces hide parts of which other faces from a viewpoint, for every direction of view, in big
+/// integers. For small scenes only: every pair is tested, in O(n²) time.
 ///
-/// A face hides another if a ray from the eye passes through the inside of both and meets it first. Faces
-/// that penetrate each other may hide parts of each other.
+/// A face hides another if a ray from the eye passes through the inside of both and meets the hiding face
+/// first. Faces that penetrate each other may hide parts of each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hiding {
     /// For each face, the faces that it hides parts of, in ascending order.
@@ -48,17 +48,17 @@ impl Hiding {
         Self { hidden }
     }
 
-    /// Whether a face hides a part of another.
+    /// Returns whether a face hides a part of another.
     pub fn hides(&self, face: u32, other: u32) -> bool {
         self.hidden[face as usize].binary_search(&other).is_ok()
     }
 
-    /// The number of pairs in which one face hides a part of the other.
+    /// Returns the number of pairs in which one face hides a part of the other.
     pub fn pairs(&self) -> usize {
         self.hidden.iter().map(Vec::len).sum::<usize>() - self.mutual()
     }
 
-    /// The number of pairs that hide parts of each other: these penetrate each other.
+    /// Returns the number of pairs that hide parts of each other: these penetrate each other.
     pub fn mutual(&self) -> usize {
         let both = |a: u32| {
             let back = self.hidden[a as usize].iter().filter(move |&&b| b > a && self.hides(b, a));
@@ -67,14 +67,14 @@ impl Hiding {
         (0..self.hidden.len() as u32).map(both).sum()
     }
 
-    /// The faces on cycles of hiding (strongly connected components): in each list all faces hide each other,
-    /// directly or through others.
+    /// Returns the faces on cycles of hiding (strongly connected components): in each list all faces hide
+    /// each other, directly or through others.
     pub fn cycles(&self) -> Vec<Vec<u32>> {
         components(&self.hidden)
     }
 
-    /// An order in which whole faces can be painted, each after all faces that it hides parts of; `None` if
-    /// there is a cycle. Of several possible next faces, the first is taken.
+    /// Returns an order in which whole faces can be painted, each after all faces that it hides parts of;
+    /// `None` if there is a cycle. Of several possible next faces, the face with the least number is taken.
     pub fn paint_order(&self) -> Option<Vec<u32>> {
         let mut waits_for: Vec<usize> = self.hidden.iter().map(Vec::len).collect();
         let mut order = Vec::with_capacity(waits_for.len());
@@ -90,19 +90,19 @@ impl Hiding {
         Some(order)
     }
 
-    /// The minimal number of faces that have to be cut by any method: each cycle contains one of them. `None`
-    /// if more than [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another, as all their
-    /// subsets are tried.
+    /// Returns the minimal number of faces that have to be cut by any method: each cycle contains one of
+    /// them. All subsets of the faces on a cycle are tried, so the result is `None` if more than
+    /// [`SEARCHED`](Self::SEARCHED) faces are on cycles through one another.
     pub fn fewest_cut(&self) -> Option<usize> {
         self.cycles().iter().map(|cycle| fewest_removed(&self.hidden, cycle)).sum()
     }
 
-    /// The most faces of which all subsets are tried.
+    /// The largest number of faces whose subsets are all tried.
     pub const SEARCHED: usize = components::SEARCHED;
 }
 
-/// The number of pairs of faces that overlap in depth along a direction of view. A sort by depth does not
-/// determine their order. Exact, except for the direction, which is rounded to 2⁻⁴⁰.
+/// Returns the number of pairs of faces that overlap in depth along a direction of view. A sort by depth does
+/// not determine their order. Exact, except for the direction, which is rounded to 2⁻⁴⁰.
 pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
     let direction = forward.to_array().map(|c| (c * 2f64.powi(40)).round() as i128);
     let extent = |face: u32| {
@@ -115,7 +115,7 @@ pub fn overlaps_in_depth(faces: &Faces, forward: DVec3) -> usize {
     let overlaps = |i: usize| {
         let [low, high] = extents[i];
         let later = extents[i + 1..].iter().take_while(move |other| other[0] < high);
-        // Not one that is as near as the other begins and has no depth.
+        // Except a face without extent in depth at the start of this face's extent.
         later.filter(move |other| other[1] > low).count()
     };
     (0..extents.len()).map(overlaps).sum()

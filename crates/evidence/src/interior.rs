@@ -11,8 +11,8 @@ pub const HEIGHT: f64 = 3.0;
 const DOOR: f64 = 1.6;
 const LINTEL: f64 = 2.2;
 
-/// The quads of `side`² rooms, with doors in most walls between them, and a pillar or a crate in each. Up is z; the
-/// first corner is the origin.
+/// Returns the quads of `side`² rooms, with doors in most walls between them, and a pillar or a crate in
+/// each. Up is z; the first corner is the origin.
 pub fn rooms(side: usize) -> Vec<Quad> {
     let mut level = Vec::new();
     let mut dice = 1_u64;

@@ -8,8 +8,8 @@ use num_traits::Signed;
 use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
-/// The faces that each pixel's ray meets, the nearest first. Of faces at the same point, the face of the later
-/// polygon comes first, because it is painted later.
+/// The faces that each pixel's ray meets, the nearest first. If two faces are met at the same point, the face
+/// of the later polygon comes first, because it is painted later.
 ///
 /// Where the ray meets a plane is a fraction of two integers, and fractions are compared by
 /// multiplication, so every order is exact.
@@ -18,7 +18,7 @@ pub struct Layers {
     pixels: Vec<Vec<u32>>,
 }
 
-/// Where a ray meets a face: at start/slope times its direction, slope above 0.
+/// The point where a ray meets a face: start/slope times the ray's direction, with a slope above 0.
 #[derive(Debug)]
 struct Meeting {
     face: u32,
@@ -66,7 +66,7 @@ impl Meeting {
 }
 
 impl Layers {
-    /// The layers of a picture. Painters draw the pixels that a face covers; this finds the order.
+    /// Finds the layers of a picture: the pixels that each face covers, and the order in each pixel.
     pub fn new(rays: &Rays, faces: &Faces) -> Self {
         let [width, height] = rays.size().map(|side| side as usize);
         let mut met: Vec<Vec<Meeting>> = Vec::new();
@@ -87,12 +87,12 @@ impl Layers {
         Self { pixels: met.into_iter().map(sorted).collect() }
     }
 
-    /// The faces of each pixel, row by row from the top left, each the nearest first.
+    /// Returns the faces of each pixel, row by row from the top left, each the nearest first.
     pub fn pixels(&self) -> impl ExactSizeIterator<Item = &[u32]> + Clone {
         self.pixels.iter().map(Vec::as_slice)
     }
 
-    /// The number of layers of the deepest pixel.
+    /// Returns the number of layers of the deepest pixel.
     pub fn deepest(&self) -> usize {
         self.pixels().map(<[u32]>::len).max().unwrap_or(0)
     }
@@ -107,7 +107,7 @@ mod tests {
     use binspace::view;
 
     #[test]
-    fn the_first_layer_is_that_of_the_depth_buffer() {
+    fn the_first_layer_matches_the_depth_buffer() {
         let mut pixels = 0;
         for scene in [scene::random_triangles(80, 3), scene::crossing(7), scene::newell_bars()] {
             let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
@@ -125,7 +125,7 @@ mod tests {
         assert!(pixels > 2000, "{pixels}");
     }
 
-    /// Squares in one plane and one before them, as seen from above. Of the coplanar squares the later is
+    /// Squares in one plane and one before them, as seen from above. The later of two coplanar squares is
     /// painted later, from either side.
     #[test]
     fn of_faces_at_one_depth_the_later_polygon_is_the_nearer() {

@@ -8,9 +8,9 @@ use binspace::scene::{Scene, sphere};
 /// are shiny, and better where they were smoothed.
 const NOISE: f64 = 0.2;
 
-/// A closed surface of about `triangles` small triangles: a sphere with a few bulges, each corner of which is
-/// moved along its radius by noise. As in real scans, hardly two triangles are in one plane, and neighbours
-/// bend inwards as often as outwards.
+/// Returns a closed surface of about `triangles` small triangles: a sphere with a few bulges, whose corners
+/// are moved along their radii by noise. As in real scans, hardly two triangles are in one plane, and
+/// neighbours bend inwards as often as outwards.
 pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
     let smooth = sphere(triangles / 2);
     let mut scene = Scene::new(format!("noisy sphere:{triangles}"), DVec3::Z);
@@ -29,7 +29,7 @@ pub fn noisy_sphere(triangles: u32, seed: u64) -> Scene {
     scene
 }
 
-/// A corner of the sphere with a bulge and noise, which depend on nothing but where it is.
+/// A corner of the sphere with a bulge and noise, which depend only on the corner's position.
 fn moved(corner: DVec3, noise: f64, seed: u64) -> DVec3 {
     // No coordinate is a negative zero.
     let at = corner + DVec3::ZERO;
@@ -58,7 +58,8 @@ mod tests {
             }
         }
         assert!(edges.iter().all(|&[p, q]| edges.contains(&[q, p])));
-        // Near a triangle's plane, about as many corners of other triangles are before as behind it.
+        // Near a triangle's plane, about as many corners of other triangles are in front of the plane as
+        // behind it.
         let mut sides = [0, 0];
         for pair in triangles.windows(2) {
             let [a, b, c] = pair[0];

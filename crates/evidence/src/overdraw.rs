@@ -13,8 +13,8 @@ use binspace::internals::Pieces;
 /// The work that a picture took, pixel by pixel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Overdraw {
-    /// The number of times that a pixel was found to be covered. By then, its depth is computed or its place
-    /// in a mask is read.
+    /// The number of times that a pixel was found to be covered. For each of these times, a depth was
+    /// computed or a mask was read.
     pub tested: Vec<u32>,
     /// The number of times that a colour was stored in a pixel.
     pub written: Vec<u32>,
@@ -26,12 +26,12 @@ impl Overdraw {
         Self { tested: vec![0; width * height], written: vec![0; width * height] }
     }
 
-    /// All tests, and all writes.
+    /// Returns the number of all tests, and the number of all writes.
     pub fn sums(&self) -> [u64; 2] {
         [&self.tested, &self.written].map(|counts| counts.iter().map(|&n| u64::from(n)).sum())
     }
 
-    /// The number of pixels that show something.
+    /// Returns the number of pixels that show something.
     pub fn shown(&self) -> u64 {
         self.written.iter().filter(|&&count| count > 0).count() as u64
     }
@@ -51,7 +51,7 @@ impl Overdraw {
     }
 }
 
-/// The overdraw of a painter: it writes a pixel once for every fragment that covers it.
+/// Returns the overdraw of a painter: it writes a pixel once for every fragment that covers it.
 pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     let (mut overdraw, mut pieces) = (Overdraw::new(rays), Pieces::default());
     let width = rays.size()[0];
@@ -63,8 +63,8 @@ pub fn painter(tree: &BspTree, rays: &Rays) -> Overdraw {
     overdraw
 }
 
-/// From front to back with a mask of the covered pixels: each pixel is written once. Subtrees whose box the
-/// mask hides are skipped. Once all pixels are covered, the traversal ends.
+/// Paints from front to back with a mask of the covered pixels: each pixel is written once. Subtrees whose
+/// box the mask hides are skipped. Once all pixels are covered, the traversal ends.
 ///
 /// # Errors
 ///
@@ -90,8 +90,8 @@ pub fn front_to_back(tree: &BspTree, rays: &Rays) -> Result<Overdraw, Error> {
     Ok(overdraw)
 }
 
-/// The overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is nearer than all
-/// earlier ones. `layers` belong to the same rays.
+/// Returns the overdraw of a depth buffer for faces in some order: a pixel is written whenever a face is
+/// nearer than all earlier ones. `layers` must have been made with the same rays.
 pub fn depth_buffer(
     faces: &Faces,
     rays: &Rays,
@@ -101,7 +101,7 @@ pub fn depth_buffer(
     let mut overdraw = Overdraw::new(rays);
     let width = rays.size()[0];
     let layers: Vec<&[u32]> = layers.pixels().collect();
-    // The currently visible layer of a pixel, by its place among all.
+    // The place of the currently visible layer of each pixel among all its layers.
     let mut shown = vec![NONE as usize; layers.len()];
     for face in order {
         for_each_run(rays, faces, Piece { face, outline: Outline::Whole }, |y, columns| {
@@ -118,7 +118,8 @@ pub fn depth_buffer(
     overdraw
 }
 
-/// A colour for each count: black for zero, blue for one, then green and yellow, and red for `most` or more.
+/// Returns a colour for each count: black for zero, blue for one, then green and yellow, and red for `most`
+/// or more.
 pub fn heat(counts: &[u32], most: u32) -> Vec<u8> {
     const STOPS: [[f64; 3]; 5] = [
         [40.0, 60.0, 150.0],
@@ -151,8 +152,8 @@ mod tests {
         [at(0.0, 0.0), at(side, 0.0), at(side, side), at(0.0, side)]
     }
 
-    /// The tests and writes of squares seen from above, 20 by 20 pixels of 0.1 each: of painting,
-    /// from front to back, and of depth buffers that get them in input order and in reverse.
+    /// The tests and writes of squares seen from above, in 20 by 20 pixels of 0.1 each: by a painter, from
+    /// front to back with a mask, and by depth buffers in input order and in reverse order.
     fn sums(squares: &[[DVec3; 4]]) -> [[u64; 2]; 4] {
         let tree = BspTree::build(squares).unwrap();
         let centre = DVec3::new(0.5, 0.5, 0.0);
@@ -170,14 +171,14 @@ mod tests {
     }
 
     #[test]
-    fn counts_are_those_by_hand() {
-        // 10 by 10 pixels each, the highest last.
+    fn counts_match_hand_computation() {
+        // Squares of 10 by 10 pixels, the highest last.
         let stack = [square(1.0, 0.0), square(1.0, 1.0), square(1.0, 2.0)];
         assert_eq!(sums(&stack), [[300, 300], [100, 100], [300, 300], [300, 100]]);
-        // 5 by 5 of them on 10 by 10: the mask hides no part of the larger.
+        // 5 by 5 pixels on 10 by 10: the mask hides no part of the larger square.
         let step = [square(1.0, 0.0), square(0.5, 1.0)];
         assert_eq!(sums(&step), [[125, 125], [125, 100], [125, 125], [125, 100]]);
-        // The middle one comes first, then the lowest, then the highest.
+        // The middle square comes first, then the lowest, then the highest.
         let mixed = [square(1.0, 1.0), square(1.0, 0.0), square(1.0, 2.0)];
         assert_eq!(sums(&mixed), [[300, 300], [100, 100], [300, 200], [300, 100]]);
     }

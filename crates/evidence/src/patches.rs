@@ -1,9 +1,9 @@
 //! Patches of surfaces that light one another: form factors by exact sight lines.
 //!
 //! C. Goral, K. Torrance, D. Greenberg and B. Battaile, "Modeling the interaction of light between diffuse
-//! surfaces", 1984. The form factor from a point to a patch has a closed form; sight lines give the unblocked
-//! share of it (D. Baum, H. Rushmeier and J. Winget, "Improving radiosity solutions through the use of
-//! analytically determined form-factors", 1989).
+//! surfaces", 1984. The form factor from a point to a patch has a closed form; sight lines give its unblocked
+//! share (D. Baum, H. Rushmeier and J. Winget, "Improving radiosity solutions through the use of analytically
+//! determined form-factors", 1989).
 
 use std::f64::consts::PI;
 
@@ -11,8 +11,8 @@ use binspace::glam::DVec3;
 use binspace::internals::SplitMix64;
 use binspace::{BspTree, Ray};
 
-/// Sight lines end this share of their length before the surfaces that they join, as points of surfaces are
-/// rounded. A face that is nearer to an end does not block.
+/// Sight lines end before the surfaces that they join, at this share of their length, because points of
+/// surfaces are rounded. A face nearer to an end than this does not block the line.
 pub const SHORTENED: f64 = 1e-6;
 
 /// A quad that is lit evenly; its front is the side from which its corners run counter-clockwise.
@@ -20,7 +20,7 @@ pub const SHORTENED: f64 = 1e-6;
 pub struct Patch {
     /// The corners.
     pub corners: [DVec3; 4],
-    /// The number of its quad.
+    /// The number of the quad that the patch is a part of.
     pub quad: usize,
 }
 
@@ -40,19 +40,19 @@ impl Patch {
         self.area_vector().normalize_or_zero()
     }
 
-    /// Whether some of it is in front of another's plane.
+    /// Whether a part of this patch is in front of the plane of `other`.
     fn is_ahead_of(&self, other: &Self) -> bool {
         let normal = other.normal();
         self.corners.iter().any(|&p| normal.dot(p - other.corners[0]) > 0.0)
     }
 
-    /// Its area.
+    /// Returns the area of the patch.
     pub fn area(&self) -> f64 {
         self.area_vector().length()
     }
 }
 
-/// Quads in patches whose sides are not much longer than a length.
+/// Divides quads into patches whose sides are not much longer than `length`.
 pub fn patches(quads: &[[DVec3; 4]], length: f64) -> Vec<Patch> {
     let mut all = Vec::new();
     for (quad, &corners) in quads.iter().enumerate() {
@@ -70,8 +70,8 @@ pub fn patches(quads: &[[DVec3; 4]], length: f64) -> Vec<Patch> {
     all
 }
 
-/// Form factors of all pairs of patches: of the light that leaves one evenly, the share that arrives at
-/// another.
+/// Form factors of all pairs of patches. A form factor is the share of the light of an evenly bright patch
+/// that arrives at another patch.
 #[derive(Clone, Debug)]
 pub struct FormFactors {
     /// From each patch to each, row by row.
@@ -82,9 +82,10 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// From `side` by `side` points of each patch to as many of each other, each to one: the mean of the
-    /// point form factors of the other patch if nothing hides it, times the share of the sight lines that are
-    /// free, each weighted by the light that it carries. Points are at random in equal parts of the patch.
+    /// Computes the form factors. Each patch has `side` × `side` points, at random in equal parts of the
+    /// patch. For a pair of patches, each point of one is joined to one point of the other by a sight line.
+    /// The form factor is the mean of the point form factors without obstacles, times the share of free sight
+    /// lines, each weighted by the light that it carries.
     pub fn new(tree: &BspTree, patches: &[Patch], side: u32, seed: u64) -> Self {
         let n = patches.len();
         let mut found = Self { factors: vec![0.0; n * n], patches: n, sight_lines: 0 };
@@ -100,7 +101,7 @@ impl FormFactors {
         found
     }
 
-    /// The form factors of two patches, there and back.
+    /// The form factors of two patches, in both directions.
     fn between(
         &mut self,
         tree: &BspTree,
@@ -112,7 +113,7 @@ impl FormFactors {
             return [0.0; 2];
         }
         let count = side * side;
-        // Part k of one is joined to part k + shift of the other.
+        // Part k of one patch is joined to part k + shift of the other.
         let shift = (random.next() % u64::from(count)) as u32;
         let (mut sums, mut free, mut all) = ([0.0; 2], 0.0, 0.0);
         for k in 0..count {
@@ -136,18 +137,18 @@ impl FormFactors {
         sums.map(|sum| share * sum / f64::from(count))
     }
 
-    /// The share of the light of one patch that arrives at another.
+    /// Returns the share of the light of one patch that arrives at another.
     pub fn factor(&self, from: usize, to: usize) -> f64 {
         self.factors[from * self.patches + to]
     }
 
-    /// The share of the light of a patch that arrives anywhere: 1 in a closed room.
+    /// Returns the share of the light of a patch that arrives anywhere: 1 in a closed room.
     pub fn sum(&self, from: usize) -> f64 {
         (0..self.patches).map(|to| self.factor(from, to)).sum()
     }
 
-    /// The light that arrives at each patch, for each unit of area, if `leaving` is the light that leaves
-    /// them.
+    /// Returns the light that arrives at each patch, for each unit of area, if `leaving` is the light that
+    /// leaves them.
     pub fn arriving(&self, leaving: &[f64]) -> Vec<f64> {
         let n = self.patches;
         let at = |to: usize| (0..n).map(|from| self.factor(to, from) * leaving[from]).sum();
@@ -155,8 +156,9 @@ impl FormFactors {
     }
 }
 
-/// The share of the light of a point of a surface that goes towards a patch's front, if nothing hides it (J.
-/// Lambert, "Photometria", 1760): a sum over the edges of the part above the horizon.
+/// The point form factor: the share of a surface point's light that goes towards the front of a patch, if
+/// nothing hides the patch (J. Lambert, "Photometria", 1760). It is a sum over the edges of the part of the
+/// patch above the point's horizon.
 fn seen(point: DVec3, normal: DVec3, patch: &Patch) -> f64 {
     if patch.normal().dot(point - patch.corners[0]) <= 0.0 {
         return 0.0;

@@ -1,14 +1,14 @@
 //! The exact positions of planes and vertices, from their definitions, in big integers.
 //!
-//! It shares no arithmetic with the library's: planes by their coefficients, vertices as crossings
-//! of segments and by Cramer's rule. Its input is the corners on the lattice, the
-//! corners that define each face's plane, and the names of planes and vertices.
+//! Shares no arithmetic with the library: planes are coefficients, and vertices are computed as crossings of
+//! segments or by Cramer's rule. Its input is the corners on the lattice, the corners that define each face's
+//! plane, and the names of planes and vertices.
 
 use binspace::internals::{Eye, Faces, PlaneId, PlaneKind, VertexId, VertexKind};
 use dashu_int::IBig;
 use num_traits::{One, Signed};
 
-/// The points x with normal · x = offset; in front the left side is larger.
+/// The plane normal · x = offset. In front of it, normal · x is larger.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     pub(crate) normal: [IBig; 3],
@@ -46,8 +46,8 @@ impl Plane {
         Self { normal, offset }
     }
 
-    /// The plane through three places in homogeneous coordinates, or along them where the weight is 0:
-    /// the minors of these three rows.
+    /// The plane through three places in homogeneous coordinates. A place of weight 0 is a direction of the
+    /// plane. The coefficients are the minors of the three rows.
     pub(crate) fn joining([p, q, r]: [&[IBig; 4]; 3]) -> Self {
         let minor = |i: usize, j: usize, k: usize| {
             let of = |a: &IBig, b: &IBig, c: &IBig| {
@@ -59,12 +59,12 @@ impl Plane {
         Self { normal: [minor(1, 2, 3), -minor(0, 2, 3), minor(0, 1, 3)], offset: minor(0, 1, 2) }
     }
 
-    /// The same points with the other side in front.
+    /// The same plane with the opposite front.
     pub(crate) fn flipped(&self) -> Self {
         Self { normal: self.normal.each_ref().map(|c| -c), offset: -&self.offset }
     }
 
-    /// The direction across it, in homogeneous coordinates.
+    /// The direction of the normal, in homogeneous coordinates.
     pub(crate) fn direction(&self) -> [IBig; 4] {
         let [x, y, z] = self.normal.clone();
         [x, y, z, IBig::ZERO]
@@ -75,8 +75,8 @@ impl Plane {
         dot(&self.normal, &place.coordinates) - &self.offset * &place.weight
     }
 
-    /// The side of an eye in homogeneous coordinates, larger in front: Ax + By + Cz + D, or, of a
-    /// direction, Ax + By + Cz.
+    /// The value of the plane at an eye in homogeneous coordinates, positive in front: Ax + By + Cz + D, or
+    /// Ax + By + Cz for a direction.
     pub(crate) fn at_eye(&self, eye: &[IBig; 4]) -> IBig {
         let [x, y, z, w] = eye;
         let [a, b, c] = &self.normal;
@@ -103,8 +103,8 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The position of a vertex of a face; `None` if the planes that define it are parallel. `plane` is the
-    /// face's.
+    /// The position of a vertex of a face; `None` if the planes that define the vertex are parallel. `plane`
+    /// is the plane of the face.
     pub(crate) fn of(faces: &Faces, face: u32, plane: &Plane, vertex: VertexId) -> Option<Self> {
         match vertex.kind() {
             VertexKind::Corner(k) => Some(Self::corner(faces, face, plane, k as usize)),
@@ -119,8 +119,8 @@ impl Place {
         }
     }
 
-    /// Corner `k` of a face; if it is off the face's plane, it is moved there along the plane's
-    /// main axis.
+    /// Corner `k` of a face. A corner off the face's plane is moved onto the plane along the plane's main
+    /// axis.
     pub(crate) fn corner(faces: &Faces, face: u32, plane: &Plane, k: usize) -> Self {
         let point = faces.corners(face)[k];
         let mut place = Self { coordinates: point.map(integer), weight: IBig::one() };
@@ -138,8 +138,8 @@ impl Place {
         place.with_positive_weight()
     }
 
-    /// The point in which a segment meets a plane: its ends' mean, weighted by the plane at the
-    /// other end.
+    /// The point in which a segment meets a plane: the mean of both ends, each weighted by the value of the
+    /// plane at the other end.
     fn crossing([a, b]: &[Self; 2], plane: &Plane) -> Option<Self> {
         let (at_a, at_b) = (plane.at(a), plane.at(b));
         let mean = |of_a: &IBig, of_b: &IBig| &at_a * of_b - &at_b * of_a;
@@ -175,12 +175,12 @@ impl Place {
         [x, y, z, self.weight.clone()]
     }
 
-    /// The factor on a distance from a plane in [`Plane::at`].
+    /// The factor by which [`Plane::at`] multiplies distances of this place.
     pub(crate) fn weight(&self) -> &IBig {
         &self.weight
     }
 
-    /// Two coordinates, those behind an axis, as numerators.
+    /// The numerators of the two coordinates that follow an axis, in cyclic order.
     pub(crate) fn along(&self, axis: usize) -> [&IBig; 2] {
         [&self.coordinates[(axis + 1) % 3], &self.coordinates[(axis + 2) % 3]]
     }
@@ -191,15 +191,15 @@ impl Place {
         self.coordinates.each_ref().map(|c| float(c) / weight)
     }
 
-    /// The largest difference between the coordinates of a position and this point's, within a few roundings.
-    /// It is infinite if the position is NaN or further off than any scene reaches.
+    /// The largest difference between the coordinates of a position and of this point, within a few
+    /// roundings. It is infinite if the position is NaN or further away than any useful error.
     pub(crate) fn drift(&self, position: [f64; 3]) -> f64 {
         let weight = float(&self.weight);
         let off = |i: usize| {
             if position[i].is_nan() || position[i].abs() > REACH {
                 return f64::INFINITY;
             }
-            // The rest of the whole part is exact, and small enough to be rounded.
+            // The difference from the whole part is exact, and small enough to be rounded.
             let whole = position[i].trunc();
             let rest = integer(whole) * &self.weight - &self.coordinates[i];
             ((position[i] - whole) + float(&rest) / weight).abs()
@@ -214,7 +214,8 @@ pub(crate) fn eye(eye: &Eye) -> [IBig; 4] {
     [x, y, z, u8::from(eye.shift().is_some()).into()]
 }
 
-/// Rounded trees make vertices anywhere; further off than 256 scenes is as bad as infinitely far.
+/// A larger coordinate counts as infinite. Rounded trees can have vertices at any distance, and 256 extents
+/// are beyond any useful error.
 const REACH: f64 = (1u64 << 59) as f64;
 
 /// A whole number below 2⁶³.

@@ -1,5 +1,5 @@
-//! A view whose rays are small integers, and their intersections, in integers: a judge that shares nothing
-//! with the library, for scenes of integer corners.
+//! A view whose rays are small integers, and intersections of these rays in integers. It is a judge that
+//! shares no code with the library, for scenes of integer corners.
 
 use std::cmp::Ordering;
 
@@ -23,15 +23,15 @@ pub const UNITS: f64 = 256.0;
 /// The intersection of a ray and a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
-    /// Nothing.
+    /// The ray misses the polygon.
     Nothing,
-    /// Its boundary, or all of its plane.
+    /// The ray meets the polygon's boundary, or lies in its plane.
     Boundary,
-    /// Its inside.
+    /// The ray meets the inside of the polygon at this depth.
     At(Depth),
 }
 
-/// A depth, exactly: a fraction whose lower part is above 0.
+/// An exact depth: a fraction with a denominator above 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Depth {
     over: i128,
@@ -44,29 +44,29 @@ impl Depth {
         (self.over * other.under).cmp(&(other.over * self.under))
     }
 
-    /// As a multiple of a ray, a fraction.
+    /// The depth as a multiple of a ray: numerator and denominator.
     pub(crate) fn along(&self, ray: [i128; 3]) -> [i128; 2] {
         [self.over, self.under * -ray[2]]
     }
 
-    /// The depth along the view, in world units, rounded.
+    /// Returns the depth along the view, in world units, rounded.
     pub fn to_f64(self) -> f64 {
         self.over as f64 / self.under as f64 / UNITS
     }
 }
 
 impl PlainView {
-    /// A view of this size, about 50 degrees high.
+    /// Creates a view of this size, about 50 degrees high.
     pub fn new(size: [u32; 2]) -> Self {
         Self { size, shift: size[1].next_power_of_two().ilog2() }
     }
 
-    /// The picture's width and height.
+    /// Returns the picture's width and height.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The camera. Its pixels' rays are exactly this view's rays.
+    /// Returns the camera. Its pixels' rays are exactly this view's rays.
     ///
     /// # Panics
     ///
@@ -77,18 +77,18 @@ impl PlainView {
         Camera::perspective_by_slope(eye, ahead, up, half, self.size).expect("a camera")
     }
 
-    /// The direction of a pixel's ray.
+    /// Returns the direction of a pixel's ray.
     pub fn ray(&self, [x, y]: [u32; 2]) -> [i128; 3] {
         let [width, height] = self.size.map(i128::from);
         let (x, y) = (i128::from(x), i128::from(y));
         [2 * x + 1 - width, height - 2 * y - 1, -(2 << self.shift)]
     }
 
-    /// The intersection of a pixel's ray and a convex flat polygon.
+    /// Returns the intersection of a pixel's ray and a convex flat polygon.
     pub fn meet(&self, polygon: &[Corner], pixel: [u32; 2]) -> Met {
         let ray = self.ray(pixel);
         let corner = |k: usize| polygon[k % polygon.len()].map(i128::from);
-        // On which side of the plane through the eye and an edge the ray is.
+        // The side of the plane through the eye and an edge on which the ray lies.
         let sides = (0..polygon.len()).map(|k| dot(ray, cross(corner(k), corner(k + 1))).signum());
         let (mut left, mut right, mut on) = (false, false, false);
         sides.for_each(|side| match side {
@@ -109,8 +109,8 @@ impl PlainView {
         if over > 0 { Met::At(Depth { over, under }) } else { Met::Nothing }
     }
 
-    /// All polygons that a pixel's ray meets, the nearest first; `None` if it meets a boundary, or two
-    /// polygons at the same depth.
+    /// Returns all polygons that a pixel's ray meets, the nearest first; `None` if it meets a boundary, or
+    /// two polygons at the same depth.
     pub fn layers(&self, polygons: &[Vec<Corner>], pixel: [u32; 2]) -> Option<Vec<(u32, Depth)>> {
         let mut met = Vec::new();
         for (polygon, number) in polygons.iter().zip(0..) {
@@ -125,8 +125,9 @@ impl PlainView {
         (!tied).then_some(met)
     }
 
-    /// The visible polygons in a pixel where some are opaque and the others translucent, the furthest first:
-    /// the nearest opaque one, and all translucent ones before it. `None` as for [`layers`](Self::layers).
+    /// Returns the visible polygons in a pixel, the furthest first, if some polygons are opaque and the
+    /// others translucent: the nearest opaque polygon, and all translucent polygons before it. `None` as for
+    /// [`layers`](Self::layers).
     pub fn shown(
         &self,
         polygons: &[Vec<Corner>],
@@ -139,7 +140,7 @@ impl PlainView {
         Some(layers[..end].iter().rev().map(|&(number, _)| number).collect())
     }
 
-    /// The value of an attribute where a pixel's ray meets the plane of a triangle, given its values
+    /// Returns the value of an attribute where a pixel's ray meets the plane of a triangle, given its values
     /// at the corners, below 2²⁰ in magnitude: a fraction, rounded once it is known.
     pub fn interpolate(&self, triangle: [Corner; 3], values: [i64; 3], pixel: [u32; 2]) -> f64 {
         let (ray, [a, b, c]) = (self.ray(pixel), triangle.map(|corner| corner.map(i128::from)));
@@ -149,7 +150,7 @@ impl PlainView {
     }
 }
 
-/// A corner in world units.
+/// Returns a corner in world units.
 pub fn to_world(corner: Corner) -> DVec3 {
     DVec3::from_array(corner.map(|c| c as f64 / UNITS))
 }
@@ -172,7 +173,8 @@ mod tests {
 
     #[test]
     fn a_square_is_met_where_it_is() {
-        // Pixels of 1/4 at depth 1; the square reaches to 2.0 at depth 4, to 0.5 at depth 1.
+        // Pixels have a side of 1/4 at depth 1. The square reaches to 2.0 at depth 4, which is 0.5 at depth
+        // 1.
         let view = PlainView::new([4, 4]);
         let square = [[-512, -512], [512, -512], [512, 512], [-512, 512]];
         let square = square.map(|[x, y]| [x, y, -1024]);
@@ -187,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_those_of_the_plane() {
+    fn values_are_linear_on_the_plane() {
         let view = PlainView::new([4, 4]);
         // In the plane x + z = -2 units of 256, x is the value itself.
         let triangle = [[0, -900, -512], [512, -900, -1024], [128, 700, -640]];

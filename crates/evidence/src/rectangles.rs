@@ -3,7 +3,8 @@
 
 use std::f64::consts::PI;
 
-/// Between two equal rectangles of `sides` that face each other, `apart` (C-11).
+/// Returns the form factor between two equal rectangles of `sides` that face each other at a distance `apart`
+/// (C-11).
 pub fn facing(sides: [f64; 2], apart: f64) -> f64 {
     let [x, y] = sides.map(|side| side / apart);
     let [of_x, of_y] = [x, y].map(|c| (1.0 + c * c).sqrt());
@@ -12,8 +13,8 @@ pub fn facing(sides: [f64; 2], apart: f64) -> f64 {
     2.0 / (PI * x * y) * (log + arcs - x * x.atan() - y * y.atan())
 }
 
-/// From a rectangle to one at a right angle to it, along an edge of length `edge` that they share; they
-/// reach `from` and `to` away from it (C-14).
+/// Returns the form factor from a rectangle to a second rectangle at a right angle. Both share an edge of
+/// length `edge`. The first reaches `from` away from it, and the second reaches `to` (C-14).
 pub fn in_a_corner(edge: f64, from: f64, to: f64) -> f64 {
     let [w, h] = [from, to].map(|side| side / edge);
     let [ww, hh] = [w * w, h * h];
@@ -26,8 +27,8 @@ pub fn in_a_corner(edge: f64, from: f64, to: f64) -> f64 {
     (arcs + 0.25 * logs) / (PI * w)
 }
 
-/// From a point of a surface to a rectangle of `sides` that faces it, `apart`, with a corner straight above
-/// the point (B-3).
+/// Returns the form factor from a point of a surface to a rectangle of `sides` that faces the surface at a
+/// distance `apart`, with a corner straight above the point (B-3).
 pub fn above_a_point(sides: [f64; 2], apart: f64) -> f64 {
     let [a, b] = sides.map(|side| side / apart);
     let arc = |a: f64, b: f64| {
@@ -41,7 +42,7 @@ pub fn above_a_point(sides: [f64; 2], apart: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The sum of the light that small parts send to one another, each as if from its middle.
+    /// The form factor as a sum over small parts of both rectangles, each taken as its middle point.
     fn by_sums(
         at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
         other: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),

@@ -1,4 +1,4 @@
-//! Exact equality of fractions too large to be added: by their residues modulo a prime.
+//! Tests whether fractions are equal that are too large to be added, by their residues modulo a prime.
 
 use dashu_int::IBig;
 use num_traits::Euclid;
@@ -29,11 +29,11 @@ impl Residue {
 
     pub(crate) fn times(self, other: Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
-        // 2⁶¹ leaves 1, so the digits of 61 bits are added up.
+        // 2⁶¹ is 1 modulo the prime, so the digits of 61 bits are added up.
         Self(((product >> 61) as u64 + (product as u64 & PRIME)) % PRIME)
     }
 
-    /// Its inverse, by Fermat; `None` for 0.
+    /// The inverse by Fermat's little theorem; `None` for 0.
     fn inverse(self) -> Option<Self> {
         if self == Self::ZERO {
             return None;

@@ -14,25 +14,26 @@ use crate::patches::{FormFactors, Patch, patches};
 /// Numbers of the scene's polygons.
 const CEILING: usize = 1;
 const LAMP: usize = 2;
-/// The lamp sends this out for each unit of area, in each channel.
+/// The light that the lamp sends out for each unit of area, in each channel.
 const LAMP_LIGHT: f64 = 1.0;
-/// The share of light that the paints reflect at 620, 540 and 460 nm, and the lamp at all wavelengths.
+/// The share of light that the paints reflect at 620, 540 and 460 nm, and that the lamp reflects at all
+/// wavelengths.
 const WHITE: [f64; 3] = [0.744, 0.743, 0.765];
 const GREEN: [f64; 3] = [0.126, 0.441, 0.104];
 const RED: [f64; 3] = [0.513, 0.059, 0.062];
 const OF_LAMP: [f64; 3] = [0.78; 3];
 
-/// The room with light in it.
+/// The room, divided into patches, and the light between them.
 #[derive(Debug)]
 pub struct Room {
-    /// Parts of the surfaces.
+    /// The patches of all surfaces.
     pub patches: Vec<Patch>,
-    /// The light that they send to one another.
+    /// The form factors of the patches.
     pub factors: FormFactors,
-    /// The reflectance of each at 620, 540 and 460 nm.
+    /// The reflectance of each patch at 620, 540 and 460 nm.
     reflected: Vec<[f64; 3]>,
     light: Vec<f64>,
-    /// The patches of the wall that closes the room, black.
+    /// The patches of the black wall that closes the room.
     closing: Range<usize>,
 }
 
@@ -46,10 +47,11 @@ pub struct Balance {
 }
 
 impl Room {
-    /// The room in patches about as long as `length`, with `side`² sight lines a pair of patches.
+    /// Divides the room into patches about as long as `length`, with `side`² sight lines for each pair of
+    /// patches.
     ///
-    /// The ceiling is around the lamp, not also above it, and the open side is closed by a black wall, so
-    /// that light that leaves is counted.
+    /// The ceiling has a hole where the lamp is. A black wall closes the open side, so that escaping light is
+    /// counted.
     ///
     /// # Errors
     ///
@@ -72,12 +74,13 @@ impl Room {
         Ok(Self { patches, factors, reflected, light, closing })
     }
 
-    /// The number of patches, the first ones, that are surfaces of the scene; the rest closes the room.
+    /// Returns the number of patches that are surfaces of the scene. These patches come first; the others
+    /// close the room.
     pub fn surfaces(&self) -> usize {
         self.closing.start
     }
 
-    /// The light that leaves each patch: its own light, its reflection of the lamp's light, and after
+    /// Returns the light that leaves each patch: its own light, its reflection of the lamp's light, and after
     /// `bounces` its reflection of the light that others reflect.
     pub fn leaving(&self, bounces: u32) -> Vec<[f64; 3]> {
         let channels = [0, 1, 2].map(|channel| {
@@ -94,7 +97,7 @@ impl Room {
         (0..self.patches.len()).map(|k| [0, 1, 2].map(|c| channels[c][k])).collect()
     }
 
-    /// The destinations of the lamp's light.
+    /// Returns the destinations of the lamp's light.
     pub fn balance(&self) -> Balance {
         let sent: f64 =
             self.patches.iter().zip(&self.light).map(|(p, light)| p.area() * light).sum();
@@ -166,10 +169,10 @@ mod tests {
         }
     }
 
-    /// B = E + ρ F B, bounce by bounce and at each wavelength; and all light that leaves surfaces arrives
+    /// B = E + ρ F B holds for each bounce and each wavelength, and all light that leaves surfaces arrives
     /// somewhere.
     #[test]
-    fn light_goes_by_the_equation_of_radiosity_and_none_is_lost() {
+    fn light_obeys_the_radiosity_equation_and_none_is_lost() {
         let room = Room::new(180.0, 4).unwrap();
         let sum = |of: &[f64]| -> f64 {
             of.iter().zip(&room.patches).map(|(light, patch)| light * patch.area()).sum()
@@ -203,10 +206,10 @@ mod tests {
         assert!(first_lit[1] > 10, "{first_lit:?}");
     }
 
-    /// The share that is lost or gained, over several seeds: sixteen times as many sight lines, a fourth of
-    /// it or less.
+    /// With sixteen times as many sight lines, the share of light that is lost or gained falls to a fourth or
+    /// less, over several seeds.
     #[test]
-    fn the_balance_comes_nearer_to_1_with_more_sight_lines() {
+    fn the_balance_approaches_1_with_more_sight_lines() {
         let off = [1, 4].map(|side| {
             let square = |seed: u64| {
                 let Balance { arrived, escaped } =

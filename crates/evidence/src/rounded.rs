@@ -1,4 +1,4 @@
-//! A tree as textbooks build it: rounded planes, rounded vertices, and an epsilon.
+//! A textbook tree with rounded planes, rounded vertices, and an epsilon.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -41,8 +41,8 @@ pub struct RoundedPlane<T> {
     precision: PhantomData<T>,
 }
 
-/// A face, or a piece of one that was cut. Definitions of vertices are kept to judge them; no
-/// decision uses them.
+/// A face or a piece of a face. The definitions of vertices are kept to judge the vertices; no decision uses
+/// them.
 #[derive(Clone, Debug)]
 pub struct RoundedPiece {
     face: u32,
@@ -51,8 +51,8 @@ pub struct RoundedPiece {
 }
 
 impl<T: Precision> RoundedPlane<T> {
-    /// The plane of a face. Vertices no further from it than `epsilon` times half the scene's extent
-    /// are on it.
+    /// Creates the plane of a face. Vertices within `epsilon` times half the scene's extent of the plane
+    /// count as on the plane.
     pub fn new(faces: &Faces, face: u32, epsilon: f64) -> Self {
         let triangle = faces.reference_triangle(face);
         let [p, q, r] = triangle.map(|c| faces.corner(c).map(T::round));
@@ -93,7 +93,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// The side of a plane on which a piece lies.
+    /// Returns the side of a plane on which a piece lies.
     pub fn classify(&self, piece: &RoundedPiece) -> Side {
         if self.plane == PlaneId::face(piece.face) {
             return Side::Coplanar;
@@ -112,7 +112,7 @@ impl<T: Precision> RoundedPlane<T> {
         }
     }
 
-    /// The parts of a piece in front of the plane and behind it.
+    /// Returns the parts of a piece in front of the plane and behind it.
     pub fn split(&self, piece: &RoundedPiece) -> [RoundedPiece; 2] {
         let part = || RoundedPiece { face: piece.face, vertices: Vec::new(), is_whole: false };
         let mut parts = [part(), part()];
@@ -123,7 +123,7 @@ impl<T: Precision> RoundedPlane<T> {
             let (here, next) = (sides[i], sides[j]);
             let crossing = || self.crossing(&vertex, &piece.vertices[j]);
             for (part, own) in parts.iter_mut().zip([Ordering::Greater, Ordering::Less]) {
-                // The line along the plane, where the part's outline leaves the piece's.
+                // The line along the plane, where the outline of the part leaves the outline of the piece.
                 let cut = EdgeLine::cut(self.plane, own.is_lt());
                 let leaves = next == own.reverse();
                 if here == own || here.is_eq() {
@@ -153,7 +153,7 @@ impl<T: Precision> RoundedPlane<T> {
 }
 
 impl RoundedPiece {
-    /// A whole face.
+    /// Creates the piece that is a whole face.
     pub fn whole<T: Precision>(faces: &Faces, face: u32) -> Self {
         let vertex = |(k, corner): (u32, &[f64; 3])| Vertex {
             position: corner.map(T::round),
@@ -164,12 +164,12 @@ impl RoundedPiece {
         Self { face, vertices, is_whole: true }
     }
 
-    /// The positions of its vertices, in lattice units.
+    /// Returns the positions of the piece's vertices, in lattice units.
     pub fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
         self.vertices.iter().map(|vertex| vertex.position)
     }
 
-    /// The definitions of its vertices.
+    /// Returns the definitions of the piece's vertices.
     pub fn vertex_ids(&self) -> impl Iterator<Item = VertexId> {
         self.vertices.iter().map(|vertex| vertex.vertex_id)
     }
@@ -177,7 +177,7 @@ impl RoundedPiece {
 
 /// The number of planes tried at each node, as by `Heuristic::Sampled`.
 const CANDIDATES: usize = 16;
-/// A cut costs as much as this difference in the numbers of pieces of the two sides.
+/// The cost of a cut, in pieces by which the two sides differ.
 const CUT: usize = 8;
 
 /// A set of pieces that is still to be divided.
@@ -188,9 +188,9 @@ struct Pending {
 }
 
 impl Tree {
-    /// Builds a tree of faces by rounded numbers: vertices no further from a plane than `epsilon`
-    /// times half the scene's extent are on it. Decisions are wrong where distances are near
-    /// the epsilon or the precision. `Heuristic::Sampled` chooses the same planes with exact decisions.
+    /// Builds a tree of faces by rounded numbers. Vertices within `epsilon` times half the scene's extent of
+    /// a plane count as on the plane. Decisions are wrong where distances are near the epsilon or the
+    /// precision. `Heuristic::Sampled` chooses the same planes with exact decisions.
     ///
     /// `None` if there would be more than `max_fragments` fragments.
     pub fn with_epsilon<T: Precision>(
@@ -238,7 +238,7 @@ impl Tree {
                 stack.push(Pending { pieces, depth: depth + 1, parent: Some((node, is_front)) });
             }
         }
-        // Subtrees end where their last node does.
+        // A subtree ends where its last node ends.
         for node in (0..tree.nodes.len()).rev() {
             let Node { front, back, .. } = &tree.nodes[node];
             let last = match (front, back) {
@@ -285,7 +285,7 @@ impl Tree {
     }
 }
 
-/// The best plane of a sample of the pieces' planes: few cuts, and sides of like size.
+/// The best plane of a sample of the pieces' planes: few cuts, and sides of similar size.
 fn choose<T: Precision>(faces: &Faces, pieces: &[RoundedPiece], epsilon: f64) -> RoundedPlane<T> {
     let count = CANDIDATES.min(pieces.len());
     let planes = (0..count).map(|i| {

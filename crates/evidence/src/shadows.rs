@@ -18,15 +18,15 @@ use binspace::{BspTree, Ray};
 /// The part of a lamp that a point sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zone {
-    /// It sees all tested points of the lamp.
+    /// The point sees all tested points of the lamp.
     Lit,
-    /// It sees some of them.
+    /// The point sees some of the tested points.
     Penumbra,
-    /// It sees none of the tested points.
+    /// The point sees none of the tested points.
     Umbra,
 }
 
-/// Which zone a point is in, by exact sight lines to points of a lamp.
+/// Returns the zone of a point, by exact sight lines to points of a lamp.
 ///
 /// For a point lamp this is complete. For a rectangle, it is right except near the shadow's boundary: lit or
 /// hidden parts between the points are not noticed. [`is_umbra`] is certain.
@@ -39,7 +39,7 @@ pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
     }
 }
 
-/// Whether one convex polygon lies between a point and all corners of a lamp. Then it hides the whole
+/// Returns whether one convex polygon lies between a point and all corners of a lamp. Then it hides the whole
 /// lamp, because the hidden part of the lamp's plane is convex.
 pub fn is_umbra(tree: &BspTree, point: DVec3, corners: &[DVec3]) -> bool {
     let between = |&at: &DVec3| {
@@ -54,8 +54,8 @@ pub fn is_umbra(tree: &BspTree, point: DVec3, corners: &[DVec3]) -> bool {
     !common.is_empty()
 }
 
-/// A floor with a body, a table and a post, in whole numbers, so that points of its surfaces are exact.
-/// Up is z; all polygons are upright or level.
+/// Returns a floor with a body, a table and a post, in whole numbers, so that points of its surfaces are
+/// exact. Up is z; all polygons are upright or level.
 pub fn courtyard() -> Scene {
     let mut scene = Scene::new("courtyard", DVec3::Z);
     let floor = [[0.0, 0.0], [4096.0, 0.0], [4096.0, 4096.0], [0.0, 4096.0]];
@@ -77,7 +77,7 @@ pub fn lamp(side: u32) -> Vec<DVec3> {
     (0..side * side).map(at).collect()
 }
 
-/// The points of surfaces that a camera sees, rounded to whole numbers; `None` in empty pixels.
+/// Returns the points of surfaces that a camera sees, rounded to whole numbers; `None` in empty pixels.
 pub fn seen_points(camera: &Camera, eye: DVec3, rays: &Rays, tree: &BspTree) -> Vec<Option<DVec3>> {
     let [width, height] = camera.size().map(f64::from);
     let depth = zbuffer(rays, tree.faces());

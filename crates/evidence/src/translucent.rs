@@ -22,7 +22,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// The view through a surface that looks like this: "over" (Porter & Duff 1984).
+    /// The colour of this surface over the colour behind it: "over" (Porter & Duff 1984).
     fn over(self, behind: Colour) -> Colour {
         [0, 1, 2].map(|i| behind[i] * (1.0 - self.opacity) + self.colour[i] * self.opacity)
     }
@@ -53,7 +53,7 @@ impl<'a, F: Fn(usize) -> Look> Canvas<'a, F> {
     }
 }
 
-/// The fragments of a tree blended in its order, back to front.
+/// Blends the fragments of a tree in its order, back to front.
 pub fn by_tree(
     tree: &BspTree,
     rays: &Rays,
@@ -68,7 +68,7 @@ pub fn by_tree(
     canvas.pixels
 }
 
-/// Whole faces blended in the order of a list.
+/// Blends whole faces in the order of a list.
 pub fn by_list(
     faces: &Faces,
     list: impl IntoIterator<Item = u32>,
@@ -81,7 +81,7 @@ pub fn by_list(
     canvas.pixels
 }
 
-/// The layers of each pixel blended, the furthest first: the truth.
+/// Blends the layers of each pixel, the furthest first: the truth.
 pub fn by_layers(
     faces: &Faces,
     layers: &Layers,
@@ -95,8 +95,9 @@ pub fn by_layers(
     layers.pixels().map(blend).collect()
 }
 
-/// The nearest layers of each pixel blended, the furthest of these first: depth peeling (C. Everitt, "Interactive
-/// order-independent transparency", 2001) that stops after some passes. Its depth tests are exact here.
+/// Blends the nearest layers of each pixel, the furthest of these first: depth peeling (C. Everitt,
+/// "Interactive order-independent transparency", 2001) that stops after some passes. Its depth tests are
+/// exact here.
 pub fn by_nearest_layers(
     faces: &Faces,
     layers: &Layers,
@@ -111,9 +112,10 @@ pub fn by_nearest_layers(
     layers.pixels().map(blend).collect()
 }
 
-/// The weights of [`by_weights`], by the numbers of their equations. They take the distance of a layer from the
-/// eye: in 7 to 9 as if the furthest corner had the distance 500, in 10 as the depth between the nearest and the
-/// furthest corner.
+/// The weights of [`by_weights`], by the numbers of their equations in the paper. A weight depends on the
+/// distance z of a layer from the eye. In equations 7 to 9, distances are scaled so that the furthest corner
+/// is at 500. In equation 10, d is the depth after the perspective divide, from 0 at the nearest corner to 1
+/// at the furthest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weight {
     /// 10 / (10⁻⁵ + (z/5)² + (z/200)⁶).
@@ -147,13 +149,14 @@ impl Weight {
     }
 }
 
-/// Weighted blended order-independent transparency (M. McGuire and L. Bavoil, "Weighted blended
-/// order-independent transparency", 2013): the mean of the layers' colours by opacity and weight, over the
-/// background as often as the layers cover it.
+/// Blends layers without an order (M. McGuire and L. Bavoil, "Weighted blended order-independent
+/// transparency", 2013). Each pixel is the mean of the layers' colours, weighted by opacity and `weight`,
+/// over the background. The share of the background that remains is the product of the layers'
+/// transparencies.
 ///
 /// # Panics
 ///
-/// If the camera is a parallel one.
+/// If the camera is parallel.
 pub fn by_weights(
     faces: &Faces,
     layers: &Layers,
@@ -198,13 +201,13 @@ pub fn by_weights(
     layers.pixels().enumerate().map(blend).collect()
 }
 
-/// The number of pixels that differ in a bit.
+/// Returns the number of pixels that differ in at least one bit.
 pub fn differences(a: &[Colour], b: &[Colour]) -> usize {
     let bits = |colour: &Colour| colour.map(f32::to_bits);
     a.iter().zip(b).filter(|(a, b)| bits(a) != bits(b)).count()
 }
 
-/// The picture in 8 bits a channel.
+/// Returns the picture with 8 bits per channel.
 pub fn rgb(pixels: &[Colour]) -> Vec<u8> {
     pixels.iter().flatten().map(|c| (255.0 * c).round() as u8).collect()
 }
@@ -223,10 +226,10 @@ mod tests {
         Look { colour, opacity: 0.2 + 0.1 * (polygon % 7) as f32 }
     }
 
-    /// Two squares that fill a picture, the nearer one red with opacity 0.5, the further one green with opacity 0.25;
-    /// and white behind them.
+    /// Two squares that fill a picture. The nearer square is red with opacity 0.5, the further square is
+    /// green with opacity 0.25, and the background is white.
     #[test]
-    fn blends_without_an_order_are_those_by_hand() {
+    fn blends_without_an_order_match_hand_computation() {
         let square = |z: f64| [[-9., -9., z], [9., -9., z], [9., 9., z], [-9., 9., z]];
         let (faces, _) = Faces::new([square(-1.0), square(-2.0)], Some(0.0)).unwrap();
         let (eye, middle) = (DVec3::ZERO, DVec3::NEG_Z);
@@ -253,7 +256,7 @@ mod tests {
         let [red, green] = [share, 1.0 - share].map(|share| (0.625 * share + 0.375) as f32);
         let found = by_weights(&faces, &layers, &camera, Weight::Equation9, look, white);
         all_near(found, [red, green, 0.375]);
-        // The nearest depth is 0, the furthest 1, where the weight is limited.
+        // The nearest depth d is 0 and the furthest is 1, where the weight is at its limit.
         let share = 3e3 * 0.5 / (3e3 * 0.5 + 0.01 * 0.25);
         let [red, green] = [share, 1.0 - share].map(|share: f64| (0.625 * share + 0.375) as f32);
         let found = by_weights(&faces, &layers, &camera, Weight::Equation10, look, white);

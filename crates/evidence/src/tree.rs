@@ -7,8 +7,8 @@ use std::ops::Range;
 use binspace::internals::{EdgeLine, Eye, Faces, PlaneId, VertexId};
 use binspace::{BspTree, Child, Viewpoint};
 
-/// A BSP tree whose vertices have a definition and a position: the library's, or one of
-/// [rounded numbers](Tree::with_epsilon).
+/// A BSP tree whose vertices have a definition and a position: the library's tree, or a tree of [rounded
+/// numbers](Tree::with_epsilon).
 #[derive(Clone)]
 pub struct Tree {
     pub(crate) faces: Faces,
@@ -21,20 +21,20 @@ pub struct Tree {
     pub(crate) eye_side: fn(&Faces, PlaneId, &Eye) -> Ordering,
 }
 
-/// Nodes are stored depth first, the front before the back. Fragments are numbered likewise: fragments on the
-/// plane, in a front leaf, in a back leaf, then in the nodes below.
+/// Nodes are stored depth first, the front before the back. Fragments are numbered in this order: on the
+/// node's plane, in its front leaf, in its back leaf, and then in the nodes below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) plane: PlaneId,
-    /// The number of nodes on the path to it, itself included.
+    /// The number of nodes on the path from the root to this node, including this node.
     pub(crate) depth: usize,
-    /// Whether it is in front of its parent.
+    /// Whether the node is in front of its parent.
     pub(crate) is_front: bool,
-    /// The fragments on its plane.
+    /// The fragments on the node's plane.
     pub(crate) on: Range<u32>,
     pub(crate) front: Side,
     pub(crate) back: Side,
-    /// The fragments of its whole subtree.
+    /// The fragments of the node's whole subtree.
     pub(crate) all: Range<u32>,
 }
 
@@ -45,7 +45,8 @@ pub(crate) enum Side {
     Node(usize),
 }
 
-/// A fragment. Its vertices end where the next fragment's begin; a whole face has none.
+/// A fragment. Its vertices end where the vertices of the next fragment begin. A whole face has no vertices
+/// here.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     pub(crate) face: u32,
@@ -61,42 +62,42 @@ pub(crate) struct Vertex {
 }
 
 impl Tree {
-    /// The number of fragments.
+    /// Returns the number of fragments.
     pub fn len(&self) -> usize {
         self.fragments.len()
     }
 
-    /// Whether there are no fragments.
+    /// Returns whether there are no fragments.
     pub fn is_empty(&self) -> bool {
         self.fragments.is_empty()
     }
 
-    /// The number of times that a piece was cut in two.
+    /// Returns the number of times that a piece was cut in two.
     pub fn cuts(&self) -> usize {
         self.cuts
     }
 
-    /// The number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
 
-    /// The most nodes on a path from the root.
+    /// Returns the largest number of nodes on a path from the root.
     pub fn depth(&self) -> usize {
         self.nodes.iter().map(|node| node.depth).max().unwrap_or(0)
     }
 
-    /// The faces that the fragments are pieces of.
+    /// Returns the faces that the fragments are pieces of.
     pub fn faces(&self) -> &Faces {
         &self.faces
     }
 
-    /// The resident size in bytes, without the faces.
+    /// Returns the resident size in bytes, without the faces.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + size_of_val(&*self.fragments) + size_of_val(&*self.vertices)
     }
 
-    /// The face that a fragment is a piece of.
+    /// Returns the face that a fragment is a piece of.
     pub fn face(&self, fragment: u32) -> u32 {
         self.fragments[fragment as usize].face
     }
@@ -108,19 +109,19 @@ impl Tree {
         &self.vertices[start..next.map_or(self.vertices.len(), |next| next.start as usize)]
     }
 
-    /// Whether a fragment is a whole face.
+    /// Returns whether a fragment is a whole face.
     pub fn is_whole(&self, fragment: u32) -> bool {
         self.stored(fragment).is_empty()
     }
 
-    /// The vertices of a fragment in lattice units, rounded.
+    /// Returns the vertices of a fragment in lattice units, rounded.
     pub fn lattice_vertices(&self, fragment: u32) -> impl Iterator<Item = [f64; 3]> {
         let stored = self.stored(fragment);
         let whole = if stored.is_empty() { self.faces.corners(self.face(fragment)) } else { &[] };
         whole.iter().copied().chain(stored.iter().map(|vertex| vertex.position))
     }
 
-    /// For each vertex of a fragment, its definition.
+    /// Returns the definition of each vertex of a fragment.
     pub fn vertex_ids(&self, fragment: u32) -> impl Iterator<Item = VertexId> {
         let stored = self.stored(fragment);
         let corners =
@@ -130,8 +131,8 @@ impl Tree {
             .chain(stored.iter().map(|vertex| vertex.vertex_id))
     }
 
-    /// The partition planes, depth first, each with the fragments on it, and all in front and
-    /// behind.
+    /// Returns the partition planes, depth first. Each has the ranges of the fragments on the plane, in front
+    /// of it, and behind it.
     pub fn partitions(&self) -> impl Iterator<Item = (PlaneId, [Range<u32>; 3])> {
         let all = |side: &Side| match side {
             Side::Leaf(fragments) => fragments.clone(),
@@ -142,8 +143,8 @@ impl Tree {
             .map(move |node| (node.plane, [node.on.clone(), all(&node.front), all(&node.back)]))
     }
 
-    /// Writes the numbers of all fragments, back to front, in place of the list's content. O(n), with its own
-    /// stack.
+    /// Replaces the list's content by the numbers of all fragments, back to front. Takes O(n) time, without
+    /// recursion.
     pub fn back_to_front_into(&self, viewpoint: Viewpoint, order: &mut Vec<u32>) {
         order.clear();
         let eye = Eye::new(viewpoint, self.faces.lattice());

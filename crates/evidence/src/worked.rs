@@ -27,7 +27,7 @@ pub const EYE_OF_EIGHT: [f64; 2] = [8.0, 0.0];
 /// The order in which this eye's picture is painted, worked by hand.
 pub const EIGHT_ORDER: &str = "F C G A D₁ B D₂ E H";
 
-/// Eight walls, two units high: their letters, and their corners.
+/// Returns eight walls, two units high: their letters and their corners.
 pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
     EIGHT.into_iter().map(|(letter, [[x, y], [u, v]])| {
         let corners = [[x, y, 0.0], [u, v, 0.0], [u, v, 2.0], [x, y, 2.0]];
@@ -35,8 +35,8 @@ pub fn eight() -> impl Iterator<Item = (char, [DVec3; 4])> {
     })
 }
 
-/// A camera above the eye of the eight walls, so that no wall hides all of another; the order is
-/// the same from any height.
+/// Returns a camera above the eye of the eight walls, so that no wall hides the whole of another wall. The
+/// order is the same from any height.
 ///
 /// # Errors
 ///
@@ -47,8 +47,8 @@ pub fn eye_on_eight(size: [u32; 2]) -> Result<Camera, Error> {
     Camera::perspective(eye, target, DVec3::Z, 1.2, size)
 }
 
-/// An order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut
-/// are numbered as they come.
+/// Returns an order of the fragments of a tree of the eight walls, by letters; pieces of a wall that was cut
+/// are numbered in this order.
 pub fn letters(tree: &BspTree, order: &[u32]) -> String {
     let polygon = |fragment: u32| tree.fragment(fragment).polygon();
     let name = |(place, &fragment): (usize, &u32)| {
@@ -60,9 +60,9 @@ pub fn letters(tree: &BspTree, order: &[u32]) -> String {
     order.iter().enumerate().map(name).collect::<Vec<_>>().join(" ")
 }
 
-/// Two triangles on a grid of six by six pixels, seen along −z: the depths at the centres of pixels
-/// are whole numbers. The first is 5 deep everywhere, the second 2 at the left, and 2 more from
-/// column to column.
+/// Returns two triangles on a grid of six by six pixels, seen along −z: the depths at the centres of pixels
+/// are whole numbers. The first triangle has depth 5 everywhere. The second has depth 2 in the first column,
+/// and 2 more in each further column.
 pub fn six_by_six() -> [[DVec3; 3]; 2] {
     let first = [[0.0, 0.0, -5.0], [12.0, 0.0, -5.0], [0.0, 12.0, -5.0]];
     // Depth 2x + 1, so 2 at the centre of the first column.
@@ -70,7 +70,7 @@ pub fn six_by_six() -> [[DVec3; 3]; 2] {
     [first, second].map(|triangle| triangle.map(DVec3::from_array))
 }
 
-/// The camera of the grid: pixel (x, y) is the world's (x + ½, 5½ − y).
+/// Returns the camera of the grid: pixel (x, y) is the world's (x + ½, 5½ − y).
 ///
 /// # Errors
 ///

@@ -13,17 +13,19 @@ use binspace::scene::{Material, Scene};
 /// Coordinates are short binary fractions: nothing is rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Worst {
-    /// Half of the walls stand along x, half along y below them. The plane of each wall of the one half cuts
-    /// all remaining walls of the other, in any order: (n/2)² cuts. A plane between the halves cuts nothing.
+    /// Half of the walls stand along x, half along y below them. The plane of each wall of one half cuts all
+    /// remaining walls of the other half. In any order, this gives (n/2)² cuts. A plane between the halves
+    /// cuts nothing.
     Walls,
-    /// Upright strips along the two families of lines on the saddle z = xy, above the lines of the one
-    /// family, and a little lower below the lines of the other. No plane separates much of them: n² is the
-    /// least (B. Chazelle, "Convex partitions of polyhedra", 1984; M. S. Paterson & F. F. Yao, "Efficient
-    /// binary space partitions for hidden-surface removal and solid modeling", 1990).
+    /// Upright strips along the two families of lines on the saddle z = xy: above the lines of one family,
+    /// and, a little lower, below the lines of the other. No plane separates many of them, so the number of
+    /// fragments of every tree is at least of order n² (B. Chazelle, "Convex partitions of polyhedra", 1984;
+    /// M. S. Paterson & F. F. Yao, "Efficient binary space partitions for hidden-surface removal and solid
+    /// modeling", 1990).
     Saddle,
-    /// Sheets of which each three meet in a point, each point another one, as the planes
-    /// t³ + xt² + yt + z = 0 do for different t: the point is given by the coefficients of the cubic
-    /// with the three as its roots. All sheets cross all others, so there are n³ cells between them.
+    /// Sheets in the planes t³ + xt² + yt + z = 0 for different t. Every three meet in a separate point: its
+    /// coordinates are the coefficients of the cubic whose roots are the three values of t. All sheets cross
+    /// each other, so there are about n³/6 cells between them.
     Sheets,
 }
 
@@ -31,7 +33,7 @@ impl Worst {
     /// All families.
     pub const ALL: [Self; 3] = [Self::Walls, Self::Saddle, Self::Sheets];
 
-    /// A short name.
+    /// Returns a short name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Walls => "walls",
@@ -40,7 +42,7 @@ impl Worst {
         }
     }
 
-    /// A scene of this many polygons; the number is even where there are two halves.
+    /// Returns a scene of this many polygons; the number is even where there are two halves.
     pub fn scene(self, count: u32) -> Scene {
         let mut scene = Scene::new(format!("{self}:{count}"), DVec3::Z);
         Material::palette().for_each(|material| {
@@ -57,11 +59,12 @@ impl Worst {
         scene
     }
 
-    /// The number of fragments of a tree of n polygons that takes its planes from these alone, in any order.
+    /// Returns the number of fragments of a tree of n polygons that takes its planes from these alone, in any
+    /// order.
     ///
-    /// Of walls and strips, each two that cross as seen from above are cut once: the first whose plane is
-    /// taken cuts the other there. Of sheets, each leaf is one of the cells between them, of which there are
-    /// 1 + n + C(n, 2) + C(n, 3), and each node has one fragment.
+    /// For walls and strips, each pair that crosses as seen from above is cut once: the one whose plane is
+    /// taken first cuts the other. For sheets, each leaf is one of the 1 + n + C(n, 2) + C(n, 3) cells
+    /// between them, and each node has one fragment.
     pub fn fragments(self, count: u32) -> u64 {
         let (n, half) = (u64::from(count), u64::from(count / 2));
         let pairs = n * n.saturating_sub(1) / 2;
@@ -93,8 +96,8 @@ fn walls(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
 }
 
 fn strips(half: u32) -> impl Iterator<Item = [DVec3; 4]> {
-    /// The height of the strips, and the height of the one family above the other: the saddle rises by four
-    /// times that from line to line.
+    /// The height of the strips, and the height of the one family above the other: from line to line, the
+    /// saddle rises by four times this height.
     const HEIGHT: f64 = 0.5;
     const GAP: f64 = 0.25;
     // A power of two, so that the saddle is about as high as wide.

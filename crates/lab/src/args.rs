@@ -44,7 +44,7 @@ pub(crate) struct LectureArgs {
 #[derive(Args, Debug)]
 #[command(after_help = REPORT)]
 pub(crate) struct ReportArgs {
-    /// OBJ files, - for one on standard input, or built-in scenes to measure as well
+    /// Scenes to measure as well: OBJ files, built-in scenes, or - for an OBJ file on standard input
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<OsString>,
     /// Folder to write into; created if it does not exist
@@ -56,7 +56,7 @@ pub(crate) struct ReportArgs {
     /// Seed of the families' scenes and of the random views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Only this family, without growth; may be repeated
+    /// Measure only this family, and leave out culling and growth; may be repeated
     ///
     /// One of angle, gap, offset, scale, sliver, nesting, lattice, boxes, cycle, penetration and
     /// depth-range.

@@ -21,7 +21,7 @@ const SIZE: (u32, u32) = (900, 560);
 const LEGEND: u32 = 175;
 /// The height of the lane for zero, as a share of the axis above it.
 const LANE: f64 = 0.28;
-/// Its distance below the axis, as a share of its own height.
+/// The distance of the lane from the axis, as a share of the lane's height.
 const GAP: f64 = 0.3;
 const FONT: &str = "sans-serif";
 
@@ -61,12 +61,12 @@ pub(crate) struct Series {
 }
 
 impl Series {
-    /// Points that a line joins.
+    /// Creates a series whose points are joined by a line.
     pub(crate) fn new(name: &str, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.to_owned(), style, points, line: true }
     }
 
-    /// Points without a line. They are few, so they are drawn larger.
+    /// Leaves out the line. Such a series has few points, so its markers are drawn larger.
     pub(crate) fn without_line(mut self) -> Self {
         self.style.reach = self.style.reach.max(6);
         Self { line: false, ..self }
@@ -83,8 +83,8 @@ pub(crate) struct Chart<'a> {
     pub(crate) ticks: Option<Vec<f64>>,
     /// Whether the x axis runs from large to small.
     pub(crate) falls: bool,
-    /// Whether values may be 0. Zeros are drawn in a separate lane below the axis, side by side, so that all are
-    /// visible.
+    /// Whether values may be 0. Zeros are drawn in a separate lane below the axis, side by side, so that all
+    /// are visible.
     pub(crate) zero: bool,
     pub(crate) series: Vec<Series>,
 }
@@ -100,7 +100,7 @@ struct Lane {
 }
 
 impl Chart<'_> {
-    /// The chart as SVG.
+    /// Draws the chart as SVG.
     pub(crate) fn draw(&self) -> Result<String, Failure> {
         let mut svg = String::new();
         {
@@ -114,7 +114,7 @@ impl Chart<'_> {
         Ok(svg)
     }
 
-    /// Both axes, and the lane for zero below the second.
+    /// Returns the x axis, the y axis, and the lane for zero below the y axis.
     fn scales(&self) -> (Scale, Scale, Lane) {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let mut x = match &self.ticks {

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 /// The possible names of Chromium.
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"];
 
-/// The browser's name.
+/// Returns the browser's name.
 pub fn browser() -> &'static str {
     let runs = |name: &&&str| {
         let mut command = Command::new(name);
@@ -20,7 +20,7 @@ pub fn browser() -> &'static str {
 }
 
 /// Runs a script at the end of a page, and returns its text, without markup. The script is the body of a
-/// function. The browser uses the folder meanwhile.
+/// function. The browser stores its files in the folder.
 pub fn said(browser: &str, folder: &Path, page: &str, script: &str) -> String {
     let page = page.replace(
         "</body>",
@@ -49,19 +49,19 @@ pub fn said(browser: &str, folder: &Path, page: &str, script: &str) -> String {
     said.to_owned()
 }
 
-/// A number of a list, by the hash of Fowler, Noll and Vo over its words.
+/// Returns a hash of a list: the function of Fowler, Noll and Vo over its numbers.
 pub fn hash(order: &[u32]) -> u32 {
     order.iter().fold(2_166_136_261, |hash, &number| (hash ^ number).wrapping_mul(16_777_619))
 }
 
-/// Computes the same hash of a list in the script.
+/// Returns an expression that computes the same hash of a list in a script.
 pub fn hash_in_script(list: &str) -> String {
     format!(
         "({list}.reduce((hash, number) => Math.imul(hash ^ number, 16777619), 2166136261 | 0) >>> 0)"
     )
 }
 
-/// An eye at a point of the grid as the library takes it; `None` if its position cannot be expressed.
+/// Returns an eye at a point of the grid as the library takes it; `None` if its position cannot be expressed.
 pub fn eye_at(tree: &BspTree, point: [f64; 3]) -> Option<Viewpoint> {
     let grid = tree.grid();
     let away = DVec3::from(point) * 2f64.powi(grid.exponent);
@@ -69,8 +69,8 @@ pub fn eye_at(tree: &BspTree, point: [f64; 3]) -> Option<Viewpoint> {
     (at - away == grid.base && at - grid.base == away).then_some(Viewpoint::Eye(at))
 }
 
-/// Turns the camera of a page around its scene twice: first without edges, then with all edges. Asserts
-/// that each picture is painted, differs from the last, and has the library's order. Returns the median
+/// Turns the camera of a page around its scene twice: first without edges, then with all edges. Asserts that
+/// each picture is painted, differs from the picture before, and has the library's order. Returns the median
 /// time of a picture in milliseconds, without and with edges.
 pub fn turn(browser: &str, folder: &Path, page: &str, tree: &BspTree, pictures: u32) -> [f64; 2] {
     let script = format!(

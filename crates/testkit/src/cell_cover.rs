@@ -1,4 +1,5 @@
-//! Each point of each polygon is in one cell: areas and edges of all cells together, in rationals.
+//! Checks that each point of each polygon is in one cell, by the areas and edges of all cells together, in
+//! rationals.
 
 use std::collections::BTreeMap;
 

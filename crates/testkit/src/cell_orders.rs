@@ -1,4 +1,4 @@
-//! The orders of cells, one after the other, are an order of the scene: compared with rays, in big
+//! Checks that the orders of cells, one after the other, are an order of the scene. Rays decide, in big
 //! integers.
 
 use binspace::Viewpoint;
@@ -16,13 +16,13 @@ pub struct Score {
     pub scenes: usize,
     pub empty_cells: usize,
     pub pairs: usize,
-    /// The pairs of these in different cells.
+    /// The number of these pairs that are in different cells.
     pub apart: usize,
     pub coplanar: usize,
     pub excused: usize,
 }
 
-/// A hit in a cell, and its place in the order of all.
+/// A hit in a cell, and its place in the order of all cells.
 struct Found<'c> {
     cell: &'c Cell,
     number: usize,
@@ -59,7 +59,7 @@ pub fn judge(scene: &Divided, seed: u64, views: usize, score: &mut Score) -> Ver
     Ok(())
 }
 
-/// The place of each fragment of each cell in the order of all.
+/// Returns the place of each fragment of each cell in the order of all cells.
 pub fn places(scene: &Divided, viewpoint: Viewpoint) -> Result<Vec<Vec<usize>>, String> {
     let mut places: Vec<Vec<usize>> =
         scene.cells.iter().map(|cell| vec![usize::MAX; cell.tree.len()]).collect();
@@ -118,8 +118,7 @@ pub fn shoot(
     Ok(())
 }
 
-/// Whether both hits, or the nearer one and the eye, are within the tolerance of a plane between their
-/// cells.
+/// Whether both hits, or the nearer hit and the eye, are within the tolerance of a plane between their cells.
 fn is_excused(ray: &Ray, hits: [&Found<'_>; 2]) -> bool {
     let tolerance = hits[0].cell.tree.faces().tolerance();
     if tolerance == 0.0 {
@@ -134,7 +133,7 @@ fn is_excused(ray: &Ray, hits: [&Found<'_>; 2]) -> bool {
             .map(|[low, high]| [side(hits[low], 1)[axis], side(hits[high], 0)[axis]]);
         walls.into_iter().filter(|[low, high]| low <= high).flatten().any(|wall| {
             let near = |point: DVec3| (point[axis] - wall).abs() <= reach;
-            // The second one comes later in the order, and is further away.
+            // The second hit comes later in the order, and is further away.
             near(a) && (near(b) || eye.is_some_and(near))
         })
     })

@@ -1,4 +1,4 @@
-//! Facts about prepared faces, in rationals.
+//! Checks of prepared faces, in rationals.
 
 use super::model::Face;
 use super::rational::{self, Point};
@@ -8,7 +8,7 @@ use num_traits::Signed;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 
-/// Twice the vector area of a polygon's corners on the lattice.
+/// Returns twice the vector area of a polygon's corners on the lattice.
 pub fn area(faces: &Faces, polygon: &[DVec3]) -> Point {
     let corners: Vec<Point> =
         polygon.iter().map(|&p| rational::point(faces.lattice().snap(p))).collect();

@@ -26,7 +26,7 @@ pub struct Tally {
     pub moved: usize,
     /// Pieces that the tolerance alone decided.
     pub tolerated: usize,
-    /// Pieces as far from a plane as the tolerance, up to its rounding error.
+    /// Pieces whose distance from a plane equals the tolerance, up to rounding.
     pub ambiguous: usize,
     /// Vertices that a rounded distance alone would put on the wrong side.
     pub wrong: usize,
@@ -34,7 +34,7 @@ pub struct Tally {
     pub worst_position: f64,
 }
 
-/// A face that is cut by one plane after the other; one of the two parts is followed.
+/// A face that is cut by one plane after the other. After each cut, one of the two parts is kept.
 pub struct Walk<'a> {
     faces: &'a Faces,
     face: u32,

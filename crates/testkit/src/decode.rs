@@ -1,10 +1,10 @@
-//! Decodes bytes into scenes whose corners coincide, or nearly so, with earlier ones.
+//! Decodes bytes into scenes in which many corners coincide, or almost coincide, with earlier corners.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::{BuildOptions, Heuristic};
 
-/// Polygons of three to six corners each, or degenerate ones of fewer; up to `most`.
+/// Decodes at most `most` polygons of three to six corners, or degenerate polygons with fewer corners.
 pub fn polygons(bytes: &mut Unstructured<'_>, most: usize) -> Result<Vec<Vec<DVec3>>> {
     let mut polygons: Vec<Vec<DVec3>> = Vec::new();
     let mut known = vec![DVec3::ZERO];
@@ -29,8 +29,8 @@ pub fn polygons(bytes: &mut Unstructured<'_>, most: usize) -> Result<Vec<Vec<DVe
     Ok(polygons)
 }
 
-/// A corner: on a small lattice, at another one or within a few ulps of it, on a line or a plane through
-/// others, or anywhere.
+/// A corner: on a small lattice, at another corner or within a few ulps of it, on a line or a plane through
+/// other corners, or anywhere.
 fn corner(
     bytes: &mut Unstructured<'_>,
     known: &[DVec3],
@@ -79,7 +79,8 @@ fn number(bytes: &mut Unstructured<'_>) -> Result<DVec3> {
     Ok(DVec3::new(axis()?, axis()?, axis()?))
 }
 
-/// Options with any heuristic; a third each with the default tolerance, none, and some.
+/// Decodes options with any heuristic. A third of them have the default tolerance, a third have none, and a
+/// third have another.
 pub fn options(bytes: &mut Unstructured<'_>) -> Result<BuildOptions> {
     let options = BuildOptions::DEFAULT.with_heuristic(*bytes.choose(Heuristic::ALL)?);
     Ok(match bytes.int_in_range(0..=2u8)? {

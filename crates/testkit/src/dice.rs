@@ -14,37 +14,37 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// A number below `n`, which is not 0.
+    /// Returns a number below `n`, which is not 0.
     pub fn below(&mut self, n: usize) -> usize {
         (self.roll() % n as u64) as usize
     }
 
-    /// An integer from −n to n.
+    /// Returns an integer from −n to n.
     pub fn around_zero(&mut self, n: u32) -> f64 {
         self.below(2 * n as usize + 1) as f64 - f64::from(n)
     }
 
-    /// A number from 0 to 1.
+    /// Returns a number from 0 to 1.
     pub fn share(&mut self) -> f64 {
         (self.roll() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A number between two others.
+    /// Returns a number between two others.
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + self.share() * (high - low)
     }
 
-    /// A point with coordinates between two numbers.
+    /// Returns a point with coordinates between two numbers.
     pub fn point(&mut self, low: f64, high: f64) -> DVec3 {
         DVec3::from_array([0; 3].map(|_| self.range(low, high)))
     }
 
-    /// A point with integer coordinates from −n to n.
+    /// Returns a point with integer coordinates from −n to n.
     pub fn whole_point(&mut self, n: u32) -> DVec3 {
         DVec3::from_array([0; 3].map(|_| self.around_zero(n)))
     }
 
-    /// A list in another order.
+    /// Shuffles a list.
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for i in (1..list.len()).rev() {
             list.swap(i, self.below(i + 1));

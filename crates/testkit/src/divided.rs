@@ -4,14 +4,14 @@ use binspace::glam::DVec3;
 use binspace::partition::{Extent, Partition};
 use binspace::{BspTree, BuildOptions, Error};
 
-/// A scene, divided.
+/// A scene divided into cells.
 pub struct Divided {
     pub polygons: Vec<Vec<DVec3>>,
     pub partition: Partition,
     pub cells: Vec<Cell>,
 }
 
-/// A tree, and the numbers in the scene of the polygons that it was given.
+/// The tree of a cell, and the numbers of its polygons in the scene.
 pub struct Cell {
     pub tree: BspTree,
     pub given: Vec<usize>,
@@ -24,7 +24,7 @@ pub fn extent(polygons: &[Vec<DVec3>]) -> Extent {
 }
 
 impl Divided {
-    /// Samples are all corners.
+    /// Divides a scene into cells. All corners are samples.
     pub fn new(
         polygons: Vec<Vec<DVec3>>,
         options: BuildOptions,
@@ -63,7 +63,7 @@ impl Divided {
 }
 
 impl Cell {
-    /// The number in the scene of the polygon of a fragment.
+    /// Returns the number in the scene of the polygon of a fragment.
     pub fn polygon(&self, fragment: u32) -> usize {
         self.given[self.tree.fragment(fragment).polygon()]
     }

@@ -1,4 +1,4 @@
-//! The effort of tests: the only place that decides it.
+//! The effort of tests, which only this module decides.
 //!
 //! `BINSPACE_EFFORT=10 cargo test` tries ten times as many scenes, rays and cases.
 
@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// The effort: `BINSPACE_EFFORT`, and 1 without it.
+/// Returns the effort: `BINSPACE_EFFORT`, and 1 without it.
 pub fn effort() -> usize {
     static EFFORT: LazyLock<usize> = LazyLock::new(|| match std::env::var("BINSPACE_EFFORT") {
         Ok(text) => match text.parse() {
@@ -19,17 +19,17 @@ pub fn effort() -> usize {
     *EFFORT
 }
 
-/// A number of scenes, rays or rounds, times the effort.
+/// Returns a number of scenes, rays or rounds, times the effort.
 pub fn times(count: usize) -> usize {
     count * effort()
 }
 
-/// The seeds of a number of scenes, times the effort.
+/// Returns the seeds of a number of scenes, times the effort.
 pub fn seeds(count: u64) -> Range<u64> {
     0..count * effort() as u64
 }
 
-/// Options of a property: a number of cases, times the effort. Failing cases are kept in
+/// Returns the options of a property test: `count` cases, times the effort. Failing cases are kept in
 /// `tests/proptest-regressions`, in a file named after the source file, and are tried first.
 pub fn cases(count: usize, source: &'static str) -> Config {
     let path = Path::new(source);

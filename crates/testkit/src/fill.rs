@@ -6,7 +6,7 @@ use binspace::raster::Rays;
 use binspace::view::Camera;
 use binspace::{BspTree, Facing, Hit, Viewpoint};
 
-/// A view of polygons with opacities.
+/// Returns view options with an opacity for each polygon.
 pub fn with_opacities(tree: &BspTree, opacity: impl Fn(usize) -> f64) -> ViewOptions<'static> {
     ViewOptions::DEFAULT.with_opacities((0..tree.preparation().polygons).map(opacity).collect())
 }
@@ -39,13 +39,13 @@ impl Picture {
         Self { size, layers: vec![0; pixels.len()], pixels }
     }
 
-    /// Fills the points around which outlines wind, in either direction.
+    /// Fills the points whose winding number is not 0.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         for outline in outlines {
             for (i, a) in outline.iter().enumerate() {
-                // From the centre of the first pixel.
+                // Coordinates are from the centre of the first pixel.
                 let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.mark_near(a, b);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };
@@ -160,7 +160,7 @@ fn check_view(
         let corners: Vec<[f64; 2]> = cell.corners().collect();
         by_cells.fill(cell.polygon(), std::iter::once(&corners[..]));
     }
-    // Outlines do not contain needles thinner than that.
+    // Outlines do not contain parts thinner than this.
     let is_unsure: Vec<bool> = by_cells.pixels.iter().map(|p| *p == Pixel::Unsure).collect();
     for (what, picture) in [("drawing", Picture::of(&drawing)), ("map", by_cells)] {
         for (i, (&found, &face)) in picture.pixels.iter().zip(truth.faces()).enumerate() {
@@ -193,7 +193,7 @@ pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<
     let map = tree.visibility(camera, &ViewOptions::DEFAULT).expect("memory");
     for shown in map.polygons().filter(|shown| shown.area > 0.1) {
         score.rays += 1;
-        // Nothing is seen edge-on; for polygons of one plane the order decides.
+        // No polygon is seen edge-on. For polygons of one plane, the order decides.
         let mut hits = tree
             .hits(ray(camera, shown.point))
             .filter(|hit| hit.facing() != Facing::EdgeOn && hit.parameter() > 0.0);
@@ -207,7 +207,7 @@ pub fn check_rays(tree: &BspTree, camera: &Camera, score: &mut Score) -> Result<
     Ok(())
 }
 
-/// The ray through a point of the picture of a camera with square pixels that looks at its middle.
+/// Returns the ray through a point of the picture of a camera with square pixels that looks at its middle.
 pub fn ray(camera: &Camera, [x, y]: [f64; 2]) -> binspace::Ray {
     let ([width, height], [_, pixel]) = (camera.size().map(f64::from), camera.pixel_size());
     let across = camera.right() * ((x - 0.5 * width) * pixel);

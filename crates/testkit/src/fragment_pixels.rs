@@ -9,7 +9,7 @@ pub fn with_piece(fragment: &Fragment<'_>, draw: impl FnOnce(Piece<'_>)) {
     draw(Pieces::default().of(fragment));
 }
 
-/// Calls a function with the number of each pixel whose centre a fragment covers: by integers.
+/// Calls a function with the number of each pixel whose centre a fragment covers. Integers decide.
 pub fn for_each_pixel(
     tree: &BspTree,
     fragment: &Fragment<'_>,
@@ -19,7 +19,7 @@ pub fn for_each_pixel(
     for_each_number(tree, fragment, rays, &mut see);
 }
 
-/// Not generic, so that it is compiled with the optimization of this crate.
+/// This function is not generic, so that it is compiled with the optimization of this crate.
 fn for_each_number(
     tree: &BspTree,
     fragment: &Fragment<'_>,

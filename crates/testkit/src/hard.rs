@@ -1,6 +1,6 @@
 //! Scenes that are hard to decide: proptest strategies biased towards coincidence and near coincidence.
 //!
-//! Use [`scene`]; use a single family in a test about that family.
+//! Use [`scene`] in general, and a single family only in a test about this family.
 
 use super::shapes::{self, Corners};
 use binspace::glam::{DMat3, DVec3};
@@ -26,7 +26,7 @@ pub struct HardScene {
 }
 
 impl HardScene {
-    /// The tolerance as a library option.
+    /// Returns the tolerance as a library option.
     pub fn tolerance(&self) -> Option<f64> {
         match self.tolerance {
             Tolerance::Default => None,
@@ -34,12 +34,12 @@ impl HardScene {
         }
     }
 
-    /// The same scene with another tolerance.
+    /// Returns the same scene with another tolerance.
     pub fn with_tolerance(self, tolerance: Tolerance) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// Options with its tolerance and a heuristic.
+    /// Returns options with the scene's tolerance and a heuristic.
     pub fn options(&self, by: Heuristic) -> BuildOptions {
         let mut options = BuildOptions::DEFAULT.with_heuristic(by);
         options.tolerance = self.tolerance().into();
@@ -54,30 +54,30 @@ impl HardScene {
         Faces::new(&self.polygons, self.tolerance()).expect("finite").0
     }
 
-    /// Its bounding box, if it has a corner.
+    /// Returns the scene's bounding box, if the scene has a corner.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         bounds(&self.polygons)
     }
 }
 
-/// The bounding box, if there is a corner.
+/// Returns the bounding box, if there is a corner.
 pub fn bounds(polygons: &[Corners]) -> Option<[DVec3; 2]> {
     let corners = || polygons.iter().flatten().copied();
     Some([corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?])
 }
 
-/// The longest side of the bounding box.
+/// Returns the longest side of the bounding box.
 pub fn extent(polygons: &[Corners]) -> f64 {
     bounds(polygons).map_or(0.0, |[low, high]| (high - low).max_element())
 }
 
-/// One of all heuristics.
+/// Returns one of all heuristics.
 pub fn heuristic() -> impl Strategy<Value = Heuristic> {
     prop::sample::select(Heuristic::ALL)
 }
 
-/// A scene of a few polygons: one or two families, perhaps with duplicates, with coordinates
-/// nudged by ulps, moved far out, or scaled.
+/// Returns a scene of a few polygons: one or two families, perhaps with duplicates, with coordinates nudged
+/// by ulps, moved far out, or scaled.
 pub fn scene() -> impl Strategy<Value = HardScene> {
     let mixed = prop_oneof![
         3 => family(),
@@ -105,7 +105,7 @@ pub fn scene() -> impl Strategy<Value = HardScene> {
     )
 }
 
-/// One of all families.
+/// Returns one of all families.
 pub fn family() -> BoxedStrategy<Vec<Corners>> {
     prop_oneof![
         2 => small_lattice().boxed(),
@@ -129,7 +129,7 @@ pub fn small_lattice() -> impl Strategy<Value = Vec<Corners>> {
         .prop_map(|list| list.into_iter().map(|t| t.map(whole).to_vec()).collect())
 }
 
-/// A lattice triangle and others that touch its plane, inside, outside, and on its edges.
+/// Returns a lattice triangle and others that touch its plane, inside, outside, and on its edges.
 pub fn on_each_others_planes() -> impl Strategy<Value = Vec<Corners>> {
     let resting = (prop::array::uniform2(prop::array::uniform2(-2..=10i32)), lattice_point());
     (prop::array::uniform3(lattice_point()), prop::collection::vec(resting, 1..5)).prop_map(
@@ -140,7 +140,7 @@ pub fn on_each_others_planes() -> impl Strategy<Value = Vec<Corners>> {
     )
 }
 
-/// Pairs 1e-3 to 1e-12 rad apart.
+/// Pairs of triangles with a common edge, and an angle of 1e-3 to 1e-12 rad between their planes.
 pub fn near_coplanar() -> impl Strategy<Value = Vec<Corners>> {
     let pair = (turn(), -12..=-3i32, point(), prop::bool::ANY);
     prop::collection::vec(pair, 1..4).prop_map(|list| {
@@ -159,7 +159,7 @@ pub fn layers() -> impl Strategy<Value = Vec<Corners>> {
         .prop_map(|(turn, gap, count)| shapes::layers(turn, 10f64.powi(gap), count))
 }
 
-/// Triangles 1e-3 to 1e-12 wide, through one another.
+/// Triangles 1e-3 to 1e-12 wide that pass through each other.
 pub fn slivers() -> impl Strategy<Value = Vec<Corners>> {
     let one = (turn(), -12..=-3i32, -1.0..1.0f64, point());
     prop::collection::vec(one, 2..6).prop_map(|list| {
@@ -193,7 +193,7 @@ pub fn lattice_ngons() -> impl Strategy<Value = Vec<Corners>> {
     prop::collection::vec(lattice_ngon(), 1..5)
 }
 
-/// One convex polygon with integer corners.
+/// Returns one convex polygon with integer corners.
 pub fn lattice_ngon() -> impl Strategy<Value = Corners> {
     let edges = prop::collection::vec(prop::array::uniform2(-4..=4i32), 2..12);
     let vector = || prop::array::uniform3(-2..=2i32);
@@ -253,7 +253,7 @@ fn nudges() -> impl Strategy<Value = Vec<(Index, Index, usize, i32)>> {
     prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec(one, 1..6)]
 }
 
-/// A rotation: about one axis by an eighth turn or a small angle, or any.
+/// Returns a rotation: about one axis by an eighth turn or a small angle, or any.
 pub fn turn() -> impl Strategy<Value = DMat3> {
     let any_turn = prop::array::uniform3(-3.0..3.0f64).prop_map(shapes::rotation);
     let eighth = (0..3usize, 0..8i32).prop_map(|(axis, k)| {

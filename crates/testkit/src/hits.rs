@@ -1,5 +1,5 @@
-//! The hits of a ray, computed from the faces alone, exactly: in integers over one denominator, which are
-//! never reduced. Balls around runs of faces exclude most of them.
+//! Computes the hits of a ray exactly from the faces alone: in integers over one denominator, which are never
+//! reduced. Balls around runs of faces exclude most faces.
 
 use super::model;
 use super::rational::{self, Point, Rational};
@@ -46,12 +46,12 @@ struct Face {
     normal: Vector,
     offset: IBig,
     corners: Vec<Vector>,
-    /// The two axes of its projection.
+    /// The two axes of the face's projection.
     seen: [usize; 2],
     polygon: usize,
 }
 
-/// A number over another that is above 0.
+/// A fraction with a denominator above 0.
 #[derive(Clone, Debug)]
 struct Fraction {
     over: IBig,
@@ -82,7 +82,7 @@ pub struct Score {
     pub hits: usize,
     /// Hits of rays in the polygon's plane.
     pub in_plane: usize,
-    /// Hits at the same point as the one before.
+    /// Hits at the same point as the hit before.
     pub ties: usize,
     /// Hits at an end of the ray.
     pub at_ends: usize,
@@ -134,7 +134,7 @@ impl Ord for Fraction {
     }
 }
 
-/// A number as a whole number times a power of two.
+/// A number as a whole number and the exponent of a power of two.
 fn parts(value: f64) -> (i64, i32) {
     let bits = value.abs().to_bits();
     let (exponent, digits) = ((bits >> 52) as i32, (bits & ((1 << 52) - 1)) as i64);
@@ -143,7 +143,7 @@ fn parts(value: f64) -> (i64, i32) {
     (if value < 0.0 { -digits } else { digits }, exponent)
 }
 
-/// The least exponent of some numbers; of zeros, a large one.
+/// The least exponent of some numbers. Zeros count as a number with the exponent 2000.
 fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     let exponent = |value: f64| {
         let (digits, exponent) = parts(value);
@@ -152,7 +152,7 @@ fn least(values: impl IntoIterator<Item = f64>) -> i32 {
     values.into_iter().map(exponent).min().expect("numbers")
 }
 
-/// A number in units of a power of two that divides it.
+/// A number in units of a power of two. The number must be a multiple of this unit.
 fn whole(value: f64, unit: i32) -> IBig {
     let (digits, exponent) = parts(value);
     if digits == 0 {
@@ -177,8 +177,8 @@ impl Face {
         }
     }
 
-    /// The direction in which the border turns from a corner to the next around a point `at` / `under`, for
-    /// all corners.
+    /// For each corner, the direction in which the border turns around the point `at` / `under` on the way to
+    /// the next corner.
     fn turns(&self, at: [&IBig; 2], under: &IBig) -> Vec<Ordering> {
         let [i, j] = self.seen;
         let next = self.corners.iter().cycle().skip(1);
@@ -217,7 +217,7 @@ impl Face {
             let inside = self.has([&line.from[i], &line.from[j]], &one);
             return inside.then(|| [Fraction::whole(0), Fraction::whole(0)]);
         }
-        // Corners relative to the beginning, and their sides of the line.
+        // Corners relative to the start of the line, and the sides of the line on which they are.
         let arms: Vec<[IBig; 2]> = self
             .corners
             .iter()
@@ -249,7 +249,7 @@ impl Line {
         })
     }
 
-    /// The ray's own parameter there.
+    /// The parameter of the ray at this point.
     fn parameter(&self, u: &Fraction) -> f64 {
         let bits = self.up.unsigned_abs() as usize;
         let t = match self.up >= 0 {
@@ -265,13 +265,13 @@ impl<'t> Oracle<'t> {
         Self::of(tree, None, tree.faces())
     }
 
-    /// The oracle of an overlay's hits. It contains the faces of the tree and of the overlay's polygons.
+    /// Creates the oracle of an overlay's hits, from the faces of the tree and of the overlay's polygons.
     pub fn with_overlay(tree: &'t BspTree, overlay: &'t Overlay, faces: &'t Faces) -> Self {
         Self::of(tree, Some(overlay), faces)
     }
 
     fn of(tree: &'t BspTree, overlay: Option<&'t Overlay>, faces: &'t Faces) -> Self {
-        /// The length of this many steps is a number, however small the scene is.
+        /// The length of 2^`MANY` steps fits an `f64`, however small the scene is.
         const MANY: i32 = 100;
         let all = || 0..faces.len() as u32;
         let rough: Vec<Rough> = all().map(|face| Rough::new(faces, face)).collect();
@@ -302,12 +302,12 @@ impl<'t> Oracle<'t> {
         self.given
     }
 
-    /// A face in rationals.
+    /// Returns a face in rationals.
     pub fn model(&self, face: u32) -> &model::Face {
         self.models[face as usize].get_or_init(|| model::Face::new(self.faces(), face))
     }
 
-    /// The plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
+    /// Returns the plane of the points p of the world with `normal.dot(p) == offset`, in lattice units.
     pub fn plane(&self, normal: DVec3, offset: f64) -> rational::Plane {
         let (normal, step) = (rational::point(normal), rational::step(self.faces().lattice()));
         let origin = rational::point(self.origin);
@@ -315,7 +315,7 @@ impl<'t> Oracle<'t> {
         rational::Plane { normal: normal.map(|c| c * &step), offset }
     }
 
-    /// The exact vertices of a fragment.
+    /// Returns the exact vertices of a fragment.
     pub fn vertices(&self, fragment: u32) -> Vec<Point> {
         let piece = self.overlay.and_then(|overlay| overlay.piece(fragment));
         let fragment = piece.unwrap_or_else(|| self.tree.fragment(fragment));
@@ -347,8 +347,8 @@ impl<'t> Oracle<'t> {
         }
     }
 
-    /// The faces that a line may meet: tested from the point where it is nearest to the scene, so that
-    /// floats lose little.
+    /// The faces that a line may meet. They are tested from the point of the line that is nearest to the
+    /// scene, so that floats lose little precision.
     fn near(&self, line: &Line) -> Vec<usize> {
         let number = |c: &IBig| c.to_f64().value();
         let unit = 2f64.powi(-(line.bits as i32));
@@ -396,7 +396,7 @@ impl<'t> Oracle<'t> {
         chords
     }
 
-    /// One for each connected part of a polygon, the nearest first.
+    /// One hit for each connected part of a polygon, the nearest first.
     fn hits(&self, mut chords: Vec<Chord>) -> Vec<Chord> {
         let polygon = |chord: &Chord| self.faces[chord.face].polygon;
         chords.sort_by(|a, b| {
@@ -418,14 +418,14 @@ impl<'t> Oracle<'t> {
         hits
     }
 
-    /// The parameter of the nearest hit.
+    /// Returns the parameter of the nearest hit.
     pub fn nearest(&self, ray: Ray) -> Option<f64> {
         let line = self.line(ray);
         let first = self.chords(&line).into_iter().map(|chord| chord.enter).min()?;
         Some(line.parameter(&first))
     }
 
-    /// Whether a ray has a point so far from the scene that it may meet nothing, see `Ray`.
+    /// Whether a point of the ray is so far from the scene that the ray may miss it; see `Ray`.
     fn may_miss(&self, ray: Ray) -> bool {
         let faces = self.given;
         let corners = (0..faces.len() as u32).flat_map(|face| faces.corners(face));
@@ -440,7 +440,7 @@ impl<'t> Oracle<'t> {
         points.iter().any(|&point| (low - point).max(point - high).max_element() > far)
     }
 
-    /// Compares the tree's answers for a ray with the right ones.
+    /// Compares the tree's answers for a ray with the right answers.
     pub fn check(&self, ray: Ray, score: &mut Score) -> Result<(), String> {
         let line = self.line(ray);
         let chords = self.chords(&line);
@@ -471,7 +471,7 @@ impl<'t> Oracle<'t> {
         }
         for (hit, truth) in hits.iter().zip(&truth) {
             self.check_place(&line, hit, &truth.enter).map_err(|what| fault(&what))?;
-            // Rationals of a fragment's vertices are large, so only some are tested.
+            // The rationals of a fragment's vertices are large, so only some fragments are tested.
             let has_point = || {
                 let axis = main_axis(&self.faces[truth.face].normal);
                 let vertices = self.vertices(hit.fragment().index());
@@ -508,7 +508,7 @@ impl<'t> Oracle<'t> {
         let own = self.step - line.bits as i32;
         for (axis, found) in hit.point().to_array().into_iter().enumerate() {
             let ulp = found.abs().next_up() - found.abs();
-            // All in units of a power of two, times the parameter's denominator.
+            // All numbers are in units of a power of two, times the parameter's denominator.
             let unit = own.min(least([found, ulp]));
             let from = &line.from[axis] + whole(self.origin[axis], own);
             let place =
@@ -532,7 +532,7 @@ impl Rough {
         Self { corners, centre, radius }
     }
 
-    /// A ball around others.
+    /// A ball around other balls.
     fn around(others: &[Self]) -> Self {
         let centre = others.iter().map(|other| other.centre).sum::<DVec3>() / others.len() as f64;
         let reach = |other: &Self| other.centre.distance(centre) + other.radius;
@@ -569,7 +569,7 @@ impl Rough {
     }
 }
 
-/// Whether a convex outline has a point of its plane, seen along an axis.
+/// Whether a convex outline contains a point of its plane, seen along an axis.
 fn contains(outline: &[Point], point: &Point, axis: usize) -> bool {
     let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
     let turn = |(a, b): (&Point, &Point)| {

@@ -1,7 +1,7 @@
 //! Checks a tree's fragments in exact rationals.
 //!
-//! A fragment's vertices are computed from the lines that bound it, not from the library's definition of
-//! them, and every decision is made again.
+//! A fragment's vertices are computed from the lines that bound it, not from the library's definitions of
+//! vertices, and every decision is made again.
 
 use super::model::{self, Face};
 use super::rational::{self, Point, Rational};
@@ -35,7 +35,7 @@ pub fn ensure(condition: bool, message: impl FnOnce() -> String) -> Verdict {
     if condition { Ok(()) } else { Err(message()) }
 }
 
-/// Every check of this file; `corners` are the corners of each polygon as given to the library.
+/// Runs every check of this file on a tree. `polygons` are the polygons as given to the library.
 pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate()?;
     let judge = Judge::new(tree);
@@ -45,7 +45,7 @@ pub fn judge(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     judge.weights(polygons)
 }
 
-/// Every check of this file that holds for the tree of a cell: all except that faces are complete.
+/// Runs the checks of this file on the tree of a cell: all checks except that faces are complete.
 pub fn judge_cell(tree: &BspTree, polygons: &[Vec<DVec3>]) -> Verdict {
     tree.validate()?;
     let judge = Judge::new(tree);
@@ -96,8 +96,8 @@ impl<'t> Judge<'t> {
         self.tree.fragments().zip(&self.pieces).map(move |(f, piece)| (f, face(&f), piece))
     }
 
-    /// Checks that every fragment is a convex piece with area, and that its rounded vertices are at the
-    /// exact ones.
+    /// Checks that every fragment is a convex piece with area, and that its rounded vertices are close to the
+    /// exact vertices.
     fn outlines(&self) -> Verdict {
         for (fragment, face, piece) in self.with_pieces() {
             let n = piece.points.len();
@@ -134,7 +134,7 @@ impl<'t> Judge<'t> {
         covers.iter_mut().enumerate().try_for_each(|(face, cover)| self.is_covered(face, cover))
     }
 
-    /// The covered part of each face.
+    /// Returns the covered part of each face.
     pub fn covers(&self) -> Vec<Cover> {
         let empty = |face: &Face| Cover {
             area: Rational::zero(),
@@ -201,18 +201,19 @@ impl<'t> Judge<'t> {
         Ok(())
     }
 
-    /// Checks that weights sum to 1 and give the vertices back from the polygon's own corners, and that
-    /// edges said to be the polygon's lie on them.
+    /// Checks that weights sum to 1, that they give the vertices from the polygon's corners, and that
+    /// reported edges of the polygon lie on edges of the polygon.
     fn weights(&self, polygons: &[Vec<DVec3>]) -> Verdict {
         let faces = self.tree.faces();
         let lattice = faces.lattice();
-        // Moved onto a plane by the tolerance, along an axis no steeper than 1 in √3.
+        // The tolerance moves a corner onto a plane along an axis. The angle between axis and normal has a
+        // cosine of at least 1 / √3.
         let moved = 2.0 * lattice.length_to_world(faces.tolerance());
         let step = lattice.length_to_world(1.0);
         for (fragment, _, _) in self.with_pieces() {
             let corners = &polygons[fragment.polygon()];
             let size = corners.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
-            // Near 0 the least step of `f64` is more than all of these.
+            // Near 0, the least step of `f64` is larger than all these errors.
             let least = f64::from_bits(1);
             let allowed = 8.0 * (moved + step + size * f64::EPSILON + least);
             for (vertex, weights) in fragment.vertices().zip(fragment.weights()) {
@@ -243,7 +244,7 @@ impl<'t> Judge<'t> {
     }
 }
 
-/// An edge of a polygon on the lattice, from its corner to the next different one.
+/// An edge of a polygon on the lattice, from its corner to the next different corner.
 fn ends_of_edge(lattice: &Lattice, corners: &[DVec3], edge: usize) -> [DVec3; 2] {
     let snapped = |corner: &DVec3| DVec3::from_array(lattice.snap(*corner));
     let a = snapped(&corners[edge]);
@@ -258,7 +259,7 @@ fn along(face: &Face, edge: usize, point: &Point) -> Rational {
     (&point[axis] - &a[axis]) / (&b[axis] - &a[axis])
 }
 
-/// The vertex where two consecutive lines around a piece meet.
+/// Returns the vertex where two consecutive lines around a piece meet.
 pub fn meeting(before: EdgeLine, after: EdgeLine, corners: u32) -> VertexId {
     match (before.as_edge(), before.as_cut(), after.as_cut()) {
         (_, _, Some(plane)) => VertexId::crossing(before, plane),

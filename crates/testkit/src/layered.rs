@@ -1,6 +1,6 @@
-//! Drawings of translucent polygons: the centre of each pixel must have the same polygons in the same order
-//! as the fragments of the tree, by separate integers. If some are opaque, only the nearest opaque one and
-//! those in front of it.
+//! Checks drawings of translucent polygons in separate integers: the centre of each pixel must have the same
+//! polygons in the same order as the fragments of the tree. If some polygons are opaque, only the nearest
+//! opaque polygon and the polygons in front of it count.
 
 use std::collections::{HashMap, HashSet};
 
@@ -20,10 +20,10 @@ pub struct Layers {
     pub polygons: usize,
     pub fragments: usize,
     pub paths: usize,
-    /// Polygons that are drawn although no pixel shows them, and polygons that are not visible at all.
+    /// Small polygons: drawn although no pixel shows them, or not visible at all.
     pub small: usize,
     pub hidden: usize,
-    /// Paths of opaque polygons that are parts.
+    /// Paths that are parts of opaque polygons.
     pub clipped: usize,
     pub rays: usize,
     pub regions: usize,
@@ -51,7 +51,7 @@ pub fn check_layers(tree: &BspTree, camera: &Camera, score: &mut Layers) -> Resu
     Ok(())
 }
 
-/// The same check for polygons with opacities.
+/// Runs the check of this module for polygons with opacities.
 pub fn check_mixed(
     tree: &BspTree,
     camera: &Camera,
@@ -61,7 +61,7 @@ pub fn check_mixed(
     let truth = truth(tree, camera)?;
     let map = tree.visibility(camera, &with_opacities(tree, opacity)).expect("memory");
     let drawing = map.drawing().expect("memory");
-    // Outlines do not contain needles thinner than that.
+    // Outlines do not contain parts thinner than this.
     let mut by_cells = Picture::new(map.size());
     for cell in map.cells() {
         let corners: Vec<[f64; 2]> = cell.corners().collect();
@@ -84,7 +84,7 @@ pub fn check_mixed(
             }
         }
     }
-    // Visible polygons are drawn, and nothing else.
+    // Exactly the visible polygons are drawn.
     let shown: Vec<_> = map.polygons().collect();
     if shown.len() != paths.len() || shown.iter().any(|shown| !paths.contains_key(&shown.polygon)) {
         return Err(format!("shown {shown:?}, drawn {paths:?}"));
@@ -93,7 +93,7 @@ pub fn check_mixed(
 }
 
 /// Checks by rays that nothing opaque is in front of the visible polygons. (Where polygons within the
-/// tolerance of one plane overlap, the order decides, which rays do not know.)
+/// tolerance of one plane overlap, the order decides which is visible, and rays cannot judge it.)
 pub fn check_sight(
     tree: &BspTree,
     camera: &Camera,
@@ -164,15 +164,16 @@ fn area(outline: &[[f64; 2]]) -> f64 {
     outline.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
-/// The visible ones of some layers, back to front: opaque ones hide all before.
+/// The visible layers of a list, back to front: an opaque layer hides all layers before it in the list.
 fn visible(layers: &[usize], opacity: &dyn Fn(usize) -> f64) -> Vec<usize> {
     let last = layers.iter().rposition(|&polygon| opacity(polygon) == 1.0);
     let rest = &layers[last.unwrap_or(0)..];
     rest.iter().copied().filter(|&polygon| opacity(polygon) > 0.0).collect()
 }
 
-/// Compares the paint of a drawing at each pixel with the polygons there, back to front. Returns the number
-/// of paths of each polygon, and the number of these that are parts. `is_flat`: no polygon was flattened.
+/// Compares the paint of a drawing at each pixel with the polygons there, back to front. Returns for each
+/// polygon the number of its paths, and the number of paths that are parts. `is_flat`: no polygon was
+/// flattened.
 fn compare(
     drawing: &Drawing,
     truth: &[Vec<usize>],
@@ -193,7 +194,7 @@ fn compare(
         for (i, pixel) in picture.pixels.iter().enumerate() {
             match pixel {
                 Pixel::Nothing => {}
-                // Overlapping outlines of one path would count once.
+                // If outlines of one path overlapped, the pixel would be covered only once.
                 Pixel::Polygon(polygon) => found[i].push(*polygon),
                 Pixel::Unsure => is_unsure[i] = true,
             }
@@ -202,8 +203,7 @@ fn compare(
     let mut seen = HashSet::new();
     for (i, (found, truth)) in found.iter().zip(truth).enumerate() {
         let (found, truth) = (visible(found, opacity), visible(truth, opacity));
-        // Flattened faces have gaps at the edges that they share: there the tree's fragments reveal
-        // polygons behind them.
+        // Flattened faces have gaps at common edges, where the tree's fragments show polygons behind them.
         if is_flat || !is_unsure[i] {
             seen.extend(truth.iter().copied());
         }

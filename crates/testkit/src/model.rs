@@ -36,13 +36,13 @@ impl Face {
         Self { plane, corners, moved }
     }
 
-    /// The whole face as a piece.
+    /// Returns the whole face as a piece.
     pub fn outline(&self) -> Vec<Vertex> {
         let lines = (0..).map(EdgeLine::edge);
         self.corners.iter().zip(lines).map(|(c, line)| Vertex { point: c.clone(), line }).collect()
     }
 
-    /// The point that has a name.
+    /// Returns the point that has a name.
     pub fn resolve(&self, faces: &Faces, vertex_id: VertexId) -> Point {
         match vertex_id.kind() {
             VertexKind::Corner(k) => self.corners[k as usize].clone(),
@@ -59,7 +59,7 @@ impl Face {
         }
     }
 
-    /// Whether a point of the plane is inside the outline, on it, or outside.
+    /// Returns whether a point of the plane is inside the outline, on it, or outside.
     pub fn place(&self, point: &Point) -> Ordering {
         let next = self.corners.iter().cycle().skip(1);
         let turn = |(a, b): (&Point, &Point)| {
@@ -70,8 +70,8 @@ impl Face {
         self.corners.iter().zip(next).map(turn).min().expect("corners")
     }
 
-    /// Every answer that the rules of the library allow: one, except if a corner is as far from the plane
-    /// as the tolerance, up to the rounding of the tolerance.
+    /// Returns every answer that the rules of the library allow. There is one answer, unless the distance of
+    /// a corner from the plane equals the tolerance up to rounding.
     pub fn classify(
         &self,
         (faces, face): (&Faces, u32),
@@ -117,7 +117,7 @@ fn by_vertices(values: &[Rational]) -> Side {
     }
 }
 
-/// The tolerance in the unit of a plane's value: rounded down to an integer, and not.
+/// Returns the tolerance in the unit of a plane's value: first rounded down to an integer, then not rounded.
 pub fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
     let square = rational::scalar(&plane.normal, &plane.normal);
     let length = square.to_f64().value().sqrt() * tolerance;
@@ -125,7 +125,7 @@ pub fn band(tolerance: f64, plane: &Plane) -> [Rational; 2] {
     [(length * (1.0 - share)).floor(), length * (1.0 + share)].map(rational::exact)
 }
 
-/// A partition plane.
+/// Returns a partition plane.
 pub fn plane(faces: &Faces, id: PlaneId) -> Plane {
     match id.kind() {
         PlaneKind::Face(face) => {
@@ -138,7 +138,7 @@ pub fn plane(faces: &Faces, id: PlaneId) -> Plane {
     }
 }
 
-/// The first of the axes along which a plane's normal is longest.
+/// Returns the first of the axes along which a plane's normal is longest.
 pub fn main_axis(plane: &Plane) -> usize {
     vector::main_axis(&plane.normal)
 }
@@ -147,8 +147,8 @@ fn lattice(corner: [f64; 3]) -> Point {
     corner.map(|c| Rational::from(rational::integer(c)))
 }
 
-/// The part of a convex piece in front of a plane, or behind it; `values` are the plane at the
-/// piece's vertices.
+/// Returns the part of a convex piece in front of a plane, or behind it; `values` are the plane's values at
+/// the piece's vertices.
 pub fn clip(piece: &[Vertex], values: &[Rational], plane: PlaneId, behind: bool) -> Vec<Vertex> {
     let inside = if behind { Ordering::Less } else { Ordering::Greater };
     let cut = EdgeLine::cut(plane, behind);

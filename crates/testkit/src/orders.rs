@@ -4,8 +4,8 @@ use super::judge::{Verdict, ensure};
 use binspace::{BspTree, Flow, Fragment, Part, Viewpoint};
 use std::ops::ControlFlow;
 
-/// Checks that every fragment occurs once; that iterator and index form are alike, both ways; and that a
-/// walk that breaks off sees no more.
+/// Checks that every fragment occurs once, that iterators and lists of indices have the same order in both
+/// directions, and that a walk visits nothing after it breaks off.
 pub fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
     let id = |fragment: Fragment<'_>| fragment.index();
     let mut far_first = vec![7; 3];
@@ -17,7 +17,8 @@ pub fn check(tree: &BspTree, viewpoint: Viewpoint) -> Verdict {
     let listed: Vec<u32> = tree.back_to_front(viewpoint).map(id).collect();
     ensure(listed == far_first, || format!("iterator {listed:?}, index form {far_first:?}"))?;
     let reverse: Vec<u32> = far_first.iter().rev().copied().collect();
-    // Longer than the working space, so that no part of it is zero at first.
+    // The list is longer than the working space and has no zero, so that no part of the space is zero at
+    // first.
     let mut near_first = vec![u32::MAX; 4 * tree.len() + 40];
     tree.order(viewpoint).front_to_back().write_into(&mut near_first);
     ensure(near_first == reverse, || format!("{near_first:?} not {reverse:?}"))?;

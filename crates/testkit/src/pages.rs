@@ -1,8 +1,8 @@
 //! Pages as in a compositor of CSS 3D layers, from a seed: for tests, benches and examples.
 //!
-//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its
-//! own origin; its matrix places it on a screen of [`SCREEN`] pixels and includes the page's perspective.
-//! No layer reaches behind the eye.
+//! Units are pixels, x runs right, y down and z towards the viewer. Every layer is a rectangle around its own
+//! origin. The layer's matrix places it on a screen of [`SCREEN`] pixels, and includes the page's
+//! perspective. No layer reaches behind the eye.
 
 use super::dice::Dice;
 use binspace::glam::{DMat4, DVec3, dvec3};
@@ -27,10 +27,10 @@ pub enum Page {
 }
 
 impl Page {
-    /// All of them.
+    /// All kinds of pages.
     pub const ALL: [Self; 4] = [Self::Carousel, Self::Stack, Self::Cubes, Self::Crossing];
 
-    /// The name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Carousel => "carousel",
@@ -40,7 +40,7 @@ impl Page {
         }
     }
 
-    /// `count` layers, the same for the same seed.
+    /// Returns `count` layers, the same for the same seed.
     pub fn layers(self, count: usize, seed: u64) -> Vec<PageLayer> {
         let mut dice = Dice(seed);
         let camera = camera();
@@ -58,14 +58,14 @@ impl Page {
 /// A layer of a page: the rectangle from −`half` to `half` and its matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PageLayer {
-    /// Half its width and height.
+    /// Half the width and half the height of the layer.
     pub half: [f64; 2],
     /// From the layer's own x and y (z is 0) to homogeneous screen coordinates.
     pub matrix: DMat4,
 }
 
 impl PageLayer {
-    /// Its corners on the screen with their depths, after the division by w.
+    /// Returns the layer's corners on the screen with their depths, after the division by w.
     pub fn outline(&self) -> [[f64; 3]; 4] {
         let [x, y] = self.half;
         [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| {
@@ -75,7 +75,7 @@ impl PageLayer {
     }
 }
 
-/// The perspective of the page, from the middle of the screen.
+/// Returns the perspective of the page, from the middle of the screen.
 pub fn camera() -> DMat4 {
     let mut perspective = DMat4::IDENTITY;
     perspective.z_axis.w = -1.0 / PERSPECTIVE;
@@ -89,7 +89,7 @@ type Placed = ([f64; 2], DMat4);
 fn carousel(count: usize, dice: &mut Dice) -> Vec<Placed> {
     let radius = 500.0;
     let step = TAU / count as f64;
-    // Half as wide again as in a ring whose cards just meet.
+    // Half as wide again as cards that only touch their neighbours in the ring.
     let half = 1.5 * radius * (step / 2.0).tan().min(0.6);
     let start = dice.range(0.0, step);
     let ring = DMat4::from_translation(dvec3(0.0, 0.0, -300.0))
@@ -106,7 +106,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
         * DMat4::from_rotation_y(dice.range(-0.7, 0.7));
     let planes = count.div_ceil(3);
     let place = |k: usize| {
-        // Planes in a scattered order: the step is coprime to their number.
+        // Planes are in a scattered order, with a step that is coprime to their number.
         let plane = (k % planes) * scatter(planes) % planes;
         let z = 400.0 * (plane as f64 / planes as f64 - 0.7);
         let at = dvec3(dice.range(-250.0, 250.0), dice.range(-150.0, 150.0), z);
@@ -116,7 +116,7 @@ fn stack(count: usize, dice: &mut Dice) -> Vec<Placed> {
     (0..count).map(place).collect()
 }
 
-/// A number coprime to `count`, near its golden section.
+/// A number coprime to `count`, near the golden section of `count`.
 fn scatter(count: usize) -> usize {
     let shares_none = |&step: &usize| {
         let (mut a, mut b) = (step, count);

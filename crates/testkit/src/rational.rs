@@ -13,23 +13,23 @@ pub type Rational = RBig;
 pub type Point = [Rational; 3];
 pub type Plane = vector::Plane<Rational>;
 
-/// The exact value of a finite `f64`.
+/// Returns the exact value of a finite `f64`.
 pub fn exact(value: f64) -> Rational {
     Rational::from_f64(value).expect("finite")
 }
 
-/// The exact value of a lattice coordinate.
+/// Returns the exact value of a lattice coordinate.
 pub fn integer(value: f64) -> IBig {
     assert_eq!(value.fract(), 0.0, "a lattice coordinate");
     IBig::from_f64(value).expect("finite")
 }
 
-/// The exact value of a point.
+/// Returns the exact value of a point.
 pub fn point(p: impl Into<DVec3>) -> Point {
     p.into().to_array().map(exact)
 }
 
-/// The length of a lattice step in the world: a power of two, which may be too small for `f64`.
+/// Returns the length of a lattice step in the world: a power of two, which may be too small for `f64`.
 pub fn step(lattice: &Lattice) -> Rational {
     /// The length of this many steps is an exact `f64`.
     const MANY: f64 = (1u128 << 100) as f64;
@@ -40,12 +40,12 @@ pub fn step(lattice: &Lattice) -> Rational {
     exact(lattice.length_to_world(MANY)) / exact(MANY)
 }
 
-/// The sum of some numbers.
+/// Returns the sum of some numbers.
 pub fn total(numbers: impl IntoIterator<Item = Rational>) -> Rational {
     numbers.into_iter().fold(Rational::zero(), |sum, number| sum + number)
 }
 
-/// Twice the vector area of a closed outline.
+/// Returns twice the vector area of a closed outline.
 pub fn area(outline: &[Point]) -> Point {
     let zero = [Rational::zero(), Rational::zero(), Rational::zero()];
     let next = outline.iter().cycle().skip(1);
@@ -55,20 +55,20 @@ pub fn area(outline: &[Point]) -> Point {
     })
 }
 
-/// The largest difference between the coordinates of an exact point and a rounded one.
+/// Returns the largest difference between the coordinates of an exact point and of a rounded point.
 pub fn distance_to_rounded(exact_point: &Point, rounded: [f64; 3]) -> f64 {
     let offsets = (0..3).map(|i| (&exact_point[i] - exact(rounded[i])).abs());
     offsets.map(|offset| offset.to_f64().value()).fold(0.0, f64::max)
 }
 
-/// A plane perpendicular to an axis.
+/// Returns a plane perpendicular to an axis.
 pub fn perpendicular_to_axis(axis: usize, at: &Point) -> Plane {
     let mut normal = [Rational::zero(), Rational::zero(), Rational::zero()];
     normal[axis] = Rational::from(1);
     Plane { normal, offset: at[axis].clone() }
 }
 
-/// The point in which three planes meet.
+/// Returns the point in which three planes meet.
 pub fn meeting(a: &Plane, b: &Plane, c: &Plane) -> Point {
     let pairs = [(b, c), (c, a), (a, b)].map(|(g, h)| product(&g.normal, &h.normal));
     let determinant = scalar(&a.normal, &pairs[0]);
@@ -80,7 +80,7 @@ pub fn meeting(a: &Plane, b: &Plane, c: &Plane) -> Point {
     })
 }
 
-/// The point of a segment in which it crosses a plane, given the plane at both ends.
+/// Returns the point of a segment in which it crosses a plane, given the plane at both ends.
 pub fn crossing([a, b]: [&Point; 2], [at_a, at_b]: [&Rational; 2]) -> Point {
     let total = at_a - at_b;
     std::array::from_fn(|i| (at_a * &b[i] - at_b * &a[i]) / &total)

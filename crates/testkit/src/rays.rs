@@ -1,7 +1,7 @@
 //! Checks that an order paints far before near: compares rays with fragments, in big integers.
 //!
-//! The fragments that a ray hits, and the hits' places, are computed from the lines of the source faces
-//! alone, for every fragment, without the tree.
+//! The fragments that a ray hits, and the places of the hits, are computed for every fragment from the lines
+//! of its source face, without the tree.
 
 use super::dice::Dice;
 use super::judge::{Verdict, ensure};
@@ -18,8 +18,8 @@ use std::ops::Range;
 
 pub type Vector = vector::Vector<IBig>;
 
-/// If a ray has more hits than this, only neighbours in the order are compared: if all of them are right,
-/// so are the others, except for those that the tolerance excuses.
+/// If a ray has more hits than this, only neighbours in the order are compared. If all neighbours are right,
+/// all pairs are right, except pairs that the tolerance excuses.
 const MANY: usize = 48;
 
 type Plane = vector::Plane<IBig>;
@@ -57,14 +57,14 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The line of sight through a point in lattice units, unless the eye is there.
+    /// Creates the line of sight through a point in lattice units, unless the eye is there.
     pub fn through(target: DVec3, view: &View) -> Option<Self> {
         let (origin, direction) = view.ray_to(target);
         let is_ray = !direction.iter().all(Zero::is_zero);
         is_ray.then(|| Self { origin, direction, endless: view.is_parallel() })
     }
 
-    /// The rounded place of a hit, and the ray's beginning, if it has one.
+    /// Returns the rounded place of a hit, and the start of the ray, if the ray has a start.
     pub fn places(&self, hit: &Hit) -> (DVec3, Option<DVec3>) {
         let float = |v: &Vector| DVec3::from_array(v.each_ref().map(|c| c.to_f64().value()));
         let at = |i: usize| {
@@ -80,7 +80,8 @@ impl Ray {
     }
 }
 
-/// The point where a ray passes through a fragment: at −start/slope of its face's plane, slope above 0.
+/// The point where a ray passes through a fragment. Its parameter is −start/slope of the plane of the
+/// fragment's face, with a slope above 0.
 pub struct Hit {
     pub fragment: u32,
     face: AtRay,
@@ -97,10 +98,11 @@ impl Hit {
     }
 }
 
-/// The numbers of the plane of a fragment's face, and of those that bound it, with the sign inside.
+/// The number of the plane of a fragment's face. Then the number of each plane that bounds the fragment, with
+/// the sign inside.
 type Outline = (usize, Vec<(usize, Ordering)>);
 
-/// A tree's fragments as bounded by planes.
+/// A tree's fragments, each bounded by planes.
 pub struct Rays<'t> {
     tree: &'t BspTree,
     planes: Vec<Plane>,
@@ -167,7 +169,7 @@ impl<'t> Rays<'t> {
         Ok(())
     }
 
-    /// A point inside a fragment, rounded, in lattice units.
+    /// Returns a point inside a fragment, rounded, in lattice units.
     pub fn some_point(&self, dice: &mut Dice) -> DVec3 {
         let fragment = self.tree.fragment(dice.below(self.tree.len()) as u32);
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
@@ -179,7 +181,7 @@ impl<'t> Rays<'t> {
         sum / total
     }
 
-    /// The hits of a ray inside the outlines of fragments.
+    /// Returns the hits of a ray inside the outlines of fragments.
     pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
         let at: Vec<AtRay> = self.planes.iter().map(|plane| ray.plane(plane)).collect();
         let hit = |(id, (own, bounds)): (usize, &Outline)| {
@@ -219,8 +221,9 @@ impl<'t> Rays<'t> {
         product(&g.normal, &h.normal).iter().all(Zero::is_zero)
     }
 
-    /// Whether the plane that separated two fragments has the nearer hit within the tolerance, and the
-    /// other hit or the eye as well; if both count as lying on it, they must come in input order.
+    /// Whether the tolerance excuses the order of two hits. Both hits, or the nearer hit and the eye, must be
+    /// within the tolerance of the plane that separates the two fragments. If both fragments lie on this
+    /// plane, they must come in input order.
     fn excuse(&self, ray: &Ray, hits: [&Hit; 2], in_input_order: bool) -> bool {
         let ids = hits.map(|hit| hit.fragment);
         let count = |range: &Range<u32>| ids.iter().filter(|id| range.contains(id)).count();
@@ -242,13 +245,13 @@ impl<'t> Rays<'t> {
     }
 }
 
-/// The plane through an edge of a face and along the axis in which its plane is least steep, and
-/// its sign inside.
+/// The plane through an edge of a face, parallel to the axis along which the face's plane is least steep; and
+/// the sign of this plane inside the face.
 fn upright(faces: &Faces, face: u32, edge: usize, plane: &Plane) -> (Plane, Ordering) {
     let corners = faces.corners(face);
     let [a, b] = [edge, (edge + 1) % corners.len()].map(|k| vector(corners[k]));
     let axis = vector::main_axis(&plane.normal);
-    // The axis, the edge and the way inside run like the axes of a right-handed frame.
+    // The axis, the edge and the direction inwards are a right-handed frame.
     (Plane::new(product(&unit(axis), &difference(&b, &a)), &a), vector::sign(&plane.normal[axis]))
 }
 

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-/// The folder that `BINSPACE_SCENES` names.
+/// Returns the folder that `BINSPACE_SCENES` names.
 pub fn folder() -> PathBuf {
     let folder = std::env::var_os("BINSPACE_SCENES");
     PathBuf::from(folder.expect("BINSPACE_SCENES names the folder of real scenes"))

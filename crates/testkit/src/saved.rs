@@ -1,4 +1,4 @@
-//! Trees as bytes, and every use of a tree.
+//! Trees as bytes, and functions that use a tree in every way.
 
 use super::judge::{Verdict, ensure};
 use super::{orders, snapshot::Snapshot};
@@ -11,21 +11,21 @@ use binspace::{
     BspTree, BuildOptions, Culling, Facing, Flow, Frustum, Node, Part, Ray, Viewpoint, view,
 };
 
-/// A tree's file.
+/// Returns a tree's file.
 pub fn bytes(tree: &BspTree) -> Vec<u8> {
     let mut bytes = Vec::new();
     tree.write(&mut bytes).expect("a list takes all");
     bytes
 }
 
-/// The CRC-32 of gzip and PNG, bit by bit.
+/// Returns the CRC-32 of gzip and PNG, bit by bit.
 pub fn checksum(bytes: &[u8]) -> u32 {
     let step = |rest: u32| if rest & 1 == 1 { rest >> 1 ^ 0xedb8_8320 } else { rest >> 1 };
     let next = |rest: u32, &byte: &u8| (0..8).fold(rest ^ u32::from(byte), |rest, _| step(rest));
     !bytes.iter().fold(!0, next)
 }
 
-/// Makes the last four bytes the checksum of those before.
+/// Replaces the last four bytes by the checksum of all bytes before them.
 pub fn seal(bytes: &mut [u8]) {
     if let Some(body) = bytes.len().checked_sub(4) {
         let sum = checksum(&bytes[..body]);
@@ -40,8 +40,8 @@ const EYES: [Viewpoint; 4] = [
     Viewpoint::Direction(DVec3::Z),
 ];
 
-/// Calls every method of a tree, which may come from a forged file: its faces and planes may be any, but
-/// the tree is right.
+/// Calls every method of a tree, which may come from a forged file: its faces and planes may be arbitrary,
+/// but the tree is valid.
 pub fn use_all(tree: &BspTree) -> Verdict {
     tree.validate()?;
     // These results are not compared, but must not panic.
@@ -52,7 +52,7 @@ pub fn use_all(tree: &BspTree) -> Verdict {
         tree.same_order(viewpoint, EYES[0]);
     }
     use_fragments(tree)?;
-    // Without the rounded normals: a forged plane may have none.
+    // Rounded normals are left out, because a forged plane may have none.
     let places = |node: Node<'_>| (node.index(), node.depth(), node.on(), node.fragments());
     let nodes: Vec<_> = tree.nodes().map(places).collect();
     let mut backwards: Vec<_> = tree.nodes().rev().map(places).collect();
@@ -150,7 +150,7 @@ fn use_extend(tree: &BspTree) {
     let mut more = tree.clone();
     let places = places(tree);
     let polygons = [places.iter().copied().take(3).collect::<Vec<_>>(), places];
-    // It may be refused: a budget keeps it short.
+    // The extension may fail; a budget keeps it short.
     let options = BuildOptions::DEFAULT.with_max_fragments(4 * tree.len() + 100);
     if options.extend(&mut more, &polygons).is_ok() {
         assert_eq!(more.preparation().polygons, tree.preparation().polygons + 2);
@@ -236,7 +236,7 @@ fn use_pictures(tree: &BspTree) {
     }
 }
 
-/// The visibility map and its drawings; a forged tree may have none.
+/// Makes the visibility map and its drawings. This may fail for a forged tree.
 fn use_drawing(tree: &BspTree, camera: &view::Camera) {
     let Ok(map) = tree.visibility(camera, &ViewOptions::DEFAULT) else { return };
     let corners: usize = map.cells().map(|cell| cell.corners().len()).sum();

@@ -6,12 +6,12 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::{BspTree, BuildOptions, FrameBuilder, Heuristic, Polygon};
 
-/// The corners of all polygons.
+/// Returns the corners of all polygons.
 pub fn polygons(scene: &Scene) -> Vec<Corners> {
     scene.polygons().map(|polygon| polygon.points().to_vec()).collect()
 }
 
-/// A scene of some polygons; up is z.
+/// Returns a scene of some polygons; up is z.
 pub fn scene_of(
     name: impl Into<String>,
     polygons: impl IntoIterator<Item: Into<Corners>>,
@@ -21,7 +21,7 @@ pub fn scene_of(
     scene
 }
 
-/// A tree by each heuristic, and one of a frame, all with their names.
+/// Returns a tree by each heuristic, and one of a frame, all with their names.
 pub fn trees<P: Polygon>(polygons: &[P], options: BuildOptions) -> Vec<(String, BspTree)> {
     let frame = FrameBuilder::new(options.clone()).build(polygons).expect("a frame").clone();
     let tree = |&heuristic: &Heuristic| {
@@ -41,7 +41,8 @@ pub fn triangles(dice: &mut Dice, count: usize, [low, high]: [f64; 2], edge: f64
     (0..count).map(triangle).collect()
 }
 
-/// Unit squares of a cubic lattice, most of the walls between its cells: rays meet many at once.
+/// Returns unit squares of a cubic lattice: most of the walls between its cells. Rays meet many squares at
+/// once.
 pub fn cells(n: usize, dice: &mut Dice) -> Vec<Corners> {
     let mut polygons = Vec::new();
     for at in 0..n * n * n {

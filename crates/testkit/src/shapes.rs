@@ -24,19 +24,19 @@ impl Polygon for Claim {
     }
 }
 
-/// A rotation from any three numbers.
+/// Returns a rotation from any three numbers.
 pub fn rotation([a, b, c]: [f64; 3]) -> DMat3 {
     DMat3::from_quat(DQuat::from_euler(binspace::glam::EulerRot::ZYX, a, b, c))
 }
 
-/// A square of side 2 around a centre.
+/// Returns a square of side 2 around a centre.
 pub fn square(turn: DMat3, centre: DVec3) -> Corners {
     [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
         .map(|(x, y)| turn * DVec3::new(x, y, 0.0) + centre)
         .to_vec()
 }
 
-/// A square from 0 to `side` along two axes, perpendicular to the third.
+/// Returns a square from 0 to `side` along two axes, perpendicular to the third.
 pub fn sheet(axis: usize, at: f64, side: f64) -> [[f64; 3]; 4] {
     [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]].map(|[u, v]| {
         let mut corner = [at, u, v];
@@ -45,13 +45,13 @@ pub fn sheet(axis: usize, at: f64, side: f64) -> [[f64; 3]; 4] {
     })
 }
 
-/// A rectangle along x and y.
+/// Returns a rectangle along x and y.
 pub fn rectangle(low: [f64; 2], high: [f64; 2], z: f64) -> Corners {
     let corners = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
     corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec()
 }
 
-/// Two triangles with a common edge and a very small angle between them.
+/// Returns two triangles with a common edge and a very small angle between them.
 pub fn near_coplanar_pair(turn: DMat3, angle: f64, shift: DVec3) -> Vec<Corners> {
     let base = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.25, 0.0), DVec3::new(0.0, 1.0, 0.0)];
     let tilt = DMat3::from_rotation_x(angle);
@@ -64,14 +64,14 @@ pub fn layers(turn: DMat3, gap: f64, count: usize) -> Vec<Corners> {
     (0..count).map(|k| square(turn, turn * at(k))).collect()
 }
 
-/// A triangle that is long and almost without width.
+/// Returns a triangle that is long and almost without width.
 pub fn sliver(turn: DMat3, width: f64, along: f64, centre: DVec3) -> Corners {
     [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 0.0), DVec3::new(along, width, 0.0)]
         .map(|p| turn * p + centre)
         .to_vec()
 }
 
-/// The six sides of a box, facing outwards.
+/// Returns the six sides of a box, facing outwards.
 pub fn cuboid(turn: DMat3, centre: DVec3, size: DVec3) -> Vec<Corners> {
     let corner = |x: f64, y: f64, z: f64| turn * (DVec3::new(x, y, z) * size) + centre;
     let side = |axis: usize, sign: f64| {
@@ -92,8 +92,8 @@ pub fn cuboid(turn: DMat3, centre: DVec3, size: DVec3) -> Vec<Corners> {
     (0..3).flat_map(|axis| [side(axis, 1.0), side(axis, -1.0)]).collect()
 }
 
-/// A convex polygon with integer corners in the plane z = 0. Its edges are the given ones, each pair once
-/// forwards and once backwards, sorted by direction. Parallel edges are consecutive, so some corners are
+/// Returns a convex polygon with integer corners in the plane z = 0. Its edges are the given vectors, each
+/// once forwards and once backwards, sorted by direction. Parallel edges are consecutive, so some corners are
 /// collinear.
 pub fn convex_on_grid(edges: &[[i32; 2]]) -> Vec<[i32; 2]> {
     let both = |&[x, y]: &[i32; 2]| {
@@ -123,19 +123,21 @@ pub fn onto_plane(flat: &[[i32; 2]], u: [i32; 3], v: [i32; 3], origin: [i32; 3])
     flat.iter().map(place).collect()
 }
 
-/// A regular polygon of `n` corners and radius 1.
+/// Returns a regular polygon of `n` corners and radius 1.
 pub fn regular(n: usize, turn: DMat3, centre: DVec3) -> Corners {
     let angle = |k: usize| std::f64::consts::TAU * k as f64 / n as f64;
     (0..n).map(|k| turn * DVec3::new(angle(k).cos(), angle(k).sin(), 0.0) + centre).collect()
 }
 
-/// A triangle and two smaller ones that meet one of its edges in the edge's middle: a T-junction.
+/// Returns a triangle, and two smaller triangles on one of its edges that meet in the middle of this edge: a
+/// T-junction.
 pub fn t_junction([a, b, c]: [DVec3; 3], apex: DVec3) -> Vec<Corners> {
     let middle = (a + b) * 0.5;
     vec![vec![a, b, c], vec![middle, a, apex], vec![b, middle, apex]]
 }
 
-/// A triangle with two corners on another one's plane: weights in eighths, and an apex.
+/// Returns a triangle with two corners on the plane of another triangle. `weights` are in eighths, and `apex`
+/// is the third corner.
 pub fn resting_on([a, b, c]: [DVec3; 3], weights: [[i32; 2]; 2], apex: DVec3) -> Corners {
     let on = |[s, t]: [i32; 2]| {
         let (s, t) = (f64::from(s) / 8.0, f64::from(t) / 8.0);
@@ -144,7 +146,7 @@ pub fn resting_on([a, b, c]: [DVec3; 3], weights: [[i32; 2]; 2], apex: DVec3) ->
     vec![on(weights[0]), on(weights[1]), apex]
 }
 
-/// The representable value a number of steps away from `value`.
+/// Returns the representable value a number of steps away from `value`.
 pub fn ulps_from(value: f64, steps: i32) -> f64 {
     let step = |v: f64| if steps > 0 { v.next_up() } else { v.next_down() };
     (0..steps.abs()).fold(value, |v, _| step(v))

@@ -5,7 +5,7 @@ use binspace::Ray;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 
-/// Makes rays for the faces of a tree, which must have some.
+/// Makes rays for the faces of a tree. The tree must have faces.
 pub struct Shots<'t> {
     faces: &'t Faces,
     low: DVec3,
@@ -20,20 +20,20 @@ impl<'t> Shots<'t> {
         Self { faces, low, high }
     }
 
-    /// A corner of any face.
+    /// Returns a corner of any face.
     pub fn corner(&self, dice: &mut Dice) -> DVec3 {
         world(self.faces, dice.below(self.faces.corner_count()) as u32)
     }
 
-    /// A point of the plane of a face, inside the face or not: exactly on it if eighths of its edges are
-    /// numbers.
+    /// Returns a point of the plane of a face, inside the face or not: exactly on it if eighths of the face's
+    /// edges fit an `f64`.
     pub fn on_plane(&self, face: u32, dice: &mut Dice) -> DVec3 {
         let [a, b, c] = self.faces.reference_triangle(face).map(|k| world(self.faces, k));
         let mut share = || (dice.below(17) as f64 - 4.0) / 8.0;
         a + (b - a) * share() + (c - a) * share()
     }
 
-    /// A point of the bounding box, enlarged.
+    /// Returns a point of the bounding box, enlarged.
     pub fn around(&self, by: f64, dice: &mut Dice) -> DVec3 {
         let share = DVec3::from_array([0; 3].map(|_| (dice.share() - 0.5) * by + 0.5));
         self.low + (self.high - self.low) * share
@@ -49,7 +49,7 @@ impl<'t> Shots<'t> {
         [0, 1].map(|_| world(self.faces, (range.start + dice.below(range.len())) as u32))
     }
 
-    /// A ray of any kind, with finite numbers.
+    /// Returns a ray of any kind, with finite numbers.
     pub fn ray(&self, dice: &mut Dice) -> Ray {
         let ray = self.any_ray(dice);
         let (Ray::Segment { from: a, to: b } | Ray::Endless { from: a, direction: b }) = ray;
@@ -62,7 +62,7 @@ impl<'t> Shots<'t> {
         match dice.below(4) {
             0 | 1 => Ray::between(from, to),
             2 => Ray::new(from, to - from),
-            // The same from far behind, and from in between.
+            // The same line, from far behind or from between the ends.
             _ => {
                 let start = from + (from - to) * (dice.below(9) as f64 / 4.0 - 0.5);
                 Ray::new(start, (to - from) * 2f64.powi(dice.around_zero(80) as i32))
@@ -79,12 +79,12 @@ impl<'t> Shots<'t> {
                 (a, b)
             }
             3 => {
-                // Beyond both ends of an edge or a diagonal.
+                // From beyond one end of an edge or a diagonal to beyond the other end.
                 let ([a, b], k) = (self.chord(dice), dice.below(5) as f64);
                 (a + (a - b) * k, b + (b - a) * k)
             }
             4 => {
-                // A corner exactly in the middle.
+                // A corner is exactly in the middle.
                 let (corner, arm) = (self.corner(dice), self.arm(dice));
                 (corner - arm, corner + arm)
             }
@@ -105,7 +105,7 @@ impl<'t> Shots<'t> {
                 (from, to)
             }
             8 => {
-                // A point.
+                // Both ends are the same point.
                 let face = self.face(dice);
                 let point = match dice.below(3) {
                     0 => self.corner(dice),
@@ -120,13 +120,13 @@ impl<'t> Shots<'t> {
                 (target + self.arm(dice) * 10f64.powi(dice.below(21) as i32), target)
             }
             10 => {
-                // Shorter than floats can resolve.
+                // A few ulps long.
                 let from = self.corner(dice);
                 let mut to = from;
                 for _ in 0..dice.below(4) {
                     let axis = dice.below(3);
                     let step = if dice.below(2) == 0 { f64::next_up } else { f64::next_down };
-                    // Numbers far below the scene's extent have digits that a ray drops.
+                    // Digits of numbers far below the scene's extent are lost in a ray.
                     if to[axis] != 0.0 {
                         to[axis] = step(to[axis]);
                     }

@@ -12,8 +12,8 @@ pub struct Sliver {
 }
 
 impl Sliver {
-    /// With coordinates up to `size`, and of any length up to about that. Twice its area is that of the two
-    /// steps, or up to a million times as much.
+    /// Creates a sliver with coordinates up to `size`, and of any length up to about `size`. Its area is half
+    /// the area that the two steps span, or up to a million times as much.
     pub fn new(dice: &mut Dice, size: i64) -> Self {
         let steps = loop {
             let steps = [0; 2].map(|_| [0; 3].map(|_| whole(dice, 3)));
@@ -21,7 +21,7 @@ impl Sliver {
                 break steps;
             }
         };
-        // Steps along one side, and along another such that the determinant of both is 1.
+        // The numbers of steps along two sides. The determinant of both sides is 1.
         let most = size / 16;
         let powers = 1 + dice.below(most.ilog2() as usize);
         let power = dice.below(powers) as u32;
@@ -40,12 +40,12 @@ impl Sliver {
     }
 }
 
-/// The point `s` and `t` steps along `u` and `v` from another.
+/// Returns the point `s` steps along `u` and `t` steps along `v` from another point.
 pub fn along(from: Point, [u, v]: [Point; 2], [s, t]: [i64; 2]) -> Point {
     std::array::from_fn(|i| from[i] + s * u[i] + t * v[i])
 }
 
-/// A whole number from −n to n.
+/// Returns a whole number from −n to n.
 pub fn whole(dice: &mut Dice, n: i64) -> i64 {
     (dice.roll() % (2 * n as u64 + 1)) as i64 - n
 }

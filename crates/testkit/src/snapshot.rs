@@ -31,14 +31,14 @@ impl Snapshot {
     }
 }
 
-/// The fragments' numbers, back to front.
+/// Returns the fragments' numbers, back to front.
 pub fn order(tree: &BspTree, viewpoint: Viewpoint) -> Vec<u32> {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
     order
 }
 
-/// The fragments' polygons, back to front.
+/// Returns the fragments' polygons, back to front.
 pub fn polygons(tree: &BspTree, viewpoint: Viewpoint) -> Vec<usize> {
     order(tree, viewpoint).into_iter().map(|id| tree.fragment(id).polygon()).collect()
 }

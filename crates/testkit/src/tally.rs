@@ -21,7 +21,7 @@ pub fn tally<S: Strategy, T: Default>(
     total.into_inner()
 }
 
-/// A failing case, for any reason.
+/// Returns a failing case, for any reason.
 pub fn fail(why: impl ToString) -> TestCaseError {
     TestCaseError::fail(why.to_string())
 }

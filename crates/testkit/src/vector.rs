@@ -56,12 +56,12 @@ pub fn difference<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     std::array::from_fn(|i| a[i].minus(&b[i]))
 }
 
-/// The scalar product.
+/// Returns the scalar product.
 pub fn scalar<T: Number>(a: &Vector<T>, b: &Vector<T>) -> T {
     a[0].times(&b[0]).plus(&a[1].times(&b[1])).plus(&a[2].times(&b[2]))
 }
 
-/// The vector product.
+/// Returns the vector product.
 pub fn product<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -69,7 +69,7 @@ pub fn product<T: Number>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     })
 }
 
-/// The sign of a number.
+/// Returns the sign of a number.
 pub fn sign<T: Number>(value: &T) -> Ordering {
     value.sign()
 }
@@ -78,13 +78,13 @@ pub fn is_zero<T: Number>(vector: &Vector<T>) -> bool {
     vector.iter().all(|c| c.sign().is_eq())
 }
 
-/// The first of the axes along which a vector is longest.
+/// Returns the first of the axes along which a vector is longest.
 pub fn main_axis<T: Number + Ord>(vector: &Vector<T>) -> usize {
     let size = |axis: usize| vector[axis].size();
     (1..3).fold(0, |best, axis| if size(axis) > size(best) { axis } else { best })
 }
 
-/// A plane: positive in front.
+/// A plane. Its value at a point is positive in front.
 #[derive(Clone, Debug)]
 pub struct Plane<T> {
     pub normal: Vector<T>,
@@ -92,18 +92,18 @@ pub struct Plane<T> {
 }
 
 impl<T: Number> Plane<T> {
-    /// Perpendicular to a normal, with a point on it.
+    /// Creates the plane through a point, perpendicular to a normal.
     pub fn new(normal: Vector<T>, point: &Vector<T>) -> Self {
         let offset = scalar(&normal, point);
         Self { normal, offset }
     }
 
-    /// The plane in front of which the three points run counter-clockwise.
+    /// Creates the plane in front of which the three points run counter-clockwise.
     pub fn through([p, q, r]: [&Vector<T>; 3]) -> Self {
         Self::new(product(&difference(q, p), &difference(r, p)), p)
     }
 
-    /// The distance of a point, times the length of the normal.
+    /// Returns the distance of a point, times the length of the normal.
     pub fn at(&self, x: &Vector<T>) -> T {
         scalar(&self.normal, x).minus(&self.offset)
     }

@@ -16,12 +16,13 @@ pub struct View {
     pub viewpoint: Viewpoint,
     /// The eye in lattice units, rounded; or the direction of view, in integers.
     lattice: DVec3,
-    /// The eye as the library rounds it; `None` for a direction, and for an eye too far to be a point.
+    /// The eye as the library rounds it; `None` for a direction, and for an eye that is so far away that it
+    /// counts as a direction.
     eye: Option<Point>,
 }
 
 impl View {
-    /// The nearest eye to a point of the lattice.
+    /// Creates a view from the nearest eye to a point of the lattice.
     pub fn eye(faces: &Faces, point: DVec3) -> Self {
         let world = faces.lattice().to_world(point.round().to_array());
         let lattice = DVec3::from(faces.lattice().to_lattice(world)).round();
@@ -29,7 +30,8 @@ impl View {
         Self { viewpoint: Viewpoint::Eye(world), lattice, eye }
     }
 
-    /// A direction, rounded to 2⁻⁵² of the largest power of two in its largest component.
+    /// Creates a view along a direction, rounded to 2⁻⁵² of the largest power of two in its largest
+    /// component.
     pub fn direction(direction: DVec3) -> Self {
         let lattice = whole_direction(direction);
         Self { viewpoint: Viewpoint::Direction(direction), lattice, eye: None }
@@ -39,7 +41,8 @@ impl View {
         matches!(self.viewpoint, Viewpoint::Direction(_))
     }
 
-    /// The side of a plane on which it is; neither if it is on the plane, or looks along it.
+    /// Returns the side of a plane on which the viewpoint is; `Equal` if it is on the plane, or looks along
+    /// the plane.
     pub fn side(&self, plane: &Plane) -> Ordering {
         let towards = if self.is_parallel() { -self.lattice } else { self.lattice };
         rational::sign(&match &self.eye {
@@ -48,7 +51,7 @@ impl View {
         })
     }
 
-    /// The line of sight through a point: its start and direction.
+    /// Returns the line of sight through a point: its start and direction.
     pub fn ray_to(&self, target: DVec3) -> (Vector, Vector) {
         let lattice = || vector(self.lattice.to_array());
         match self.viewpoint {
@@ -64,7 +67,7 @@ impl View {
     }
 }
 
-/// A direction as integers, the largest from 2⁵² to 2⁵³: scaled by a power of two.
+/// A direction scaled by a power of two to integers. The largest is from 2⁵² to 2⁵³.
 fn whole_direction(direction: DVec3) -> DVec3 {
     let size = direction.abs().max_element();
     // The bits without the fraction.
@@ -72,8 +75,8 @@ fn whole_direction(direction: DVec3) -> DVec3 {
     (direction / power * (1u64 << 52) as f64).round()
 }
 
-/// An eye as documented, in lattice units: rounded to an integer, or, beyond 2⁶¹, to a multiple of the
-/// power of two that keeps 61 bits. `None` if it is too far to be a point.
+/// Returns an eye as documented, in lattice units: rounded to an integer, or, beyond 2⁶¹, to a multiple of
+/// the power of two that keeps 61 bits. `None` if it is too far to be a point.
 pub fn rounded_eye(exact: Point) -> Option<Point> {
     let size = exact.iter().map(Signed::abs).max().expect("three");
     let fits = |&shift: &u32| size <= power_of_two(61 + shift);
@@ -81,7 +84,7 @@ pub fn rounded_eye(exact: Point) -> Option<Point> {
     Some(exact.map(|c| (c / &unit).round() * &unit))
 }
 
-/// A point of the world in lattice units.
+/// Returns a point of the world in lattice units.
 pub fn in_lattice(lattice: &Lattice, point: DVec3) -> Point {
     let step = rational::step(lattice);
     let origin = rational::point(lattice.to_world([0.0; 3]));
@@ -92,8 +95,8 @@ pub fn power_of_two(exponent: u32) -> Rational {
     Rational::from(IBig::from(1) << exponent as usize)
 }
 
-/// A viewpoint around, inside, on a plane or a corner of the scene, or collinear with two of its fragments,
-/// of which there must be some.
+/// Returns a viewpoint around, inside, on a plane or a corner of the scene, or collinear with two of its
+/// fragments, of which there must be some.
 pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
     let corner =
         |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));

@@ -1,4 +1,4 @@
-//! Each feature used, alone or with others, and the library without any.
+//! Uses each feature alone and with others, and the library without features.
 
 use binspace::{BspTree, BuildOptions, Error, Heuristic, Point, Polygon, Viewpoint};
 use std::collections::HashSet;
@@ -7,7 +7,8 @@ use std::thread;
 
 const ARROW: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 1.0, 0.0], [-2.0, 2.0, 0.0]];
 
-/// Squares in a grid of `side` a side, tilted and so large that they cut their neighbours.
+/// Squares in a grid with `side` squares on each side. They are tilted and so large that they cut their
+/// neighbours.
 fn squares(side: usize) -> Vec<[[f64; 3]; 4]> {
     let place = |i: usize| (i % side, i / side % side, i / side / side);
     let square = |i: usize| {
@@ -65,7 +66,7 @@ fn polygons_of_a_user_s_own_type_are_built() {
     assert_eq!(tree.fragment(0).polygon(), 0);
 }
 
-/// The thread that builds calls the callback; with `parallel`, other threads of its pool do too.
+/// The building thread calls the callback. With `parallel`, other threads of its pool also call it.
 #[test]
 fn parallel_builds_by_the_threads_of_a_pool() {
     let squares = squares(24);
@@ -80,7 +81,7 @@ fn parallel_builds_by_the_threads_of_a_pool() {
         callers.len()
     };
     if cfg!(feature = "parallel") {
-        // The other thread may come too late for one tree, but not for all of these.
+        // The other thread may be too late for one tree, but not for all of these trees.
         assert!((0..100).any(|_| pool.install(callers) == 2));
     } else {
         assert_eq!(pool.install(callers), 1);
@@ -105,7 +106,7 @@ fn layers_are_cut_and_put_in_order() {
 
 #[cfg(feature = "drawing")]
 #[test]
-fn drawings_have_a_path_for_each_polygon_that_shows() {
+fn drawings_have_a_path_for_each_visible_polygon() {
     use binspace::{drawing::ViewOptions, view};
 
     let tree = BspTree::build(squares(3)).unwrap();
@@ -192,7 +193,7 @@ fn mint_has_points_for_polygons_and_viewpoints() {
     let single = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [0.5, 1.0, 0.0]];
     let tree = BspTree::build([single.map(point), single.map(|[x, y, z]| point([x, y, z + 1.0]))]);
     let tree = tree.unwrap();
-    // As precise as the arrays that they replace.
+    // The values are as precise as the arrays that they replace.
     let arrays = BspTree::build([single, single.map(|[x, y, z]| [x, y, z + 1.0])]).unwrap();
     assert_eq!(tree.stats(), arrays.stats());
     assert_eq!(tree.preparation(), arrays.preparation());

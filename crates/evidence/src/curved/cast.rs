@@ -3,14 +3,14 @@
 use super::patch::Patch;
 use crate::plain::{PlainView, UNITS};
 
-/// The certain facts about a ray and a patch.
+/// The certain result of a ray cast at a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cast {
-    /// It misses.
+    /// The ray misses the patch.
     Misses,
-    /// It meets the patch, the first time between these depths, in world units.
+    /// The ray meets the patch. The first intersection is between these depths, in world units.
     Meets([f64; 2]),
-    /// Undecided: it passes too near the boundary, or meets the patch in several places.
+    /// Undecided: the ray passes too near the boundary, or meets the patch in several places.
     Doubtful,
 }
 
@@ -18,14 +18,15 @@ pub enum Cast {
 type Net = [[i128; 4]; 4];
 
 /// The number of times that parameters are halved. Too small: intervals of depth are wide. Too large: numbers
-/// are long, 2⁶⁴ and 6 bits a level.
+/// become long, 64 bits and 6 more for each level.
 const LEVELS: u32 = 8;
 
 impl Cast {
-    /// Casts the ray of a pixel. The ray meets the patch where the ray's two planes are both 0. It misses
-    /// parts of the patch where one of them has coefficients of one sign alone. It meets the remaining parts
-    /// if, after a linear change of both functions, the first has opposite signs on two opposite sides and
-    /// the second on the other two (Poincaré & Miranda 1940).
+    /// Casts the ray of a pixel. The ray is the intersection of two planes, so it meets the patch where two
+    /// functions are both 0. It misses a part of the patch if all coefficients of one function have the same
+    /// sign there. It meets a remaining part if, after a linear change of both functions, the first has
+    /// opposite signs on two opposite sides of the part, and the second has opposite signs on the other two
+    /// sides (Poincaré & Miranda 1940).
     pub fn new(patch: &Patch, view: &PlainView, pixel: [u32; 2]) -> Self {
         let ray = view.ray(pixel);
         let plane = |axis: usize| {
@@ -81,7 +82,8 @@ fn cells(functions: &[Net; 2]) -> Option<[[i128; 2]; 2]> {
     found
 }
 
-/// The coefficients of a part between parameters, given in `unit`s, times unit⁶: blossoms.
+/// The coefficients of the part between two values of each parameter, by blossoms. Parameters are in units of
+/// 1 / `unit`, and the result is multiplied by unit⁶.
 fn part(net: &Net, u: [i128; 2], v: [i128; 2], unit: i128) -> Net {
     let rows = net.map(|row| blossoms(row, v, unit));
     let turned: Net = std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i]));
@@ -104,7 +106,8 @@ fn blossoms(cubic: [i128; 4], [from, to]: [i128; 2], unit: i128) -> [i128; 4] {
 
 /// Whether both functions are certainly 0 in some point of a part.
 fn surely_zero([f, g]: &[Net; 2]) -> bool {
-    // Slopes, as shares of the largest, in 2¹⁶ths. Any numbers are valid for the proof; these succeed most often.
+    // The slopes as shares of the largest slope, in units of 2⁻¹⁶. The proof is valid for any numbers; these
+    // numbers succeed most often.
     let slope = |net: &Net| [(net[3][1] - net[0][1]) as f64, (net[1][3] - net[1][0]) as f64];
     let ([fu, fv], [gu, gv]) = (slope(f), slope(g));
     let largest = [fu, fv, gu, gv].into_iter().fold(0.0, |most: f64, s| most.max(s.abs()));

@@ -22,8 +22,8 @@ type Vertex = ([f64; 2], DVec3);
 /// Divides patches into triangles whose error is at most `tolerance` pixels; returns a list for each patch.
 ///
 /// Each patch has its own grid. An edge has as many points as the finer of its two patches needs. These
-/// points depend on the edge's curve alone, in either direction, so patches fit together. A strip joins a
-/// patch's grid to its edges.
+/// points depend only on the curve of the edge, and not on its direction, so patches fit together. A strip
+/// joins a patch's grid to its edges.
 pub fn mesh(patches: &[Patch], view: &PlainView, tolerance: f64) -> Vec<Vec<Triangle>> {
     let mut counts = Counts::new();
     for patch in patches {
@@ -93,7 +93,7 @@ fn triangle(vertices: [Vertex; 3]) -> Triangle {
     Triangle { parameters: vertices.map(|v| v.0), corners: vertices.map(|v| v.1) }
 }
 
-/// An edge in its canonical direction, and whether that is the reverse direction.
+/// An edge in its canonical direction, and whether it was reversed for this.
 fn directed(mut line: [Corner; 4]) -> ([Corner; 4], bool) {
     let flips = line[3] < line[0];
     if flips {
@@ -102,7 +102,7 @@ fn directed(mut line: [Corner; 4]) -> ([Corner; 4], bool) {
     (line, flips)
 }
 
-/// Points along an edge of a patch, with their parameters: the same whichever way it runs.
+/// Points along an edge of a patch, with their parameters. They are the same for both directions of the edge.
 fn edge_points(line: [Corner; 4], counts: &Counts) -> Vec<(f64, DVec3)> {
     let (line, flips) = directed(line);
     let count = counts[&line];
@@ -125,8 +125,9 @@ fn turned(net: &[[Corner; 4]; 4]) -> [[Corner; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| net[j][i]))
 }
 
-/// The numbers of rows and columns that a patch needs. Triangles whose parameters differ by 1 / n are off by
-/// the largest second derivatives, the mixed one twice, over 8 n² (Filip, Magedson & Markot 1986).
+/// The numbers of rows and columns that a patch needs. If the parameters of a triangle differ by 1 / n, its
+/// error is at most the sum of the largest second derivatives, the mixed one taken twice, divided by 8 n²
+/// (Filip, Magedson & Markot 1986).
 fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     let (mut bends, three) = ([0.0f64; 3], 0..3usize);
     for (bend, lines) in bends.iter_mut().zip([*net, turned(net)]) {
@@ -144,8 +145,8 @@ fn grid_count(net: &[[Corner; 4]; 4], view: &PlainView, tolerance: f64) -> u32 {
     chords(bend, net.iter().flatten(), view, tolerance).max(2)
 }
 
-/// The number n for which bend / (8 n²) is a tolerance in pixels, for the control points nearest to the
-/// eye.
+/// The number n for which bend / (8 n²) equals the tolerance. The tolerance is in pixels at the depth of the
+/// control point nearest to the eye.
 fn chords<'a>(
     bend: f64,
     points: impl Iterator<Item = &'a Corner>,

@@ -30,7 +30,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Polygons by the library's routine, under their own numbers.
+    /// Draws polygons by the library's routine. They keep their numbers.
     pub fn new(rays: &Rays, faces: &Faces) -> Self {
         let depth = zbuffer(rays, faces);
         let number = |&face: &u32| if face == NONE { NONE } else { faces.polygon(face) as u32 };
@@ -46,12 +46,12 @@ impl Shared {
         }
     }
 
-    /// The surface in each pixel, row by row from the top left; [`NONE`] in empty pixels.
+    /// Returns the surface in each pixel, row by row from the top left; [`NONE`] in empty pixels.
     pub fn shown(&self) -> &[u32] {
         &self.shown
     }
 
-    /// The depth in each pixel; infinite in empty pixels.
+    /// Returns the depth in each pixel; infinite in empty pixels.
     pub fn depths(&self) -> &[f64] {
         &self.depths
     }

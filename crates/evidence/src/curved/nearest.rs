@@ -1,10 +1,10 @@
-//! Polygons, a sphere and patches together, and the surface that is surely nearest.
+//! Polygons, a sphere and patches together, and the surface that is certainly nearest.
 
 use super::{Cast, Patch, Shared, Sphere};
 use crate::plain::{Corner, PlainView};
 use binspace::raster::NONE;
 
-/// Surfaces by number: the polygons, the sphere, the patches.
+/// Surfaces, numbered in this order: the polygons, the sphere, the patches.
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<'a> {
     /// Polygons of integer corners.
@@ -16,7 +16,8 @@ pub struct Surfaces<'a> {
 }
 
 impl Surfaces<'_> {
-    /// Draws the sphere and the patches, each by its own routine, beside polygons that are drawn.
+    /// Draws the sphere and the patches, each by its own routine, into a picture that already shows the
+    /// polygons.
     pub fn draw(&self, view: &PlainView, picture: &mut Shared) {
         let sphere = self.polygons.len() as u32;
         self.sphere.draw(view, sphere, picture);
@@ -26,9 +27,9 @@ impl Surfaces<'_> {
     }
 }
 
-/// The number of the surface that a pixel's ray certainly meets first; [`NONE`] if it certainly meets no
-/// surface; `None` if this is uncertain. The sphere against polygons is decided exactly; patches are known by
-/// intervals of depth.
+/// Returns the number of the surface that a pixel's ray certainly meets first. Returns [`NONE`] if the ray
+/// certainly meets no surface, and `None` if the result is uncertain. The sphere against polygons is decided
+/// exactly; patches are known by intervals of depth.
 pub fn nearest(surfaces: &Surfaces<'_>, view: &PlainView, pixel: [u32; 2]) -> Option<u32> {
     let sphere = &surfaces.sphere;
     let layers = view.layers(surfaces.polygons, pixel)?;

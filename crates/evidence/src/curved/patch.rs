@@ -9,14 +9,14 @@ use crate::plain::{Corner, PlainView, UNITS};
 pub struct Patch(pub [[Corner; 4]; 4]);
 
 /// The side of a part, in pixels, at which it counts as a point. Too large: the boundary is thicker. Too
-/// small: time.
+/// small: drawing takes longer.
 const POINT: f64 = 1.0 / 64.0;
 
 type Net = [[[f64; 3]; 4]; 4];
 
 impl Patch {
-    /// Draws it by its own routine (Catmull 1974): parts are halved until they are points. Only points at a
-    /// pixel's centre count, so parts without one are left out early.
+    /// Draws the patch by its own routine (Catmull 1974): parts are halved until they count as points. Only
+    /// points at a pixel's centre are drawn, so parts without a pixel's centre are left out early.
     pub fn draw(&self, view: &PlainView, number: u32, picture: &mut Shared) {
         let net: Net = self.0.map(|row| row.map(|p| p.map(|c| c as f64 / UNITS)));
         let mut parts = vec![net];
@@ -34,7 +34,7 @@ impl Patch {
                 pixels.for_each(|pixel| picture.put(pixel, depth, number));
                 continue;
             }
-            // The longer way on the picture is halved.
+            // The direction that is longer on the picture is halved.
             let extent = |a: [f64; 3], b: [f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
             let along = (0..4).map(|i| extent(net[i][0], net[i][3])).fold(0.0, f64::max);
             let across = (0..4).map(|i| extent(net[0][i], net[3][i])).fold(0.0, f64::max);
@@ -46,7 +46,7 @@ impl Patch {
         }
     }
 
-    /// Two patches that share an edge, which runs the other way in the second.
+    /// Returns two patches that share an edge. The edge runs in opposite directions in the two.
     pub fn pair() -> [Self; 2] {
         let first: [[Corner; 4]; 4] = std::array::from_fn(|i| {
             std::array::from_fn(|j| {

@@ -17,7 +17,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Draws it by its own routine: in each pixel the lesser root of a quadratic equation, in `f64`.
+    /// Draws the sphere by its own routine: the depth in a pixel is the smaller root of a quadratic equation,
+    /// in `f64`.
     pub fn draw(&self, view: &PlainView, number: u32, picture: &mut Shared) {
         let [width, height] = view.size();
         for pixel in (0..height).flat_map(|y| (0..width).map(move |x| [x, y])) {
@@ -28,7 +29,7 @@ impl Sphere {
         }
     }
 
-    /// The depth at which a pixel's ray meets it, rounded; NaN if it misses.
+    /// The depth at which a pixel's ray meets the sphere, rounded; NaN if the ray misses.
     pub(super) fn depth(&self, view: &PlainView, pixel: [u32; 2]) -> f64 {
         let [x, y, z] = self.centre.map(|c| c as f64 / UNITS);
         let rest = x * x + y * y + z * z - (self.radius as f64 / UNITS).powi(2);
@@ -38,12 +39,13 @@ impl Sphere {
         (half - (half * half - a * rest).sqrt()) / a
     }
 
-    /// Whether a pixel's ray meets it, exactly: the sign of the quadratic equation's discriminant.
+    /// Returns whether a pixel's ray meets the sphere, exactly: the sign of the quadratic equation's
+    /// discriminant.
     pub fn is_met(&self, view: &PlainView, pixel: [u32; 2]) -> bool {
         self.equation(view, pixel)[2] > 0
     }
 
-    /// Whether it is nearer than a depth, or further, on a ray that meets it; exactly.
+    /// Compares the sphere's depth with a given depth, exactly, on a ray that meets the sphere.
     pub fn compare(&self, view: &PlainView, pixel: [u32; 2], depth: &Depth) -> Ordering {
         let [a, half, discriminant] = self.equation(view, pixel).map(IBig::from);
         let [over, under] = depth.along(view.ray(pixel)).map(IBig::from);

@@ -118,13 +118,13 @@ fn patches_are_cut_without_cracks_to_the_tolerance() {
     }
 }
 
-/// An edge is divided as finely as the finer of its two patches needs: also where only one of them is bent
-/// across it, in either order.
+/// An edge is divided as finely as the finer of its two patches needs. This holds also if only one of the
+/// patches is bent across the edge, in either order.
 #[test]
 fn shared_edges_are_as_fine_as_either_patch_needs() {
     let view = PlainView::new(SIZE);
     let [bent, _] = Patch::pair();
-    // The same edge, and beyond it a patch that is much flatter: each row is the edge, moved.
+    // A much flatter patch on the other side of the edge, in which each row is a moved copy of the edge.
     let edge = bent.0[3];
     let flat = Patch(std::array::from_fn(|i| edge.map(|[x, y, z]| [x, y, z - 4 * i as i64])));
     let points = |patches: &[Patch], which: usize| {

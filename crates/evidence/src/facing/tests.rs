@@ -1,4 +1,4 @@
-//! Back-face detection on convex bodies, and on others.
+//! Back-face detection on convex bodies and on other bodies.
 
 use binspace::internals::cuboid;
 use binspace::raster::{compare, zbuffer};
@@ -96,7 +96,8 @@ fn seen(polygons: &[[DVec3; 4]], camera: &Camera) -> (Facing, usize) {
 fn a_box_shows_one_two_or_three_faces() {
     let cube = cuboid(DVec3::ZERO, DVec3::ONE);
     let facing = |front, back, edge_on| Facing { front, back, edge_on };
-    // Along an axis, C = 0 for four faces; along two, for two; otherwise for none.
+    // If the direction is along one axis, C = 0 for four faces. If it is in the plane of two axes, C = 0 for
+    // two faces. Otherwise C = 0 for no face.
     for (direction, expected) in [
         (DVec3::NEG_Z, facing(1, 1, 4)),
         (DVec3::new(-1.0, 0.0, -1.0), facing(2, 2, 2)),
@@ -106,7 +107,7 @@ fn a_box_shows_one_two_or_three_faces() {
         let camera = Camera::parallel(direction, up, DVec3::splat(0.5), 3.0, [40, 30]).unwrap();
         assert_eq!(seen(&cube, &camera), (expected, 0), "{direction}");
     }
-    // Near enough, an eye sees one face only; in the plane of a face, not that face.
+    // An eye near a face sees only this face. An eye in the plane of a face does not see this face.
     for (eye, expected) in [
         (DVec3::new(0.5, 0.5, 3.0), facing(1, 5, 0)),
         (DVec3::new(1.0, 0.5, 3.0), facing(1, 4, 1)),
@@ -119,10 +120,10 @@ fn a_box_shows_one_two_or_three_faces() {
     }
 }
 
-/// Two boxes, the nearer first: their fronts overlap, so the step alone is not enough; before
-/// another method it changes nothing but the work.
+/// Two boxes, the nearer first. Their fronts overlap, so the step alone is not enough. Before another method,
+/// the step changes only the work.
 #[test]
-fn of_closed_bodies_the_step_leaves_the_picture_as_it_is() {
+fn the_step_does_not_change_pictures_of_closed_bodies() {
     let near = cuboid(DVec3::new(0.0, 0.0, 2.0), DVec3::new(1.0, 1.0, 3.0));
     let two = [near, cuboid(DVec3::ZERO, DVec3::ONE)].concat();
     let eye = DVec3::new(1.5, 1.7, 9.0);

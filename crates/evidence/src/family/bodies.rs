@@ -1,4 +1,4 @@
-//! Ties, faces that almost coincide, and cycles.
+//! Scenes with ties, with faces that almost coincide, and with cycles.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use binspace::internals::cuboid;
 use binspace::internals::unit_circle;
 
 /// Unit squares of an integer grid with `side` cells a side: half of all squares, some of them twice, and
-/// diagonals through cells. One eye is itself a point of the grid.
+/// diagonals through cells. One eye is a point of the grid.
 pub(super) fn lattice(side: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut scene = empty("lattice", f64::from(side));
@@ -48,8 +48,9 @@ fn cells(side: u32) -> impl Iterator<Item = DVec3> {
         .map(move |i| DVec3::new(number(i), number(i / side), number(i / side / side)))
 }
 
-/// Boxes of a grid with `side` cells a side, all turned alike, each with a label on its top. Four cells in
-/// ten are empty. The corners of each box are computed separately, so coincident corners differ by rounding.
+/// Boxes of a grid with `side` cells a side, all rotated in the same way, each with a label on its top. Four
+/// cells in ten are empty. The corners of each box are computed separately, so coincident corners differ by
+/// rounding.
 pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -75,14 +76,15 @@ pub(super) fn boxes(side: u32, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// `count` bars along the sides of a regular polygon, each longer than the side: its end lies over the
-/// beginning of the next.
+/// `count` bars along the sides of a regular polygon, each longer than the side. The end of each bar lies
+/// over the beginning of the next bar.
 pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
     pose.origin = random.point(0.0, 1.0);
     let mut scene = empty("cycle", f64::from(count));
-    // A polygon inscribed in the unit circle; past its corners by a part of the side.
+    // The sides of a polygon inscribed in the unit circle, each extended beyond its ends by a part of its
+    // length.
     let n = u64::from(count);
     let side = unit_circle(1, n).distance(unit_circle(0, n));
     let (past, width, rise) = (0.3 * side, 0.12 * side.min(0.6), 0.1 * side);
@@ -97,7 +99,7 @@ pub(super) fn cycle(count: u32, seed: u64) -> Trial {
     });
     push_shuffled(&mut scene, bars.collect(), &mut random);
     let mut looks = pose.looks(3.4, 0.6, &mut random);
-    // One view from near by, as many bars are small.
+    // One view is from nearby, because the bars are small if there are many.
     let eye = DVec3::new(1.0 + 0.5 * side, 0.1 * side, 3.0 * side);
     looks[1] = pose.look(eye, DVec3::X);
     Trial::new(scene, looks)

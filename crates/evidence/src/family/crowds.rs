@@ -31,10 +31,10 @@ fn crowd(
     })
 }
 
-/// Forty triangles in a unit cube around a point at `distance` from the origin, and one with a
-/// corner at the origin, so that the scene is as wide as that.
+/// Forty triangles in a unit cube around a point at `distance` from the origin, and one with a corner at the
+/// origin, so that the extent of the scene is about `distance`.
 pub(super) fn offset(distance: f64, seed: u64) -> Trial {
-    /// A unit vector, up to its own rounding.
+    /// A unit vector, up to rounding.
     const AWAY: DVec3 = DVec3::new(0.6, 0.64, 0.48);
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);

@@ -31,8 +31,8 @@ use trial::{Look, Trial};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Scenes and cameras are the same, bit for bit, on every machine. Decide them with a tolerance of
-/// [`TOLERANCE`](Self::TOLERANCE), 0: most of the difficulties are smaller than the default tolerance, which
+/// Scenes and cameras are the same, bit for bit, on every machine. Build trees of them with the tolerance
+/// [`TOLERANCE`](Self::TOLERANCE), which is 0. The default tolerance is larger than most difficulties, and
 /// would hide them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Family {
@@ -49,13 +49,14 @@ pub enum Family {
     /// Long narrow triangles woven through each other; the difficulty is their width, as a share of
     /// their length.
     Sliver,
-    /// One triangle that others pierce, and that is cut for each; the difficulty is their number.
+    /// One triangle that other triangles pierce, so that each of them cuts it; the difficulty is the number
+    /// of the others.
     Nesting,
     /// Squares and diagonals of an integer grid, with ties everywhere; the difficulty is the number
     /// of cells per side.
     Lattice,
-    /// Touching boxes in a turned grid, and labels on them: faces that are coplanar except for
-    /// rounding. The difficulty is the number of boxes per side.
+    /// Touching boxes in a rotated grid, with labels: faces that are coplanar except for rounding. The
+    /// difficulty is the number of boxes per side.
     Boxes,
     /// Bars in a cycle: each covers the next, and the last covers the first. The difficulty is
     /// their number.
@@ -67,7 +68,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// Every family, in the order in which to list them.
+    /// All families, in the order in which they are listed.
     pub const ALL: [Self; 11] = [
         Self::Angle,
         Self::Gap,
@@ -82,10 +83,10 @@ impl Family {
         Self::DepthRange,
     ];
 
-    /// The coplanar tolerance for the families: none.
+    /// The coplanar tolerance for the families.
     pub const TOLERANCE: f64 = 0.0;
 
-    /// The family's name on the command line.
+    /// Returns the family's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Angle => "angle",
@@ -102,7 +103,7 @@ impl Family {
         }
     }
 
-    /// One line on the scenes.
+    /// Returns a one-line description of the scenes.
     pub fn description(self) -> &'static str {
         match self {
             Self::Angle => "six triangles that cross each other at a small angle",
@@ -119,7 +120,7 @@ impl Family {
         }
     }
 
-    /// The meaning of the difficulty, for the axis of a plot.
+    /// Returns the meaning of the difficulty, for the axis of a plot.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Angle => "angle between triangles [rad]",
@@ -136,8 +137,8 @@ impl Family {
         }
     }
 
-    /// The difficulties, from the easiest to the hardest (of [`Scale`](Self::Scale), from the smallest to the
-    /// largest); a few of them if `quick`.
+    /// Returns the difficulties, from the easiest to the hardest. For [`Scale`](Self::Scale), returns the
+    /// factors from the smallest to the largest. If `quick`, returns only a few difficulties.
     pub fn sweep(self, quick: bool) -> &'static [f64] {
         const DECADES: &[f64] =
             &[1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
@@ -165,18 +166,18 @@ impl Family {
         }
     }
 
-    /// The scene of a difficulty. A difficulty that is a number of things is rounded down, and is
-    /// at least the smallest of the sweep.
+    /// Returns the scene of a difficulty. A difficulty that counts things is rounded down, and is at least
+    /// the smallest of the sweep.
     pub fn scene(self, difficulty: f64, seed: u64) -> Scene {
         self.trial(difficulty, seed).scene
     }
 
-    /// Cameras that show the difficulty in many pixels, from the front, from behind, from within
-    /// and from around, for pictures of `[width, height]` pixels. The first is the most telling.
+    /// Cameras that show the difficulty in many pixels, from the front, from behind, from within and from
+    /// around, for pictures of `[width, height]` pixels. The first camera shows the difficulty best.
     ///
     /// # Errors
     ///
-    /// If the size is zero or too large, or the difficulty is not a usable number.
+    /// If the size is zero or too large, or the difficulty is so large or small that no camera can be made.
     pub fn cameras(self, difficulty: f64, seed: u64, size: [u32; 2]) -> Result<Vec<Camera>, Error> {
         let Trial { looks, half_height, .. } = self.trial(difficulty, seed);
         let camera = |look: &Look| {

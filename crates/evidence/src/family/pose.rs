@@ -1,4 +1,4 @@
-//! Turned frames, and where to look at them from.
+//! Rotated coordinate frames, and views of them.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::trial::Look;
 use binspace::internals::SplitMix64;
 use binspace::scene::{Material, Scene};
 
-/// Three unit vectors, each perpendicular to the others, turned at random, at a place.
+/// A frame with a random orientation: three perpendicular unit vectors at a place.
 pub(super) struct Pose {
     pub(super) axes: [DVec3; 3],
     pub(super) origin: DVec3,
@@ -17,7 +17,8 @@ impl Pose {
     pub(super) fn random(random: &mut SplitMix64) -> Self {
         let mut draw = || std::array::from_fn::<f64, 4, _>(|_| random.range(-1.0, 1.0));
         let square = |q: &[f64; 4]| q.iter().map(|c| c * c).sum::<f64>();
-        // In the unit ball, so that all orientations are as likely; two draws in three are not.
+        // Points outside the unit ball are rejected, so that all orientations are equally likely. This
+        // rejects about two draws in three.
         let [w, x, y, z] = (0..1000)
             .map(|_| draw())
             .find(|q| (0.01..1.0).contains(&square(q)))
@@ -48,7 +49,8 @@ impl Pose {
     }
 
     /// Views of the surroundings of the frame's origin within `reach`: from the front (where z comes from),
-    /// from within, from behind, and slantingly from around. `distance` takes the front view.
+    /// from within, from behind, and from two slanting directions. All eyes are at `distance` from the
+    /// origin, except the one within.
     pub(super) fn looks(&self, distance: f64, reach: f64, random: &mut SplitMix64) -> Vec<Look> {
         let mut jitter = |size: f64| random.point(-size, size);
         let around = [

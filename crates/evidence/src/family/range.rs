@@ -1,4 +1,4 @@
-//! Sizes: scenes of any scale, and scenes of many scales at once.
+//! Scenes of any scale, and scenes of many scales at once.
 
 use glam::DVec3;
 
@@ -37,16 +37,16 @@ pub(super) fn scale(factor: f64, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// Nine places in the picture, in each a pair of triangles that cross at an angle of 1/500, at
-/// depths from 1 to `ratio` in even steps of a factor, each as large as it takes to be seen alike;
-/// and a triangle behind all of them.
+/// Nine pairs of triangles, each in its own place of the picture. The triangles of a pair cross at an angle
+/// of 1/500. The depths of the pairs grow from 1 to `ratio` by a constant factor. Pairs grow with their
+/// depths, so that all look equally large. Another triangle lies behind all pairs.
 pub(super) fn depth_range(ratio: f64, seed: u64) -> Trial {
     /// The slope of one triangle of a pair against the other.
     const SLOPE: f64 = 2e-3;
     let mut random = SplitMix64::new(seed);
     let pose = Pose::random(&mut random);
     let mut scene = empty("depth-range", ratio);
-    // The eighth root, by square roots, which are the same everywhere.
+    // The eighth root, by square roots, because these have the same result on every machine.
     let step = ratio.sqrt().sqrt().sqrt();
     let mut depth = 1.0;
     for level in 0..9u32 {

@@ -8,7 +8,7 @@ use binspace::internals::SplitMix64;
 use binspace::internals::unit_circle;
 
 /// Six triangles around one point. Triangle `i` rises by `angle` in its own direction, a sixth of a turn from
-/// the next one's. So neighbours cross at `angle`, and other triangles at up to twice that.
+/// the next one's. So neighbours cross at `angle`, and other triangles at up to twice this angle.
 pub(super) fn angle(angle: f64, seed: u64) -> Trial {
     let mut random = SplitMix64::new(seed);
     let mut pose = Pose::random(&mut random);
@@ -27,8 +27,8 @@ pub(super) fn angle(angle: f64, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// Twelve triangles above each other, each smaller than the one below and `gap` times the extent
-/// above it, turned a little so that all of them show.
+/// Twelve triangles above each other. Each is smaller than the triangle below, lies `gap` times the extent
+/// above it, and is rotated a little, so that all triangles are visible.
 pub(super) fn gap(gap: f64, seed: u64) -> Trial {
     const LAYERS: u32 = 12;
     let mut random = SplitMix64::new(seed);
@@ -48,9 +48,9 @@ pub(super) fn gap(gap: f64, seed: u64) -> Trial {
     Trial::new(scene, looks)
 }
 
-/// Sixteen triangles of length 1 and, where they meet, width `width`: eight across eight. Each is rolled
-/// about its length and lifted by about a width, so that most of them penetrate each other. The views are as
-/// near as the width requires.
+/// Sixteen triangles of length 1 and, where they meet, width `width`: eight across eight. Each triangle is
+/// rotated about its long axis and lifted by about its width, so that most triangles penetrate each other.
+/// The views are as near as the width requires.
 pub(super) fn sliver(width: f64, seed: u64) -> Trial {
     const EACH: i32 = 8;
     /// The position along the length at which the others cross.

@@ -10,7 +10,7 @@ fn extent(scene: &Scene) -> f64 {
     (high - low).max_element()
 }
 
-/// For each step of each sweep of a family.
+/// Checks the scene of each step of the sweeps of a family.
 fn each_step(family: Family, mut check: impl FnMut(f64, &Scene)) {
     for quick in [true, false] {
         for &difficulty in family.sweep(quick) {
@@ -87,7 +87,8 @@ fn slivers_are_as_narrow_as_they_should_be() {
             let area = (polygon.points()[1] - polygon.points()[0])
                 .cross(polygon.points()[2] - polygon.points()[0])
                 .length();
-            // The base is 4/3 of the width a quarter of the length away, and more if rolled.
+            // A quarter of the length away, the base is 4/3 of the width, and more if the triangle is
+            // rotated.
             assert!((1.2..1.7).contains(&(area / length / width)), "{width:e} {area:e}");
         }
     });
@@ -116,7 +117,7 @@ fn the_scale_is_a_factor() {
 }
 
 #[test]
-fn counts_are_what_was_asked_for() {
+fn scenes_have_the_requested_counts() {
     each_step(Family::Nesting, |count, scene| {
         assert_eq!(scene.len(), count as usize + 1);
         let large = scene.polygons().max_by(|p, q| {
@@ -145,7 +146,7 @@ fn a_lattice_is_made_of_integers() {
 }
 
 #[test]
-fn boxes_touch_but_for_rounding() {
+fn boxes_touch_except_for_rounding() {
     each_step(Family::Boxes, |side, scene| {
         let corners: Vec<DVec3> = scene.polygons().flatten().copied().collect();
         let (mut same, mut close) = (0, 0);
@@ -163,13 +164,13 @@ fn boxes_touch_but_for_rounding() {
 #[test]
 fn bars_cover_each_other_in_a_cycle() {
     each_step(Family::Cycle, |count, scene| {
-        // The ends of one bar at a time, as a line from the middle of one end to the other's.
+        // Each bar as a line from the middle of one end to the middle of the other end.
         let lines: Vec<[DVec3; 2]> = scene
             .polygons()
             .map(|p| [(p.points()[0] + p.points()[3]) * 0.5, (p.points()[1] + p.points()[2]) * 0.5])
             .collect();
         let centre = scene.polygons().flatten().sum::<DVec3>() / (4.0 * count);
-        // Every bar rises along itself; all together they do not.
+        // Each bar rises along its length, but the slopes cancel in the sum over all bars.
         let across =
             |line: &[DVec3; 2]| ((line[0] + line[1]) * 0.5 - centre).cross(line[1] - line[0]);
         let up = lines.iter().map(across).sum::<DVec3>().normalize();

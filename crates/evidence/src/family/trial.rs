@@ -1,4 +1,4 @@
-//! A scene, and where to look at it from.
+//! A scene and its views.
 
 use glam::DVec3;
 

@@ -1,9 +1,9 @@
 //! Cycles of a graph, and the minimal feedback vertex set.
 
-/// The most vertices of which all subsets are tried.
+/// The largest number of vertices whose subsets are all tried.
 pub(super) const SEARCHED: usize = 22;
 
-/// The sets of two or more vertices that all lead to each other: by the closure of "leads to", a row
+/// The strongly connected components of two or more vertices, from the transitive closure of the graph, a row
 /// of bits for each vertex (S. Warshall, "A theorem on Boolean matrices", 1962). O(n³ / 64).
 pub(super) fn components(next: &[Vec<u32>]) -> Vec<Vec<u32>> {
     let (count, words) = (next.len(), next.len().div_ceil(64));
@@ -33,8 +33,8 @@ pub(super) fn components(next: &[Vec<u32>]) -> Vec<Vec<u32>> {
     found
 }
 
-/// The fewest of these vertices without which there is no cycle among them, by all subsets. `None` of
-/// too many vertices.
+/// The smallest number of these vertices whose removal breaks all cycles among them; all subsets are tried.
+/// `None` for too many vertices.
 pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usize> {
     if vertices.len() > SEARCHED {
         return None;
@@ -50,8 +50,8 @@ pub(super) fn fewest_removed(next: &[Vec<u32>], vertices: &[u32]) -> Option<usiz
     (0..=all).filter(enough).map(|removed| removed.count_ones() as usize).min()
 }
 
-/// Whether these vertices, a bit each, have a cycle among them: vertices without an edge to the others are
-/// removed until none remains.
+/// Whether these vertices, one bit each, contain a cycle. Vertices without an edge to the remaining vertices
+/// are removed as long as there are any.
 fn has_cycle(leads: &[u32], mut left: u32) -> bool {
     loop {
         let ends = (0..leads.len()).filter(|&v| left >> v & 1 == 1 && leads[v] & left == 0);

@@ -6,7 +6,8 @@ use num_traits::Signed;
 
 use crate::place::{Place, Plane};
 
-/// A point over a weight that is not negative, or a plane: points in front have a positive product.
+/// A point or a plane in homogeneous coordinates. The weight of a point is not negative. Points in front of a
+/// plane have a positive product with it.
 type Quad = [IBig; 4];
 
 /// A face as an eye sees it.
@@ -15,13 +16,14 @@ pub(super) struct Seen {
     corners: Vec<Quad>,
     /// The face's plane, with the eye in front.
     plane: Quad,
-    /// The planes through the eye and each edge, with the face in front. Their intersection is the cone of
-    /// the eye's rays through the face, and nothing behind the eye: the cone's apex is there.
+    /// The planes through the eye and each edge, with the face in front. The region in front of all of them
+    /// is the cone of rays from the eye through the face. It contains nothing behind the eye, because the eye
+    /// is its apex.
     sides: Vec<Quad>,
 }
 
 impl Seen {
-    /// `None` of a face that the eye sees edge-on: no ray goes through its inside.
+    /// Returns `None` for a face that the eye sees edge-on, because no ray goes through its inside.
     pub(super) fn new(faces: &Faces, face: u32, eye: &Quad) -> Option<Self> {
         let plane = Plane::of(faces, PlaneId::face(face));
         let count = faces.corners(face).len() as u32;
@@ -47,15 +49,15 @@ impl Seen {
         Some(Self { corners, plane, sides })
     }
 
-    /// Whether this face hides a part of another, and whether the other hides a part of this one.
+    /// Whether this face hides a part of another face, and whether the other face hides a part of this face.
     pub(super) fn against(&self, other: &Self) -> [bool; 2] {
         let part = self.within(other);
         let sides = || part.iter().map(|vertex| product(&other.plane, vertex));
         [sides().any(|d| d.is_positive()), sides().any(|d| d.is_negative())]
     }
 
-    /// The vertices of the part of this face that is seen through another; none if that has no
-    /// inside.
+    /// The vertices of the part of this face that is seen through another face; an empty list if this part
+    /// has no inside.
     pub(super) fn within(&self, other: &Self) -> Vec<Quad> {
         let mut part = self.corners.clone();
         for side in &other.sides {
@@ -91,7 +93,8 @@ fn front(polygon: &[Quad], at: &[IBig]) -> Vec<Quad> {
 
 /// The plane through three points.
 pub(super) fn through(p: &Quad, q: &Quad, r: &Quad) -> Quad {
-    // The determinant of the three and a fourth point, by the fourth.
+    // The determinant of the three points and a fourth point is a linear function of the fourth point; these
+    // are its coefficients.
     let minor = |[a, b, c]: [usize; 3]| {
         let pair = |i: usize, j: usize| &q[i] * &r[j] - &q[j] * &r[i];
         &p[a] * pair(b, c) + &p[b] * pair(c, a) + &p[c] * pair(a, b)

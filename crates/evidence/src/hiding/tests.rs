@@ -1,4 +1,4 @@
-//! Who hides whom against rays, permutations and pictures.
+//! Tests `Hiding` against rays, permutations and pictures.
 
 use binspace::internals::{Eye, SplitMix64};
 use binspace::raster::{Outline, Painter, Piece, compare, zbuffer};
@@ -28,7 +28,7 @@ fn camera(scene: &Scene, from: DVec3) -> Camera {
 
 type Vector = [RBig; 3];
 
-/// The distance along a ray at which it meets a face inside of its edges, in rationals.
+/// The distance along a ray at which it meets the inside of a face, in rationals.
 fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> {
     let face = Face::new(faces, face);
     let speed = scalar(&face.plane.normal, along);
@@ -40,8 +40,8 @@ fn met(faces: &Faces, face: u32, from: &Vector, along: &Vector) -> Option<RBig> 
     (face.place(&at).is_gt() && t.is_positive()).then_some(t)
 }
 
-/// Every detected pair has a ray as proof: the one through the middle of the part where the one is in front,
-/// by rationals.
+/// Every detected pair is proved by a ray, in rationals: the ray through the middle of the part in which the
+/// first face hides the second.
 fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
     let viewpoint = Viewpoint::eye(eye);
     let hiding = Hiding::of(faces, viewpoint);
@@ -57,7 +57,8 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
                 assert!(!hiding.hides(a, b));
                 continue;
             }
-            // Rays through the middle, and near each vertex: one in 2³⁰ of the way from it.
+            // Rays through the middle, and near each vertex: at 2⁻³⁰ of the way from the vertex to the
+            // middle.
             let points: Vec<Vector> = part
                 .iter()
                 .map(|v| {
@@ -90,7 +91,7 @@ fn check_by_witnesses(faces: &Faces, eye: DVec3) -> usize {
 }
 
 #[test]
-fn who_hides_whom_is_what_single_rays_say() {
+fn hiding_agrees_with_single_rays() {
     let mut checked = 0;
     for seed in 1..4 {
         checked += check_by_witnesses(
@@ -102,8 +103,8 @@ fn who_hides_whom_is_what_single_rays_say() {
     assert!(checked > 200, "{checked}");
 }
 
-/// Rays through the centres of pixels, by the judge's picture and its picture without the visible faces: in
-/// each pixel, the first face hides the second.
+/// Rays through the centres of pixels. In each pixel, the face in the judge's picture hides the face in the
+/// judge's picture without the visible faces.
 #[test]
 fn nothing_that_hides_in_a_picture_is_overlooked() {
     let scene = Family::Penetration.scene(12.0, 5);
@@ -120,7 +121,7 @@ fn nothing_that_hides_in_a_picture_is_overlooked() {
                 only.iter().for_each(|&face| painter.draw(Piece { face, outline: Outline::Whole }));
                 painter.finish()
             };
-            // Where both are, A is the truly visible one.
+            // A pixel that both cover and in which A is the visible face proves that A hides B.
             let (one, other) = (draw(&[a]), draw(&[b]));
             let pixels = one.faces().iter().zip(other.faces()).zip(truth.image().faces());
             let hides = pixels.filter(|((p, q), t)| **p == a && **q == b && **t == a).count();
@@ -178,7 +179,7 @@ fn scenes_without_cycles_are_painted_whole_and_those_with_one_in_no_order() {
             let place = |face: u32| order.iter().position(|&f| f == face);
             order.iter().all(|&a| order.iter().all(|&b| !hiding.hides(a, b) || place(b) < place(a)))
         };
-        // The most faces that can be painted whole in some order: the longest beginning of an order.
+        // The largest number of faces that can be painted whole: the longest valid prefix of any order.
         let whole = |order: &Vec<u32>| (0..=5).filter(|&k| is_kept(&order[..k])).max().unwrap();
         let most = orders(5).iter().map(whole).max().unwrap();
         assert_eq!(hiding.fewest_cut(), Some(5 - most));
@@ -230,9 +231,9 @@ fn neither_newell_nor_the_tree_cuts_fewer_than_needed() {
     assert!(needed > 10, "{needed}");
 }
 
-/// Also for a city, where many polygons have the same depth, or no depth.
+/// The scenes include a city, in which many polygons have the same extent in depth, or no extent in depth.
 #[test]
-fn overlaps_in_depth_are_those_of_all_pairs() {
+fn overlaps_in_depth_match_a_count_over_all_pairs() {
     for (scene, least_ties) in [(scene::random_triangles(60, 2), 0), (scene::city(60, 2), 50)] {
         let faces = faces(&scene);
         let forward = DVec3::new(0.0, 0.0, 1.0);

@@ -10,17 +10,18 @@ use binspace::internals::Faces;
 pub struct AreaError {
     /// Pieces.
     pub pieces: usize,
-    /// The largest difference between a face's area and the area of its pieces, as a share of the former.
+    /// The largest difference between a face's area and the area of its pieces, as a share of the face's
+    /// area.
     pub worst: f64,
-    /// The sum of these differences over all faces, as a share of all area.
+    /// The sum of these differences over all faces, as a share of the total area.
     pub total: f64,
 }
 
 /// Compares the areas of pieces, given by their face and their vertices in lattice units, with the areas of
-/// the faces. `for_each` is to show every piece; `None` if it shows none.
+/// the faces. `for_each` must pass every piece to its argument. Returns `None` if there is no piece.
 ///
-/// Areas are computed in `f64` from the rounded vertices, so a sum of many good pieces is off by
-/// some 1e-16 of it.
+/// Areas are computed in `f64` from the rounded vertices, so even correct pieces give a relative error of
+/// some 1e-16.
 pub fn area_error(
     faces: &Faces,
     for_each: impl FnOnce(&mut dyn FnMut(u32, &[[f64; 3]])),

@@ -1,13 +1,14 @@
-//! Outlines filled at the centres of pixels, in floats, and compared with a picture by integers.
+//! Fills outlines at the centres of pixels, in floats, and compares the result with a picture computed in
+//! integers.
 
 use binspace::internals::Faces;
 use binspace::raster::{Image, NONE};
 
-/// Centres nearer to an outline than this, in pixels, are not compared: where parts of polygons were joined,
-/// outlines are off by up to 2⁻¹⁵.
+/// Centres nearer to an outline than this, in pixels, are not compared. Where parts of polygons were joined,
+/// outlines have errors of up to 2⁻¹⁵.
 const NEAR: f64 = 4e-5;
 
-/// The cover of a pixel's centre.
+/// The polygon at a pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Pixel {
     Nothing,
@@ -16,7 +17,7 @@ enum Pixel {
     Unsure,
 }
 
-/// A picture that outlines are filled in, one over another.
+/// A picture into which outlines are filled, one over another.
 #[derive(Clone, Debug)]
 pub struct Filled {
     size: [usize; 2],
@@ -28,28 +29,29 @@ pub struct Filled {
 pub struct FillError {
     /// Pixels that show a polygon in either picture and could be compared.
     pub compared: usize,
-    /// Compared pixels that differ: another polygon, a polygon in an empty pixel, or an empty pixel.
+    /// Compared pixels that differ: they show another polygon, a polygon where none should be, or no polygon
+    /// where one should be.
     pub wrong: usize,
     /// Undecided pixels: an outline passes too near their centre.
     pub unsure: usize,
 }
 
 impl Filled {
-    /// An empty picture.
+    /// Creates an empty picture.
     pub fn new(size: [u32; 2]) -> Self {
         let size = size.map(|side| side as usize);
         Self { size, pixels: vec![Pixel::Nothing; size[0] * size[1]] }
     }
 
-    /// Fills outlines by the nonzero rule. Corners are in pixels, x to the right and y down, from the corner
-    /// of the first one.
+    /// Fills outlines by the nonzero rule. Corners are in pixels from the corner of the first pixel, with x
+    /// to the right and y down.
     pub fn fill<'o>(&mut self, polygon: usize, outlines: impl Iterator<Item = &'o [[f64; 2]]>) {
         let [width, height] = self.size;
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         let mut near: Vec<usize> = Vec::new();
         for outline in outlines {
             for (i, a) in outline.iter().enumerate() {
-                // From the centre of the first pixel.
+                // Coordinates are from the centre of the first pixel.
                 let [a, b] = [a, &outline[(i + 1) % outline.len()]].map(|end| end.map(|c| c - 0.5));
                 self.find_near(a, b, &mut near);
                 let (low, high, step) = if a[1] < b[1] { (a, b, 1) } else { (b, a, -1) };
@@ -75,7 +77,7 @@ impl Filled {
         near.into_iter().for_each(|pixel| self.pixels[pixel] = Pixel::Unsure);
     }
 
-    /// Finds the pixels whose centres an edge passes too near.
+    /// Finds the pixels whose centres are too near to an edge.
     fn find_near(&self, a: [f64; 2], b: [f64; 2], near: &mut Vec<usize>) {
         let size = self.size.map(|side| side as f64);
         for axis in 0..2 {

@@ -13,9 +13,9 @@ use dashu_int::IBig;
 pub struct PictureError {
     /// Pixels in which there is a polygon.
     pub covered: usize,
-    /// Pixels that show another polygon than the nearest, where the tolerance allows for both.
+    /// Pixels that show another polygon than the nearest, if the tolerance allows both.
     pub contested: usize,
-    /// Pixels that show a polygon which another one hides.
+    /// Pixels that show a polygon that another polygon hides.
     pub wrong_order: usize,
     /// Empty pixels that a polygon should cover.
     pub holes: usize,
@@ -23,15 +23,15 @@ pub struct PictureError {
     pub spills: usize,
     /// The largest distance of a painted polygon behind the nearest one, as a share of the extent.
     pub depth_max: f64,
-    /// The mean distance, over the wrong pixels in which the ray meets the painted polygon at all.
+    /// The mean of this distance over the wrong pixels whose rays meet the painted polygon.
     pub depth_mean: f64,
-    /// The number of these pixels.
+    /// The number of pixels in `depth_mean`.
     pub depth_pixels: usize,
 }
 
 impl PictureError {
-    /// The errors of one picture; `truth` is the [exact depth buffer](binspace::raster::zbuffer)'s, made with
-    /// the same rays.
+    /// Counts the errors of one picture. `truth` is the picture of the [exact depth
+    /// buffer](binspace::raster::zbuffer), made with the same rays.
     pub fn of(rays: &Rays, faces: &Faces, painted: &Image, truth: &Image) -> Self {
         let found = compare(rays, faces, painted, truth);
         let depth = DepthError::of(rays, faces, painted, truth, &found);
@@ -49,12 +49,12 @@ impl PictureError {
         }
     }
 
-    /// The number of wrong pixels. Contested pixels do not count.
+    /// Returns the number of wrong pixels. Contested pixels do not count.
     pub fn wrong(&self) -> usize {
         self.wrong_order + self.holes + self.spills
     }
 
-    /// The wrong pixels as a share of the covered ones.
+    /// Returns the wrong pixels as a share of the covered ones.
     pub fn wrong_share(&self) -> f64 {
         self.wrong() as f64 / self.covered.max(1) as f64
     }
@@ -76,7 +76,7 @@ impl AddAssign for PictureError {
 }
 
 /// The distances of the painted faces behind the nearest ones, in world units along the direction of view.
-/// They cover the pixels in which the order is wrong, and whose rays meet the painted face at all.
+/// Only pixels with a wrong order whose rays meet the painted face are counted.
 #[derive(Clone, Copy, Debug, Default)]
 struct DepthError {
     pixels: usize,
@@ -108,7 +108,7 @@ impl DepthError {
                     let met =
                         [face, truth.faces()[pixel]].map(|face| met(faces, face, rays.ray(x, y)));
                     let [[above, below], [other_above, other_below]] = &met;
-                    // Subtracted exactly, and only then rounded.
+                    // The distances are subtracted exactly, and the difference is rounded.
                     let apart = above * other_below - other_above * below;
                     let [apart, below, other_below] =
                         [&apart, below, other_below].map(|number| number.to_f64().value());
@@ -133,7 +133,7 @@ fn met(faces: &Faces, face: u32, [start, direction]: [[i128; 3]; 2]) -> [IBig; 2
     [less(p, start), direction].map(|v| normal.iter().zip(v).map(|(n, c)| n * IBig::from(c)).sum())
 }
 
-/// The longest side of the box around all faces, in world units.
+/// Returns the longest side of the box around all faces, in world units.
 pub fn extent(faces: &Faces) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for corner in (0..faces.corner_count() as u32).map(|corner| faces.corner(corner)) {
@@ -167,7 +167,7 @@ mod tests {
         (faces, rays)
     }
 
-    /// A face painted by mistake where its ray misses it has no depth there.
+    /// If a pixel shows a face that its ray misses, the face has no depth there.
     #[test]
     fn faces_that_are_not_met_have_no_depth_error() {
         let (faces, rays) = scene(&[(3.0, 0.0), (6.0, -3.0)], None);
@@ -180,8 +180,8 @@ mod tests {
         }
     }
 
-    /// Two faces behind a third, painted in turn: each pixel is judged by its own faces. One of the two is
-    /// met in the left half alone.
+    /// Two faces behind a third are painted in alternation. Each pixel is judged by its own faces. Rays meet
+    /// one of the two faces only in the left half.
     #[test]
     fn each_pixel_is_judged_by_its_own_faces() {
         let tolerance = 0.01;
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// The same for an eye: depth is measured along the direction of view, not along rays.
+    /// For an eye as well, depth is measured along the direction of view, not along rays.
     #[test]
     fn depth_is_along_the_direction_of_view() {
         let (faces, _) = scene(&[(6.0, 0.0), (6.0, -2.0)], Some(0.0));

@@ -9,8 +9,8 @@ use binspace::view::Camera;
 /// The interpolation of attributes from the vertices of a piece to the pixels within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Across {
-    /// As linear functions on the picture. That is right only for pieces across the view: others
-    /// look bent, and pieces of one polygon do not fit together.
+    /// As linear functions on the picture. This is right only for pieces perpendicular to the direction of
+    /// view. On other pieces, straight patterns look bent, and do not fit together at splits.
     Picture,
     /// As linear functions on the polygon (Heckbert & Moreton 1991): attribute / w and 1 / w are
     /// linear on the picture, and their quotient is the attribute.

@@ -23,23 +23,24 @@ pub struct Bsp {
 #[derive(Clone, Copy, Debug)]
 enum Arithmetic {
     Exact,
-    /// With an epsilon, a share of half the scene's extent.
+    /// A tree of `f64` with this epsilon, a share of half the scene's extent.
     Double(f64),
     Single(f64),
 }
 
 impl Bsp {
-    /// The library's tree: no decision is ever wrong. The tolerance is the faces' tolerance.
+    /// Creates the library's tree: no decision is ever wrong. The tolerance is the faces' tolerance.
     pub fn exact(options: BuildOptions) -> Self {
         Self { options, arithmetic: Arithmetic::Exact }
     }
 
-    /// A tree of `f64`; see [`Tree::with_epsilon`]. Of the options, only the budget of fragments is used.
+    /// Creates a tree of `f64`; see [`Tree::with_epsilon`]. Of the options, only the budget of fragments is
+    /// used.
     pub fn double(options: BuildOptions, epsilon: f64) -> Self {
         Self { options, arithmetic: Arithmetic::Double(epsilon) }
     }
 
-    /// A tree of `f32`; otherwise as [`double`](Self::double).
+    /// Creates a tree of `f32`; otherwise as [`double`](Self::double).
     pub fn single(options: BuildOptions, epsilon: f64) -> Self {
         Self { options, arithmetic: Arithmetic::Single(epsilon) }
     }
@@ -74,7 +75,7 @@ impl Method for Bsp {
     }
 }
 
-/// A tree, and a list that is used again for each picture.
+/// A tree, and a list that each picture reuses.
 struct Ready<T> {
     tree: T,
     order: Vec<u32>,

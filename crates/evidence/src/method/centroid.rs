@@ -12,8 +12,8 @@ use binspace::view::Camera;
 /// Paints faces in the order of the depths of their centroids, the means of their corners, the furthest
 /// first. Most programs for plots and vector graphics do this.
 ///
-/// Depth is measured along the camera's direction of view. Nothing is split, so faces that overlap in depth may
-/// be in the wrong order. Of faces at the same depth, the later one is painted later.
+/// Depth is measured along the camera's direction of view. Nothing is split, so faces that overlap in depth
+/// may be in the wrong order. If two faces have the same depth, the later one is painted later.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Centroid;
 
@@ -31,7 +31,7 @@ impl Method for Centroid {
     }
 }
 
-/// All faces in the order that [`Centroid`] paints them in.
+/// Returns all faces in the order that [`Centroid`] paints them in.
 pub fn centroid_order(faces: &Faces, camera: &Camera) -> Vec<u32> {
     let mut keys = Vec::new();
     sort(&centroids(faces), &CameraSpace::new(camera, faces.lattice()), &|_| true, &mut keys);
@@ -46,7 +46,7 @@ fn centroids(faces: &Faces) -> Vec<[f64; 3]> {
     (0..faces.len() as u32).map(centroid).collect()
 }
 
-/// Puts faces that are shown in order with their depths, the furthest first.
+/// Sorts the shown faces by their depths, the furthest first.
 fn sort(
     centroids: &[[f64; 3]],
     space: &CameraSpace,
@@ -62,7 +62,7 @@ fn sort(
 struct Ready<'a> {
     faces: &'a Faces,
     centroids: Vec<[f64; 3]>,
-    /// Depths with the faces they are of.
+    /// Depths, each with its face.
     keys: Vec<(f64, u32)>,
 }
 

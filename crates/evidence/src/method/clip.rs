@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::space::{CameraSpace, Vertex};
 use binspace::internals::Faces;
 
-/// Depths that count: nothing is kept that is nearer or further.
+/// A range of depths. Everything nearer or further is cut off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
     pub(super) near: f64,
@@ -68,7 +68,7 @@ impl Clipper {
         Self { planes, kept: Vec::new(), spare: Vec::new() }
     }
 
-    /// The part inside; it may be empty.
+    /// The part of a polygon inside; an empty list if there is none.
     pub(super) fn clip(&mut self, corners: impl IntoIterator<Item = Vertex>) -> &[Vertex] {
         self.kept.clear();
         self.kept.extend(corners);
@@ -101,7 +101,7 @@ fn keep(polygon: &[Vertex], inside: impl Fn(&Vertex) -> f64, kept: &mut Vec<Vert
         if a >= 0.0 {
             kept.push(*here);
         }
-        // From the inner end, in either direction of the edge: neighbours get the same vertex.
+        // Computed from the inner end, whatever the direction of the edge: so neighbours get the same vertex.
         if a > 0.0 && b < 0.0 {
             kept.push(Vertex::between(here, next, a / (a - b)));
         } else if a < 0.0 && b > 0.0 {

@@ -10,9 +10,9 @@ pub enum Space {
     Object,
     /// In each pixel.
     Image,
-    /// Priorities among the polygons, overlaps in the picture.
+    /// In both: priorities among the polygons, and overlaps in the picture.
     Both,
-    /// It does not decide.
+    /// The method does not decide visibility.
     Neither,
 }
 

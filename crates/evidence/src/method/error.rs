@@ -31,7 +31,7 @@ impl MethodError {
         Self { kind: Kind::Range { near, far } }
     }
 
-    /// Whether a budget ran out; a larger one may succeed.
+    /// Returns whether a budget ran out; a larger one may succeed.
     pub const fn is_over_budget(&self) -> bool {
         match &self.kind {
             Kind::Build(error) => matches!(error.kind(), ErrorKind::OverBudget),

@@ -1,4 +1,4 @@
-//! The exact depth buffer, which judges all methods, as a method itself.
+//! The exact depth buffer, which judges all methods, as one of the methods.
 
 use std::time::{Duration, Instant};
 
@@ -7,8 +7,8 @@ use binspace::internals::Faces;
 use binspace::raster::{Rays, zbuffer};
 use binspace::view::Camera;
 
-/// The depth buffer of [`zbuffer`]: depths in `f64`, and exact arithmetic in pixels where two of
-/// them are closer than their rounding.
+/// The depth buffer of [`zbuffer`]: depths in `f64`, and exact arithmetic in pixels where two depths differ
+/// by less than their rounding.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ExactDepth;
 

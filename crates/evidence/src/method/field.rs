@@ -25,19 +25,19 @@ impl Options {
     pub const DEFAULT: Self =
         Self { build: BuildOptions::DEFAULT, newell: Newell::DEFAULT, near: None, far: None };
 
-    /// With other options for trees.
+    /// Sets the options for trees.
     #[must_use]
     pub fn with_build(self, build: BuildOptions) -> Self {
         Self { build, ..self }
     }
 
-    /// With another budget or epsilon for Newell's algorithm.
+    /// Sets the options of Newell's algorithm.
     #[must_use]
     pub fn with_newell(self, newell: Newell) -> Self {
         Self { newell, ..self }
     }
 
-    /// With given near and far planes, in world units, for depth buffers.
+    /// Sets the near and the far plane of depth buffers, in world units.
     #[must_use]
     pub fn with_range(self, near: f64, far: f64) -> Self {
         Self { near: Some(near), far: Some(far), ..self }
@@ -50,7 +50,7 @@ impl Default for Options {
     }
 }
 
-/// The standard set of methods, the exact tree first and the judge last.
+/// Returns the standard set of methods, the exact tree first and the judge last.
 pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     let build = options.build.clone();
     let mut methods: Vec<Box<dyn Method>> = vec![Box::new(Bsp::exact(build.clone()))];
@@ -74,8 +74,8 @@ pub fn all(options: &Options) -> Vec<Box<dyn Method>> {
     for how in walks {
         methods.push(Box::new(buffer(Integer(24)).with_interpolation(how)));
     }
-    // Other conventions: the later of equal depths shows; larger is nearer. The buffer is cleared to the far
-    // plane, so that faces there do not show.
+    // Buffers with other conventions. In one, the later of equal depths shows. In the other, larger is
+    // nearer, and the buffer is cleared to the far plane, so that faces there do not show.
     let rules = DepthRules::DEFAULT;
     let larger = rules.with_nearer(Nearer::Larger).with_test(DepthTest::Greater);
     for rules in [rules.with_test(DepthTest::LessOrEqual), larger.with_clear(Clear::Smallest)] {

@@ -8,11 +8,12 @@ use binspace::internals::{Eye, Faces, PlaneId};
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
-/// Another method, shown only the faces that turn their fronts to the eye.
+/// Another method, which gets only the faces that turn their fronts to the eye.
 ///
-/// All visible faces of a convex body are front faces, and none of them hides another. There the step alone,
-/// before [`InputOrder`](super::InputOrder), gives the exact picture. For other closed bodies it removes
-/// about half of the faces ahead of the method. Surfaces that are not closed lose their visible backs.
+/// All visible faces of a convex body are front faces, and none of them hides another. So for a convex body,
+/// this step and [`InputOrder`](super::InputOrder) give the exact picture. For other closed bodies, the step
+/// removes about half of the faces before the method starts. Surfaces that are not closed lose their visible
+/// backs.
 ///
 /// The side of the eye is decided exactly.
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,7 +64,7 @@ impl Prepared for Ready<'_> {
     }
 }
 
-/// The faces that a method has to process: all faces; or front faces only, for rays that meet only fronts.
+/// Whether a method has to process a face: every face, or only front faces if the rays meet only fronts.
 pub(super) fn shown<'a>(rays: &Rays, faces: &'a Faces) -> impl Fn(u32) -> bool + use<'a> {
     let eye = rays.is_front_only().then(|| Eye::new(rays.viewpoint(), faces.lattice()));
     move |face| eye.is_none_or(|eye| faces.eye_side(PlaneId::face(face), &eye) == Ordering::Greater)

@@ -1,7 +1,7 @@
 //! Methods to decide visibility. They share a trait, so that their speed and errors can be compared.
 //!
-//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another. It
-//! paints a picture of faces, to be [compared](binspace::raster::compare) with the picture of the exact depth
+//! A [`Method`] is prepared for a scene's faces once, and then paints them from one camera after another.
+//! [`compare`](binspace::raster::compare) compares a method's picture with the picture of the exact depth
 //! buffer.
 //!
 //! | method | decides by | is wrong where |
@@ -74,10 +74,10 @@ use binspace::view::Camera;
 
 /// A method that decides which face shows in each pixel.
 pub trait Method: Send + Sync {
-    /// A short name, unique among all methods and options: "newell", "bsp f64 1e-6", "z 24".
+    /// Returns a short name, unique among all methods and options: "newell", "bsp f64 1e-6", "z 24".
     fn name(&self) -> String;
 
-    /// The space in which it decides visibility.
+    /// Returns the space in which the method decides visibility.
     fn space(&self) -> Space;
 
     /// Does all work that does not depend on the viewpoint.
@@ -98,7 +98,7 @@ pub trait Prepared {
     /// If a budget runs out, or the method's options are invalid for the camera.
     fn paint(&mut self, camera: &Camera, rays: &Rays) -> Result<Painted, MethodError>;
 
-    /// The memory in bytes that is kept between two views, without the faces.
+    /// Returns the memory in bytes that is kept between two views, without the faces.
     fn bytes(&self) -> usize;
 
     /// Visits each piece of a face that was made before any view: the face, and the piece's
@@ -108,7 +108,7 @@ pub trait Prepared {
         let _ = visit;
     }
 
-    /// The errors of the pieces against their exact definitions; `None` if the method keeps no
+    /// Returns the errors of the pieces against their exact definitions; `None` if the method keeps no
     /// definitions.
     fn accuracy(&self) -> Option<Accuracy> {
         None
@@ -120,12 +120,12 @@ pub trait Prepared {
 pub struct Painted {
     /// The face in each pixel.
     pub image: Image,
-    /// The time until the order was found; zero for methods that find none.
+    /// The time until the order was found; zero for methods without an order.
     pub order: Duration,
     /// The time that drawing took.
     pub draw: Duration,
     /// The number of drawn pieces, including faces that were not cut.
     pub pieces: usize,
-    /// The number of faces that a step before the method left out, as they do not show their fronts.
+    /// The number of faces that a step before the method left out, because they do not show their fronts.
     pub removed: usize,
 }

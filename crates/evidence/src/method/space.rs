@@ -5,19 +5,20 @@ use glam::DVec3;
 use binspace::internals::{LATTICE_LIMIT, Lattice};
 use binspace::view::{Camera, Projection};
 
-/// Takes lattice points to coordinates along the camera's axes: x to the right, y down, z the depth
-/// in its direction of view, from the eye, or from the centre of a parallel camera's picture.
+/// Converts lattice points to coordinates along the camera's axes: x to the right, y down, and z for the
+/// depth along the direction of view. Depths start at the eye, or at the centre of a parallel camera's
+/// picture.
 ///
-/// Cameras with square pixels that look at the middle of their picture.
+/// Supports only cameras with square pixels that look at the middle of their picture.
 ///
-/// The unit is 2⁵¹ lattice units, half the scene's extent or up to four times that, so that the magnitude of
+/// The unit is 2⁵¹ lattice units, which is one to four times half the scene's extent, so the magnitude of
 /// numbers suits `f32`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraSpace {
     origin: DVec3,
     /// Right, down and forward, divided by the unit.
     axes: [DVec3; 3],
-    /// The side of a pixel: at depth 1, or, for a parallel camera, in units.
+    /// The side of a pixel in units. For a perspective camera, it is the side at depth 1.
     pub(super) pixel: f64,
     pub(super) size: [u32; 2],
     pub(super) perspective: bool,
@@ -63,7 +64,7 @@ impl CameraSpace {
         Vertex { at: self.place(lattice), lattice: DVec3::from_array(lattice) }
     }
 
-    /// Where on the picture a place shows, in pixels from the picture's upper left corner.
+    /// The position of a place on the picture, in pixels from the upper left corner.
     #[inline]
     pub(super) fn project(&self, at: DVec3) -> [f64; 2] {
         let unit = if self.perspective { at.z * self.pixel } else { self.pixel };
@@ -82,7 +83,7 @@ pub(super) struct Vertex {
 }
 
 impl Vertex {
-    /// The point between two vertices that a share `t` of the way leads to.
+    /// The point at a share `t` of the way from `a` to `b`.
     pub(super) fn between(a: &Self, b: &Self, t: f64) -> Self {
         Self { at: a.at + (b.at - a.at) * t, lattice: a.lattice + (b.lattice - a.lattice) * t }
     }

@@ -7,7 +7,7 @@ use super::{FormFactors, Patch, patches, seen};
 use crate::rectangles::{above_a_point, facing, in_a_corner};
 use binspace::internals::{SplitMix64, cuboid};
 
-/// A room of 4 by 4 by 4, seen from inside, and a body in it.
+/// A room of 4 by 4 by 4, with fronts inside, and a body in the room if `with_body`.
 fn room(with_body: bool) -> Vec<[DVec3; 4]> {
     let inwards = |[a, b, c, d]: [DVec3; 4]| [d, c, b, a];
     let walls = cuboid(DVec3::ZERO, DVec3::splat(4.0)).map(inwards);
@@ -23,7 +23,7 @@ fn factors(quads: &[[DVec3; 4]], length: f64, side: u32) -> (Vec<Patch>, FormFac
 }
 
 #[test]
-fn form_factors_of_a_cube_are_those_of_the_closed_formulas() {
+fn form_factors_of_a_cube_match_the_closed_formulas() {
     let (patches, found) = factors(&room(false), 1.0, 6);
     for quad in 0..6 {
         let wall = |to: usize| {
@@ -48,7 +48,7 @@ fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
     let off = [1, 3, 9].map(|side| {
         let (patches, found) = factors(&room(true), 1.0, side);
         let n = patches.len();
-        // The same light in both directions.
+        // The light is the same in both directions.
         let light = |i: usize, j: usize| found.factor(i, j) * patches[i].area();
         let all = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let off = all.map(|(i, j)| (light(i, j) - light(j, i)).abs()).sum::<f64>();
@@ -59,14 +59,14 @@ fn light_in_a_closed_room_is_conserved_within_a_bound_that_falls() {
     assert!(one_way[2] < 0.3 * one_way[0] && one_way[2] < 0.05, "{one_way:?}");
 }
 
-/// A rectangle in a level plane, its front above; or below, if it is turned.
+/// A rectangle in a level plane. Its front is above, or below if `is_turned`.
 fn level(x: [f64; 2], y: [f64; 2], z: f64, is_turned: bool) -> [DVec3; 4] {
     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z));
     let [a, b, c, d] = corners;
     if is_turned { [d, c, b, a] } else { corners }
 }
 
-/// The form factor from the first quad to the second among some others.
+/// The form factor from the first quad to the second, with the other quads as obstacles.
 fn factor(quads: &[[DVec3; 4]], side: u32) -> f64 {
     let tree = BspTree::build(quads.iter().copied()).unwrap();
     let whole = patches(&quads[..2], 1e9);
@@ -74,7 +74,7 @@ fn factor(quads: &[[DVec3; 4]], side: u32) -> f64 {
 }
 
 #[test]
-fn rectangles_of_other_shapes_are_those_of_the_closed_formulas() {
+fn rectangles_of_other_shapes_match_the_closed_formulas() {
     let floor = level([0.0, 2.0], [0.0, 3.0], 0.0, false);
     let over = level([0.0, 2.0], [0.0, 3.0], 1.5, true);
     let wall = [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0), (0.0, 4.0)].map(|(y, z)| dvec3(0.0, y, z));
@@ -84,12 +84,14 @@ fn rectangles_of_other_shapes_are_those_of_the_closed_formulas() {
     }
 }
 
-/// A small patch sees a large wall through a window in a screen: as much of it as of the window.
+/// A small patch sees a large wall through a window in a screen. The form factor of the wall is the form
+/// factor of the window.
 #[test]
-fn through_a_window_as_much_is_seen_as_of_the_window() {
+fn a_wall_behind_a_window_gets_the_form_factor_of_the_window() {
     let small = level([-1e-3, 1e-3], [-1e-3, 1e-3], 0.0, false);
     let wall = level([-40.0, 40.0], [-40.0, 40.0], 4.0, true);
-    // The window reaches from the point above the patch to 2 and 3, one unit above.
+    // The window is one unit above the patch. It reaches from the point straight above the patch to 2 in x
+    // and 3 in y.
     let ([low, high], reach) = ([0.0, 0.0], 90.0);
     let [right, up] = [2.0, 3.0];
     let screen = [
@@ -104,9 +106,9 @@ fn through_a_window_as_much_is_seen_as_of_the_window() {
     assert!(off[1] < 0.03 && off[1] < off[0], "{off:?}");
 }
 
-/// A screen right above a patch, at a thousandth of the way, hides all.
+/// A screen right above a patch, at a thousandth of the way, hides everything.
 #[test]
-fn what_is_near_an_end_hides_as_well() {
+fn screens_near_an_end_of_a_sight_line_block_it() {
     let floor = level([0.0, 2.0], [0.0, 3.0], 0.0, false);
     let over = level([0.0, 2.0], [0.0, 3.0], 1.5, true);
     for height in [1.5e-3, 1.5 - 1.5e-3] {
@@ -115,10 +117,10 @@ fn what_is_near_an_end_hides_as_well() {
     }
 }
 
-/// The form factor from a point to a patch, as a sum over small parts: also for patches partly below its
-/// horizon.
+/// The form factor from a point to a patch equals a sum over small parts, also for patches partly below the
+/// point's horizon.
 #[test]
-fn what_a_point_sees_is_what_small_parts_send_it() {
+fn the_point_form_factor_is_the_sum_over_small_parts() {
     const PARTS: u32 = 200;
     let mut random = SplitMix64::new(6);
     let (mut cut, mut compared) = (0, 0);

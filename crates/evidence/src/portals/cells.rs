@@ -13,7 +13,7 @@ use super::outline::{Outline, Plane, clip, split, without};
 pub(super) const NOISE: f64 = 1e-12;
 const THIN: f64 = 1e-9;
 
-/// The cells that a tree divides space into, and where one sees from one to the next: the portals.
+/// The cells into which a tree divides space, and the portals: the openings between two cells.
 ///
 /// Cells are the tree's leaves. A leaf that holds a fragment is divided by its plane as well, so that all
 /// polygons lie on the walls of cells. The portals on a plane are the parts that its polygons leave open (S.
@@ -34,11 +34,11 @@ pub struct Cells {
 #[derive(Clone, Debug)]
 struct Node {
     plane: Plane,
-    /// The front, then the back.
+    /// The front side, then the back side.
     sides: [Next; 2],
     /// The fragments on the plane.
     own: Range<u32>,
-    /// The node above, and on which of its sides this one is.
+    /// The parent node, and the side of the parent on which this node is.
     parent: Option<(usize, usize)>,
 }
 
@@ -53,7 +53,7 @@ enum Next {
 pub(super) struct Cell {
     /// The portals of this cell, each with the side of its plane on which the cell lies.
     pub(super) portals: Vec<(usize, usize)>,
-    /// The parts of polygons on its walls.
+    /// The parts of polygons on the walls of the cell.
     pub(super) surfaces: Vec<Surface>,
 }
 
@@ -68,12 +68,12 @@ pub(super) struct Surface {
 pub(super) struct Portal {
     pub(super) plane: Plane,
     pub(super) outline: Outline,
-    /// The cell in front, and that behind.
+    /// The cell in front, and the cell behind.
     pub(super) cells: [usize; 2],
 }
 
 impl Cells {
-    /// The cells of a tree of `polygons` polygons.
+    /// Creates the cells of a tree of `polygons` polygons.
     pub fn new(tree: &BspTree, polygons: usize) -> Self {
         let corners = || tree.fragments().flat_map(|fragment| fragment.vertices());
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
@@ -93,22 +93,22 @@ impl Cells {
         cells
     }
 
-    /// The number of cells.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.cells.len()
     }
 
-    /// Whether there is no cell: never.
+    /// Returns whether there is no cell: never.
     pub fn is_empty(&self) -> bool {
         self.cells.is_empty()
     }
 
-    /// The number of portals.
+    /// Returns the number of portals.
     pub fn portal_count(&self) -> usize {
         self.portals.len()
     }
 
-    /// The cells that contain a point; several if it is on their common boundary.
+    /// Returns the cells that contain a point; several if it is on their common boundary.
     pub fn at(&self, point: DVec3) -> Vec<usize> {
         let (mut pending, mut found) = (vec![self.whole], Vec::new());
         while let Some(next) = pending.pop() {
@@ -126,7 +126,7 @@ impl Cells {
         found
     }
 
-    /// Takes over the tree's nodes, and divides its leaves by their content.
+    /// Copies the tree's nodes, and divides its leaves by the planes of their fragments.
     fn divide(&mut self, tree: &BspTree) {
         let root = tree.root().map_or(Child::Leaf(0..tree.len() as u32), Child::Node);
         let mut pending = vec![(root, None)];
@@ -197,7 +197,7 @@ impl Cells {
         while let Some((above, side)) = parent {
             let Node { plane, parent: next, .. } = &self.nodes[above];
             let kept = if side == 0 { *plane } else { plane.flipped() };
-            // A plane that is almost the one above is not lost.
+            // A plane that almost coincides with the plane of an ancestor still has a region.
             region = clip(&region, &kept.eased(NOISE * self.extent));
             parent = *next;
         }

@@ -9,11 +9,11 @@
 //!
 //! No visible polygon is left out; polygons kept without need are counted against exact pictures.
 //!
-//! It works in floats, and its errors are conservative. The planes that bound a view are moved outwards by
-//! 10⁻⁷ of the scene, more than all roundings can move them (`SLACK` in `sight` has the sum). An opening so
-//! near that roundings would count for more does not narrow the view at all. Two things can be left out: polygons seen
-//! only through openings thinner than 10⁻⁹ of the scene, which count as closed, and parts of polygons that
-//! are thinner than that.
+//! The computation is in floats, and its errors are conservative. The planes that bound a view are moved
+//! outwards by 10⁻⁷ of the scene, more than all roundings can move them (`SLACK` in `sight` has the sum).
+//! Near a very close opening, roundings could move a plane by more, so such an opening does not narrow the
+//! view. Only two kinds of polygons can be left out: polygons seen only through openings thinner than 10⁻⁹ of
+//! the scene, which count as closed, and parts of polygons thinner than 10⁻⁹ of the scene.
 
 mod cells;
 mod outline;

@@ -5,7 +5,7 @@ use binspace::glam::DVec3;
 /// The corners of a convex polygon, in either direction.
 pub(super) type Outline = Vec<DVec3>;
 
-/// The points p with `normal · p = offset`; its front is where the left side is larger.
+/// The plane `normal · p = offset`. In front of it, `normal · p` is larger.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     pub(super) normal: DVec3,
@@ -18,7 +18,7 @@ impl Plane {
         Self { normal, offset: normal.dot(point) }
     }
 
-    /// The distance of a point in front of it.
+    /// The distance of a point in front of the plane; negative behind it.
     pub(super) fn at(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
@@ -66,7 +66,7 @@ pub(super) fn clip(outline: &[DVec3], plane: &Plane) -> Outline {
 }
 
 /// The parts of a polygon in front of a plane and behind it. A polygon that reaches no further than `thin` to
-/// a side has no part there; a polygon that reaches no further to either side is on both.
+/// a side has no part there. If this is so on both sides, the whole polygon counts as a part on each side.
 pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2] {
     let [low, high] = plane.range(outline);
     let is_on = low >= -thin && high <= thin;
@@ -78,7 +78,7 @@ pub(super) fn split(outline: &[DVec3], plane: &Plane, thin: f64) -> [Outline; 2]
     [part(high, plane), part(-low, &plane.flipped())]
 }
 
-/// The planes through the edges of a polygon on a plane, perpendicular to it, each with the polygon
+/// The planes through the edges of a polygon, perpendicular to the polygon's plane, each with the polygon
 /// behind it.
 fn side_planes(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> {
     let middle = outline.iter().sum::<DVec3>() / outline.len() as f64;
@@ -90,16 +90,16 @@ fn side_planes(outline: &[DVec3], plane: &Plane) -> impl Iterator<Item = Plane> 
     })
 }
 
-/// A lower bound of the distance of points from a polygon on a plane: the largest distance along its plane's
-/// normal or across one of its edges; no more than 0 if these give no bound.
+/// A lower bound of the distance of points from a polygon on a plane: the largest distance along the plane's
+/// normal or across an edge. It is 0 or less if these directions give no bound.
 pub(super) fn apart(points: &[DVec3], outline: &[DVec3], plane: &Plane) -> f64 {
     let [low, high] = plane.range(points);
     let beside = side_planes(outline, plane).map(|side| side.range(points)[0]);
     beside.fold(low.max(-high), f64::max)
 }
 
-/// The difference of a polygon on a plane and another on the same plane, as convex pieces; pieces thinner
-/// than `thin` are left out.
+/// The part of a polygon outside another polygon on the same plane, as convex pieces. Pieces thinner than
+/// `thin` are left out.
 pub(super) fn without(outline: Outline, gone: &[DVec3], plane: &Plane, thin: f64) -> Vec<Outline> {
     if side_planes(gone, plane).any(|side| side.range(&outline)[0] >= -thin) {
         return vec![outline];
@@ -131,7 +131,7 @@ pub(super) fn hull(mut points: Vec<DVec3>, plane: &Plane) -> Outline {
         let ([ax, ay], [bx, by], [cx, cy]) = (place(a), place(b), place(c));
         (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0.0
     };
-    // One half after the other (Andrew 1979).
+    // First one half of the hull, then the other (Andrew 1979).
     let chain = |points: &mut dyn Iterator<Item = DVec3>| {
         let mut chain: Vec<DVec3> = Vec::new();
         for point in points {
@@ -150,8 +150,8 @@ pub(super) fn hull(mut points: Vec<DVec3>, plane: &Plane) -> Outline {
     hull
 }
 
-/// Whether all of some points on a plane are in a polygon on it, or out of it by no more than
-/// `thin`.
+/// Whether all points are in a polygon, or outside it by no more than `thin`. Points and polygon are on one
+/// plane.
 pub(super) fn holds(outline: &[DVec3], plane: &Plane, points: &[DVec3], thin: f64) -> bool {
     outline.len() > 2 && side_planes(outline, plane).all(|side| side.range(points)[1] <= thin)
 }

@@ -8,19 +8,19 @@ use binspace::glam::DVec3;
 use super::cells::{Cells, NOISE, Portal};
 use super::outline::{Outline, Plane, apart, clip, holds, hull};
 
-/// The largest distance beyond a plane that bounds the lines of sight at which something still counts as in
-/// sight, as a share of the scene's extent.
+/// Geometry no further than this beyond a plane that bounds the lines of sight counts as visible. It is a
+/// share of the scene's extent.
 ///
 /// Points of a source and of an opening are within 4 `NOISE` of their exact places: one each for the
 /// outlines, for cutting, for the test that the plane is between them, and for parts that are not visited
-/// again. A line from the one to the other carries the sum of both on to the end of the box, which is no more
-/// than √3 · 1.02 / `NEAREST` times as far: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
+/// again. A line from the source through the opening magnifies the sum of both errors up to the end of the
+/// box, which is at most √3 · 1.02 / `NEAREST` times as far as the opening: 2 · 4 · 10⁻¹² · 8840 = 7.1·10⁻⁸.
 pub(super) const SLACK: f64 = 1e-7;
-/// Openings that are nearer to the source do not narrow the view: lines from the source through them would
-/// carry roundings too far. Too large: more is kept without need. Too small: `SLACK` has to be larger.
+/// Openings that are nearer to the source than this do not narrow the view, because lines through them would
+/// magnify roundings too much. Too large: more is kept without need. Too small: `SLACK` has to be larger.
 pub(super) const NEAREST: f64 = 2e-4;
 /// The number of times that a portal's visible part may grow before all of the portal counts as visible. Too
-/// small: more is kept than can be seen. Too large: crowded scenes take longer.
+/// small: invisible polygons are kept. Too large: crowded scenes take longer.
 const GROWTHS: u32 = 24;
 
 /// The cells and polygons that may be seen from an eye or from a cell.
@@ -37,25 +37,26 @@ impl Seen {
         Self { cells: vec![false; cells.len()], polygons: vec![false; cells.polygons] }
     }
 
-    /// The number of polygons that may be seen.
+    /// Returns the number of polygons that may be seen.
     pub fn polygon_count(&self) -> usize {
         self.polygons.iter().filter(|&&seen| seen).count()
     }
 
-    /// The number of cells that may be seen.
+    /// Returns the number of cells that may be seen.
     pub fn cell_count(&self) -> usize {
         self.cells.iter().filter(|&&seen| seen).count()
     }
 }
 
 impl Cells {
-    /// The set that an eye may see within a frustum, through portals that are within the portals before them
-    /// (C. Jones 1971; D. Luebke and C. Georges 1995).
+    /// Returns the set that an eye may see within a frustum, through portals that are within the portals
+    /// before them (C. Jones 1971; D. Luebke and C. Georges 1995).
     pub fn seen_from(&self, eye: DVec3, frustum: &Frustum) -> Seen {
         self.seen_with(SLACK, NEAREST, eye, frustum)
     }
 
-    /// The same search with other bounds of roundings, so that tests can show their purpose.
+    /// Runs the search of `seen_from` with other bounds of roundings, so that tests can show the purpose of
+    /// the bounds.
     pub(super) fn seen_with(
         &self,
         slack: f64,
@@ -74,9 +75,9 @@ impl Cells {
         seen
     }
 
-    /// The set that may be seen from some point of a cell: its potentially visible set (J. Airey 1990; S.
-    /// Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is the union of
-    /// the sets that may be seen from each portal.
+    /// Returns the set that may be seen from some point of a cell: its potentially visible set (J. Airey
+    /// 1990; S. Teller and C. Séquin 1991). A line of sight leaves the cell through a portal, so it is the
+    /// union of the sets that may be seen from each portal.
     pub fn seen_from_cell(&self, cell: usize) -> Seen {
         let mut seen = Seen::nothing(self);
         self.look_around(cell, &[], &mut seen);
@@ -150,13 +151,14 @@ impl<'a> Sight<'a> {
         for &(number, side) in &self.cells.cells[cell].portals {
             let Portal { plane, outline, .. } = &self.cells.portals[number];
             let [low, high] = plane.range(self.source);
-            // Lines of sight cross it from the side that the source is on.
+            // Lines of sight cross the portal from the source's side.
             if (if side == 0 { high } else { -low }) <= noise {
                 continue;
             }
             let part = within(outline, planes);
             let (known, growths) = &mut self.parts[number][side];
-            // The whole portal contains every part of it, although rounding may deny this for a thin part.
+            // The whole portal contains every part of the portal, although rounding may deny this for a thin
+            // part.
             let is_whole = *growths > GROWTHS;
             if part.is_empty() || is_whole || holds(known, plane, &part, noise) {
                 continue;
@@ -204,14 +206,14 @@ fn within(outline: &[DVec3], planes: &[Plane]) -> Outline {
     part
 }
 
-/// Planes with a convex source behind and a convex opening in front, each through an edge of one
-/// and a corner of the other: lines from the source through the opening stay in front of them.
+/// Planes with a convex source behind and a convex opening in front. Each goes through an edge of one and a
+/// corner of the other. Behind the opening, lines from the source through it stay in front of these planes.
 fn between(source: &[DVec3], opening: &[DVec3], noise: f64) -> Vec<Plane> {
     let mut planes: Vec<Plane> = Vec::new();
     let mut add = |edge: [DVec3; 2], corner: DVec3| {
         let normal = (edge[1] - edge[0]).cross(corner - edge[0]);
         let size = (edge[1] - edge[0]).length() * (corner - edge[0]).length();
-        // Through three points almost in line there is no plane.
+        // Three points that are almost collinear give no plane.
         if normal.length() < 1e-6 * size || size == 0.0 {
             return;
         }

@@ -1,4 +1,4 @@
-//! The kept polygons, against exact pictures.
+//! Compares the kept polygons with exact pictures.
 
 use super::Cells;
 use super::outline::{Plane, apart, clip, hull, split, without};
@@ -8,7 +8,7 @@ use binspace::internals::SplitMix64;
 use binspace::raster::{NONE, zbuffer};
 use testkit::prelude::*;
 
-/// The polygons that own a pixel in a picture.
+/// The polygons that are visible in a pixel of a picture.
 fn owners(tree: &BspTree, camera: &Camera) -> Vec<usize> {
     let rays = Rays::new(camera, tree.faces()).unwrap();
     let depth = zbuffer(&rays, tree.faces());
@@ -80,9 +80,9 @@ fn nothing_is_left_out_from_the_threshold_of_a_door() {
 }
 
 /// A target behind a wall with an opening, of which only a strip thinner than the slack is visible: it counts
-/// as seen. With the view narrowed by as much instead, it would be left out.
+/// as seen. If the view were narrowed by the slack instead of widened, the target would be left out.
 #[test]
-fn a_strip_along_the_rim_of_an_opening_is_seen() {
+fn a_strip_along_the_boundary_of_an_opening_is_seen() {
     let wall = |x: [f64; 2], z: f64| {
         let y = [-20.0, 20.0];
         [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| dvec3(x[i], y[j], z)).to_vec()
@@ -108,11 +108,10 @@ fn a_strip_along_the_rim_of_an_opening_is_seen() {
 }
 
 /// Eyes so close to the boundary of an opening that its rounding turns the view by more than the slack.
-/// Polygons seen along the boundary are kept. They would not be kept if openings as near as that narrowed the
-/// view.
+/// Polygons seen along the boundary are kept. They would be lost if such near openings narrowed the view.
 #[test]
-fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
-    // Upright rectangles, from one point of the ground to another.
+fn polygons_seen_along_the_boundary_of_an_opening_are_kept() {
+    // An upright rectangle from one point of the ground to another.
     let upright = |from: DVec3, to: DVec3| {
         [(from, -20.0), (to, -20.0), (to, 20.0), (from, 20.0)].map(|(p, z)| p.with_z(z)).to_vec()
     };
@@ -152,10 +151,10 @@ fn what_is_seen_from_the_rim_of_an_opening_is_kept() {
     assert!(shown > 100 && lost > 5, "{lost} of {shown}");
 }
 
-/// A slit of a 4-millionth of the scene, a hundred times the width that counts as closed: the far wall is
-/// seen.
+/// The far wall is visible through a slit of a 4-millionth of the scene, a hundred times the width that
+/// counts as closed.
 #[test]
-fn what_is_seen_through_a_slit_is_kept() {
+fn polygons_seen_through_a_slit_are_kept() {
     let wall = |x: [f64; 2], z: f64| {
         [(0, -20.0), (1, -20.0), (1, 20.0), (0, 20.0)].map(|(i, y)| dvec3(x[i], y, z)).to_vec()
     };
@@ -192,8 +191,8 @@ fn outlines_by_hand() {
     assert!((area(&clip(&square(0.0, 2.0), &slope)) - 3.5).abs() < 1e-12);
     let [front, back] = split(&square(0.0, 2.0), &slope, 1e-9);
     assert!((area(&front) - 3.5).abs() < 1e-12 && (area(&back) - 0.5).abs() < 1e-12);
-    // A window in a wall leaves four pieces; a wall in a window leaves none; a window beside it leaves all of
-    // it.
+    // A wall without a window in it is four pieces. A wall without a larger window is nothing. A wall without
+    // a window beside it is the whole wall.
     let left = without(square(0.0, 4.0), &square(1.0, 2.0), &ground, 1e-9);
     assert_eq!(left.len(), 4);
     assert!((left.iter().map(|piece| area(piece)).sum::<f64>() - 15.0).abs() < 1e-12);

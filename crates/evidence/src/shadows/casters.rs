@@ -4,12 +4,12 @@ use binspace::glam::DVec3;
 use binspace::{BspTree, Frustum};
 
 /// The distance by which the sides of a pyramid are moved outwards, as a share of the cube of the largest
-/// coordinate. A side is a product of three lengths, of which each is off by some 10⁻¹⁵ of that coordinate.
-/// Too large: more faces are tried without effect. Too small: a face that casts a shadow is lost.
+/// coordinate. The equation of a side is a product of three lengths, each with an error of some 10⁻¹⁵ of this
+/// coordinate. Too large: more faces are tried without effect. Too small: a face that casts a shadow is lost.
 const WIDER: f64 = 1e-11;
 
-/// The faces of a tree that have a point between a lamp and a face with the given corners, and some more, in
-/// ascending order.
+/// The faces of a tree that have a point between a lamp and a face with the given corners, in ascending
+/// order. The list may contain some other faces.
 ///
 /// Every caster of a shadow on a face intersects the pyramid between the lamp and the face. The tree's boxes
 /// find the candidates; doubtful ones are kept, so no shadow is lost.

@@ -13,23 +13,23 @@ use binspace::BspTree;
 use binspace::glam::DVec3;
 use binspace::internals::Faces;
 
-/// A convex part of a face, all of whose inner points see the same of a lamp.
+/// A convex part of a face. All its inner points see the same points of a lamp.
 ///
-/// It is bounded by edges of the face, and by planes through a point of the lamp and an edge of a
-/// face that hides it. Corners are exact: each is where two such planes meet the face's own.
+/// It is bounded by edges of the face, and by planes through a point of the lamp and an edge of a face that
+/// hides it. Corners are exact: each is the point where two of these planes meet the plane of the face.
 #[derive(Clone, Debug)]
 pub struct Piece {
-    /// The face that it is a part of.
+    /// The face that the piece is a part of.
     pub face: u32,
-    /// Whether it sees each tested point of the lamp.
+    /// For each tested point of the lamp, whether the piece sees it.
     pub sees: Vec<bool>,
-    /// Whether one face lies between it and all points of the lamp: that face also hides everything between
-    /// these points.
+    /// Whether one face lies between the piece and all points of the lamp. Then this face also hides the lamp
+    /// between these points.
     pub is_umbra: bool,
     corners: Vec<Corner>,
 }
 
-/// A corner, and a plane through the edge from there to the next; it is not the face's own.
+/// A corner, and a plane through the edge from this corner to the next, which is not the plane of the face.
 #[derive(Clone, Debug)]
 struct Corner {
     place: Place,
@@ -37,7 +37,7 @@ struct Corner {
 }
 
 impl Piece {
-    /// Its zone, by the tested points of the lamp.
+    /// Returns the zone of the piece, by the tested points of the lamp.
     pub fn zone(&self) -> Zone {
         match self.sees.iter().filter(|&&sees| sees).count() {
             0 => Zone::Umbra,
@@ -46,17 +46,17 @@ impl Piece {
         }
     }
 
-    /// The corners, exact: coordinates in lattice units, times a weight above 0, and that weight.
+    /// Returns the corners, exact: coordinates in lattice units, times a weight above 0, and that weight.
     pub fn exact_corners(&self) -> impl Iterator<Item = [IBig; 4]> + '_ {
         self.corners.iter().map(|corner| corner.place.homogeneous())
     }
 
-    /// The corners, each coordinate within a few roundings.
+    /// Returns the corners, each coordinate within a few roundings.
     pub fn corners<'a>(&'a self, faces: &'a Faces) -> impl Iterator<Item = DVec3> + 'a {
         self.corners.iter().map(|corner| faces.lattice().to_world(corner.place.rounded()))
     }
 
-    /// The parts behind a plane and in front of it, where they have an area.
+    /// The parts behind a plane and in front of it; `None` for a part without area.
     fn split(self, face: &Plane, by: &Rc<Plane>) -> [Option<Self>; 2] {
         let sides: Vec<Ordering> = self.corners.iter().map(|c| side(by, &c.place)).collect();
         if !sides.contains(&Ordering::Greater) {
@@ -112,7 +112,7 @@ pub struct Pieces {
 }
 
 /// Cuts all faces of a tree along the boundaries of the shadows that points of a lamp cast. A face whose
-/// plane goes through the lamp is in its light edge-on, and sees nothing of it.
+/// plane contains a point of the lamp sees nothing of this point.
 ///
 /// Each face is cut by the shadows of the faces that the tree's boxes find between it and the lamp. Time
 /// grows with these and with the number of pieces. The lamp is rounded to the faces' lattice.
@@ -120,7 +120,8 @@ pub fn pieces(tree: &BspTree, lamp: &[DVec3]) -> Pieces {
     pieces_by(tree.faces(), lamp, |corners, at| casters(tree, corners, at))
 }
 
-/// The pieces; a function finds the possible casters of shadows on a face with some corners from a point.
+/// The pieces. The function `casters` finds the faces that may throw a shadow from a point on a face with the
+/// given corners.
 pub(super) fn pieces_by(
     faces: &Faces,
     lamp: &[DVec3],
@@ -131,7 +132,7 @@ pub(super) fn pieces_by(
     for face in 0..faces.len() as u32 {
         let whole = whole(faces, face, lamp.len());
         let corners: Vec<DVec3> = whole.corners(faces).collect();
-        // A face sees nothing of a lamp in its plane, whatever is before it.
+        // A face sees nothing of a lamp in its plane, even if nothing is between them.
         let is_asked = |number: usize| shades[number][face as usize].is_some();
         let casters = |(number, &at): (usize, &DVec3)| match is_asked(number) {
             true => casters(&corners, at),
@@ -144,8 +145,8 @@ pub(super) fn pieces_by(
     found
 }
 
-/// The pieces of one face. `shades` holds, for each point of the lamp, the shade of each face; `casters`
-/// holds the faces that may cast a shadow on this one.
+/// The pieces of one face. `shades` contains the shade of each face for each point of the lamp. `casters`
+/// contains the faces that may cast a shadow on this face.
 fn pieces_of(
     faces: &Faces,
     whole: Piece,
@@ -165,7 +166,8 @@ fn pieces_of(
             pieces = cut(pieces, &plane, &shade.planes, |piece| piece.sees[number], dim);
         }
     }
-    // A face that hides all of the lamp hides each point of it, except the points that the face sees edge-on.
+    // A face that hides the whole lamp hides each point of the lamp, except the points that see the face
+    // edge-on.
     let asked = (0..shades.len()).filter(|&number| shades[number][face as usize].is_some());
     let lists: Vec<&Vec<u32>> = asked.map(|number| &casters[number]).collect();
     let Some((first, others)) = lists.split_first() else { return pieces };
@@ -183,7 +185,7 @@ fn pieces_of(
     pieces
 }
 
-/// Cuts the part in front of all of some planes out of pieces, and marks it.
+/// Cuts out of pieces the part that is in front of all given planes, and marks it.
 fn cut(
     pieces: Vec<Piece>,
     face: &Plane,
@@ -210,7 +212,7 @@ fn cut(
                 result.extend(outside);
                 result.push(inside);
             }
-            // Nothing is in front of all: it need not be cut.
+            // No part is in front of all planes, so the piece need not be cut.
             None => result.push(piece),
         }
     }

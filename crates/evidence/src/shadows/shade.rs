@@ -16,7 +16,7 @@ pub(super) struct Shade {
 }
 
 impl Shade {
-    /// The regions of all faces; `None` for faces whose planes go through the point, as they hide nothing.
+    /// The regions of all faces; `None` for faces whose planes contain the point, because they hide nothing.
     pub(super) fn all(faces: &Faces, from: DVec3) -> Vec<Option<Self>> {
         let eye = place::eye(&Eye::new(Viewpoint::Eye(from), faces.lattice()));
         (0..faces.len() as u32).map(|face| Self::of(faces, face, &eye)).collect()

@@ -1,4 +1,4 @@
-//! The faces skipped on the way to pieces, and the number of the others.
+//! The faces that the search for casters skips, and the number of faces that it tests.
 
 use super::pieces::pieces_by;
 use super::{Piece, Pieces, courtyard, lamp, pieces};
@@ -24,9 +24,9 @@ fn tree(scene: &Scene) -> BspTree {
     BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons()).unwrap()
 }
 
-/// By the boxes and by trying every face, the pieces are the same, exactly.
+/// Trying every face as a caster gives exactly the same pieces as the casters that the boxes find.
 #[test]
-fn what_is_skipped_throws_no_shadow() {
+fn skipped_faces_throw_no_shadow() {
     let over = [DVec3::new(0.3, 0.2, 4.0), DVec3::new(0.1, -0.2, 4.0)];
     let low = [DVec3::new(100.0, 90.0, 40.0), DVec3::new(130.0, 70.0, 30.0)];
     for (scene, lamp) in
@@ -49,7 +49,7 @@ fn what_is_skipped_throws_no_shadow() {
 
 /// All posts throw shadows on the floor, and few on one another.
 #[test]
-fn the_work_grows_with_the_shadows_and_not_with_the_square_of_the_faces() {
+fn the_work_is_not_quadratic_in_the_faces() {
     let tried = [2, 4, 8].map(|side| {
         let tree = tree(&posts(side));
         let sun = DVec3::new(-40_000.0, -23_000.0, 52_000.0);

@@ -38,7 +38,7 @@ fn the_walls_stand_as_the_tree_says() {
     let [left, right] = ends('D');
     assert_eq!(side('B', right), side('B', EYE_OF_EIGHT));
     assert_eq!(side('B', left), -side('B', right), "B's line cuts D");
-    // In front of the line of D's right piece, and so are E and H.
+    // The eye is in front of the line of D's right piece, and so are E and H.
     assert_eq!(side('D', EYE_OF_EIGHT), side('D', ends('H')[0]));
 }
 
@@ -74,7 +74,7 @@ fn no_piece_of_the_eight_walls_hides_a_later_one() {
 }
 
 #[test]
-fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
+fn a_grid_of_six_by_six_matches_hand_computation() {
     let both = six_by_six();
     let camera = six_by_six_camera().unwrap();
     let (faces, _) = Faces::new(both, Some(0.0)).unwrap();
@@ -87,7 +87,7 @@ fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
         depths[6 * row..][..6].iter().map(text).collect::<Vec<_>>().join(" ")
     };
     for (row, [second, shown, names]) in GRID_OF_SIX.into_iter().enumerate() {
-        // Half of a scene has its own grid, which its depths refer to.
+        // Half of a scene has its own grid, and its depths refer to this grid.
         assert_eq!(cells(truth.depths().collect(), row), shown);
         let own: Vec<&str> = second.split(' ').collect();
         for (column, cell) in own.into_iter().enumerate() {
@@ -106,7 +106,7 @@ fn a_grid_of_six_by_six_is_what_was_worked_by_hand() {
     let right = truth.image().faces().to_vec();
     assert_eq!(picture(&Newell::DEFAULT), right);
     assert_eq!(picture(&DepthBuffer::new(DepthFormat::Integer(16))), right);
-    // B is nearer at the left alone: no order of whole triangles is right.
+    // B is nearer only at the left, so no order of whole triangles is right.
     assert_ne!(picture(&InputOrder), right);
     assert_ne!(picture(&Centroid), right);
     let tree = BspTree::build(both).unwrap();

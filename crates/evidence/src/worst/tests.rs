@@ -55,14 +55,14 @@ fn every_tree_of_own_planes_has_the_fragments_of_the_formula() {
     assert_eq!(counted, 54);
 }
 
-/// Sheets by another count: of cells, as runs of signs. Each region between the sheets has its own
-/// row of sides, all of which occur at points near the corners of the arrangement.
+/// Counts the cells between sheets in another way. Each cell has its own row of signs: its sides of all
+/// sheets. All rows occur at points near the corners of the arrangement.
 #[test]
 fn sheets_have_as_many_cells_as_rows_of_signs() {
     for count in 1..9u32 {
         let roots: Vec<i64> = (0..i64::from(count)).map(|k| 8 * k).collect();
-        // A cubic's sign at the roots: by where its own three roots are among them, and complex
-        // pairs of roots change no sign.
+        // The signs of a cubic at the roots of the sheets are determined by the places of its three real
+        // roots among them. A pair of complex roots changes no sign.
         let gaps: Vec<i64> = (0..=i64::from(count)).map(|k| 8 * k - 4).collect();
         let signs = |own: &[i64]| -> Vec<bool> {
             roots.iter().map(|t| own.iter().map(|r| t - r).product::<i64>() > 0).collect()

@@ -15,8 +15,8 @@ use testkit::scenes::polygons;
 #[derive(Debug, Default)]
 struct Figures {
     vertices: usize,
-    /// For the exact tolerance, and for it rounded down to an integer in the unit of each plane's equation:
-    /// the library's figure is one of these or in between.
+    /// The count for the exact tolerance, and the count for the tolerance rounded down to an integer in the
+    /// unit of each plane's equation. The library's count is one of these or between them.
     misplaced: [usize; 2],
     undefined: usize,
     torn: usize,
@@ -24,7 +24,7 @@ struct Figures {
     drift_mean: f64,
 }
 
-/// A vertex where its definition puts it, and whether it is on a wrong side.
+/// The exact position of a vertex, and whether it is on a wrong side.
 struct Placed {
     point: Point,
     misplaced: [bool; 2],
@@ -120,7 +120,7 @@ fn wrong_sides(vertex: &Placed, by: &Plane, side: Side, limits: &[Rational; 2]) 
     [&limits[1], &limits[0]].map(|limit| size > *limit)
 }
 
-/// Whether the areas of a face's pieces do not add up to its own.
+/// Whether the areas of a face's pieces do not add up to the face's area.
 fn is_torn(tree: &Tree, id: u32, face: &Face, pieces: &[Vec<Option<Placed>>]) -> bool {
     let axis = model::main_axis(&face.plane);
     let own = rational::area(&face.corners)[axis].clone();
@@ -144,7 +144,7 @@ struct Tally {
     trees: usize,
     vertices: usize,
     misplaced: usize,
-    /// Trees with vertices that one limit calls misplaced, and the other does not.
+    /// Trees with vertices that are misplaced by one limit and not by the other.
     unclear: usize,
     undefined: usize,
     torn: usize,
@@ -202,7 +202,8 @@ impl Tally {
     }
 }
 
-/// The library's tree, which misplaces nothing and keeps within three roundings, by rationals.
+/// Asserts in rationals that the library's tree misplaces nothing, and that its vertices are within three
+/// roundings.
 fn assert_exact(options: BuildOptions, polygons: &[Vec<DVec3>]) -> Result<(), String> {
     let (faces, _) = Faces::new(polygons, options.tolerance).map_err(|e| e.to_string())?;
     let tree = tree_of(&options, &Tuning::DEFAULT, faces, Preparation::default())

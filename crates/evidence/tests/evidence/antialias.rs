@@ -64,7 +64,8 @@ fn triangle(dice: &mut Dice) -> [[i64; 2]; 3] {
     }
 }
 
-/// The share of a pixel that three triangles own, the first on top: by inclusion and exclusion.
+/// The shares of a pixel in which each of three triangles is visible, with the first on top: by inclusion and
+/// exclusion.
 fn owned(pixel: &[Point], [a, b, c]: &[Vec<Point>; 3]) -> [f64; 3] {
     let [a, b, c] = [a, b, c].map(|triangle| common(triangle, pixel));
     let (ab, ac, bc) = (common(&a, &b), common(&a, &c), common(&b, &c));

@@ -33,7 +33,7 @@ fn known_faults_of_pictures_are_found() {
     let right = judged(&[0, 1, 2], Outline::Whole);
     assert_eq!((right.covered, right.wrong(), right.depth_max), (1600, 0, 0.0));
 
-    // The lowest square on top: all wrong, by 1 of an extent of 2.
+    // The lowest square is painted on top: all pixels are wrong, by 1 of an extent of 2.
     let upside_down = judged(&[2, 1, 0], Outline::Whole);
     assert_eq!((upside_down.wrong_order, upside_down.wrong()), (1600, 1600));
     assert!((upside_down.depth_max - 0.5).abs() < 1e-12, "{upside_down:?}");
@@ -51,7 +51,7 @@ fn known_faults_of_pictures_are_found() {
     let halved = judged(&[0, 1, 2], Outline::Vertices(&half));
     assert_eq!((halved.holes, halved.wrong()), (800, 800));
 
-    // Half as high again: pixels above and below are painted without need.
+    // Half as high again: pixels above and below are painted by mistake.
     let high = faces.corners(0).to_vec();
     let high: Vec<[f64; 3]> = high.into_iter().map(|[x, y, z]| [x, 1.5 * y, z]).collect();
     let spilt = judged(&[0, 1, 2], Outline::Vertices(&high));
@@ -131,8 +131,8 @@ fn the_exact_tree_misplaces_and_tears_nothing_in_any_family() {
 fn crossing_triangles_within_the_epsilon_are_put_on_wrong_planes() {
     let scene = Family::Angle.scene(1e-9, 1);
     let found = accuracy_with(1e-6, &scene);
-    // Six triangles on one plane: all corners of all triangles except the plane's own, without the corners
-    // that happen to be on it.
+    // Six triangles are put on one plane. All corners of the other triangles are misplaced, except corners
+    // that happen to be on the plane.
     assert!((10..=15).contains(&found.misplaced), "{found:?}");
     assert_eq!((found.vertices, found.torn), (18, 0), "{found:?}");
 }

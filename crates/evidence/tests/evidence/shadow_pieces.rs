@@ -16,13 +16,14 @@ fn whole(point: [f64; 3]) -> Point {
     })
 }
 
-/// The side of a point given by multiples of its coordinates, and the factor.
+/// The side of a plane on which a point lies. The point is given by its coordinates times a factor, and this
+/// factor.
 fn side(plane: &Plane<IBig>, [point @ .., factor]: &[IBig; 4]) -> Ordering {
     (scalar(&plane.normal, point) - &plane.offset * factor).cmp(&IBig::ZERO)
 }
 
-/// A face, as seen from a point of the lamp: its plane, the lamp's side of it, and the planes through
-/// the lamp and its edges.
+/// A face, as seen from a point of the lamp: the face's plane, the side on which the lamp is, and the planes
+/// through the lamp and the face's edges.
 struct Screen {
     plane: Plane<IBig>,
     lamp: Ordering,
@@ -52,7 +53,7 @@ impl Judge {
         self.0[face as usize].lamp == Ordering::Equal
     }
 
-    /// Whether a face has a point between this one and the lamp.
+    /// Whether a face has a point between this point and the lamp.
     fn hides(&self, point: &[IBig; 4]) -> bool {
         self.0.iter().any(|Screen { plane, lamp, side_planes }| {
             if *lamp == Ordering::Equal || side(plane, point) != lamp.reverse() {
@@ -86,7 +87,7 @@ fn compare(scene: &Scene, lamp: &[DVec3], pieces: &[Piece], count: usize) -> [us
         let number = (dice.roll() % pieces.len() as u64) as usize;
         let (piece, point) = (&pieces[number], within(&corners[number], &mut dice));
         for (judge, sees) in judges.iter().zip(&piece.sees) {
-            // A point in the plane of the lamp sees nothing of it.
+            // A point in the plane of the lamp does not see the lamp.
             if judge.is_edge_on(piece.face) {
                 assert!(!sees);
                 continue;
@@ -122,8 +123,9 @@ fn triangles() -> (Scene, Vec<DVec3>) {
     (scene::random_triangles(14, 5), lamp.to_vec())
 }
 
-/// A wall in the plane of two corners of the lamp. It hides the other two from places beside it on the floor,
-/// and a plate hides the first two. So no corner is seen, but the lamp between them is.
+/// A wall in the plane of two corners of the lamp. It hides the other two corners from places beside it on
+/// the floor, and a plate hides the first two. So no corner is visible from there, but the lamp between the
+/// corners is.
 fn edge_on() -> Scene {
     let mut scene = Scene::new("edge on", DVec3::Z);
     let level = |x: [f64; 2], y: [f64; 2], z: f64| {
@@ -186,7 +188,7 @@ fn the_pieces_of_a_face_have_its_area() {
                 let own = pieces.iter().filter(|piece| piece.face == face);
                 let areas = own.map(|piece| area(&piece.exact_corners().collect::<Vec<_>>(), axis));
                 let areas: Vec<RBig> = areas.collect();
-                // All have the face's orientation, so none is subtracted.
+                // All pieces have the face's orientation, so no area is subtracted.
                 let whole = area(&corners, axis);
                 assert!(areas.iter().all(|part| part.signum() == whole.signum()));
                 assert_eq!(testkit::rational::total(areas), whole, "face {face}");
@@ -203,7 +205,8 @@ fn a_certain_umbra_is_hidden_from_all_between() {
     assert!(by_several > 0);
 }
 
-/// The numbers of pieces that are in the umbra for certain, and that see no corner of the lamp but are not.
+/// The number of pieces that are certainly in the umbra, and of pieces that see no corner of the lamp but are
+/// not certainly in the umbra.
 fn umbra(scene: &Scene) -> [usize; 2] {
     let (faces, _) = Faces::new(scene.polygons(), Some(0.0)).unwrap();
     let pieces = cut(scene, &lamp(2));

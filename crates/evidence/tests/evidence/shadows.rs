@@ -25,14 +25,14 @@ impl Wall {
     }
 }
 
-/// Whether a polygon has a point between two that are not both in its plane.
+/// Whether a polygon has a point between two points that are not both in the polygon's plane.
 fn blocks(Wall { corners, plane }: &Wall, a: Point, b: Point) -> bool {
     let [at_a, at_b] = [a, b].map(|p| plane.at(&p));
     assert!(at_a != 0 || at_b != 0, "no sight line is in a plane");
     if at_a.signum() * at_b.signum() >= 0 {
         return false;
     }
-    // They meet at the point met / by.
+    // The line and the plane meet at the point `met` / `by`.
     let (by, sign) = (at_a - at_b, (at_a - at_b).signum());
     let met: Point = std::array::from_fn(|i| a[i] * by + at_a * (b[i] - a[i]));
     (0..corners.len()).all(|k| {
@@ -50,7 +50,7 @@ fn setting() -> (Scene, BspTree, Vec<Wall>) {
     (scene, tree, walls)
 }
 
-/// A point of a surface in whole numbers; often on a boundary or in line with one.
+/// A point of a surface in whole numbers, often on a boundary or in line with a boundary.
 fn point(scene: &Scene, dice: &mut Dice) -> DVec3 {
     // The floor is the first polygon, and half of the points are on it.
     let polygon = match dice.roll() % 2 {
@@ -124,7 +124,7 @@ fn zones_agree_with_many_more_points_except_near_a_boundary() {
         }
         for (differing, lamp) in differing.iter_mut().zip([&corners, &some]) {
             let found = zone(&tree, point, lamp);
-            // Fewer points of the lamp see less of it, never anything else.
+            // With fewer points, only a penumbra may be taken for another zone.
             assert!(found == truth || truth == Zone::Penumbra, "{point}");
             *differing += usize::from(found != truth);
         }
@@ -135,7 +135,7 @@ fn zones_agree_with_many_more_points_except_near_a_boundary() {
     assert_eq!(point_lamp(&tree), [Zone::Lit, Zone::Umbra]);
 }
 
-/// Beside the table, and under it.
+/// The zones of a point beside the table and of a point under the table.
 fn point_lamp(tree: &BspTree) -> [Zone; 2] {
     let lamp = [dvec3(2751.0, 1951.0, 2999.0)];
     [[3900.0, 500.0], [2750.0, 1950.0]].map(|[x, y]| zone(tree, dvec3(x, y, 0.0), &lamp))

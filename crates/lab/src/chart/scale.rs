@@ -10,7 +10,7 @@ pub(super) struct Scale {
     pub(super) low: f64,
     pub(super) high: f64,
     pub(super) ticks: Vec<f64>,
-    /// Whether it runs from large to small.
+    /// Whether the axis runs from large to small.
     pub(super) falls: bool,
 }
 
@@ -54,7 +54,7 @@ impl Scale {
     }
 }
 
-/// As in the plotting library: from exponents to pixels.
+/// Maps exponents to pixels, as the plotting library requires.
 impl Ranged for Scale {
     type FormatOption = DefaultFormatting;
     type ValueType = f64;

@@ -22,10 +22,10 @@ const SIDES: [u32; 4] = [1, 2, 4, 8];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A pixel is a square, not a point. Its colour should be the mean of the surfaces that are \
-         visible in it. One ray per pixel gives steps along edges, and misses details thinner than a \
-         pixel. The visibility map of the tree consists of convex cells between exact lines. Clipped to \
-         a pixel, the areas of these cells are the weights of the mean (Catmull, A hidden-surface \
+        "A pixel is a square, not a point. Its colour should be the mean of the surfaces that are visible in \
+         it. One ray per pixel gives steps along edges, and misses details thinner than a pixel. The \
+         visibility map of the tree consists of convex cells between exact lines. If the cells are clipped \
+         to a pixel, the areas of their parts are the weights of the mean (Catmull, A hidden-surface \
          algorithm with anti-aliasing, 1978). Several rays per pixel approximate the mean. Carpenter's \
          A-buffer (1984) stores a mask of such samples for each piece.",
     );
@@ -103,11 +103,11 @@ fn samples(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(),
         shares.len() > 1 || shares.first().is_some_and(|share| share.1 < 1.0 - 1e-9)
     });
     chapter.text(format!(
-        "{} of {} pixels contain an edge. The areas in all pixels sum to {sum:.6} pixels, and the areas \
-         of the visible polygons to {whole:.6}. Channels range from 0 to 1, and are blended without a \
-         gamma correction. If the number of rays along each side of a pixel is doubled, the error is \
-         about halved, at four times the work. The tests compare the areas with rational numbers: they \
-         agree to 1e-9 of a pixel.",
+        "{} of {} pixels contain an edge. The areas in all pixels sum to {sum:.6} pixels, and the areas of \
+         the visible polygons to {whole:.6}. Channels range from 0 to 1, and are blended without a gamma \
+         correction. Twice as many rays along each side of a pixel are four times the work, and about halve \
+         the error. The tests compute the areas again in rational numbers: the difference is at most 1e-9 of \
+         a pixel.",
         parted.count(),
         SIZE[0] * SIZE[1],
     ));
@@ -147,13 +147,14 @@ fn seams(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(), F
     chapter.text(format!(
         "Painting programs use the covered share of a pixel as opacity. Suppose that two pieces of one \
          surface meet in an edge, and each covers half of a pixel. The first piece leaves half of the \
-         background, and the second leaves half of that. A quarter of the background shines through, \
-         because a share does not say which part of the pixel is covered. The first picture is a fan of \
-         {} triangles of one colour that fills the picture. {seamed} pixels ({}) have another colour, by \
-         up to {flat_most:.2}; by areas, {steady} have. In the scene above, hidden surfaces also shine \
-         through along edges. {crossed} pixels ({}) differ from the areas, by up to {most:.2}, with a \
-         root mean square error of {mean:.4}. The splits of a tree add such edges, so a painter must not \
-         antialias them. It can paint by samples, or fill the visible parts by their areas.",
+         background visible, and the second piece leaves half of this half. So a quarter of the background \
+         shines through, because a share does not say which part of the pixel is covered. The first picture \
+         is a fan of {} triangles of one colour that fills the picture. {seamed} pixels ({}) have a wrong \
+         colour, with an error of up to {flat_most:.2}. If areas are the weights, {steady} pixels have a \
+         wrong colour. In the scene above, hidden surfaces also shine through along edges. {crossed} pixels \
+         ({}) differ from the areas, by up to {most:.2}, with a root mean square error of {mean:.4}. The \
+         splits of a tree add such edges, so a painter must not antialias them. Instead, it can use several \
+         rays per pixel, or weight the visible parts by their areas.",
         fan.len(),
         percent(seamed as f64, all),
         percent(crossed as f64, all),

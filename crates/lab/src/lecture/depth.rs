@@ -115,11 +115,11 @@ fn conventions(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let head = ["nearer is", "test", "cleared to", "writes", "wrong pixels"];
     chapter.table(head, rows);
     chapter.text(format!(
-        "Small numbers may be near, or large numbers, if the test and the clear value agree with the \
-         choice. If the test is reversed, the furthest surface shows. If writes are off, the last \
-         polygon shows. If the buffer is cleared to the near end, no polygon passes the test. LESS and \
-         LEQUAL differ only where depths are equal: of two coincident polygons, LESS shows the first and \
-         LEQUAL the last. {} pixels show a polygon.",
+        "Either small or large numbers can mean near. The test and the clear value must agree with this \
+         choice. If the test is reversed, the furthest surface shows. If writes are off, the last polygon \
+         shows. If the buffer is cleared to the near end, no polygon passes the test. LESS and LEQUAL differ \
+         only where depths are equal: of two coincident polygons, LESS shows the first and LEQUAL the last. \
+         {} pixels show a polygon.",
         truth.covered()
     ));
     Ok(())
@@ -139,7 +139,7 @@ fn depth_maps(chapter: &mut Chapter, room: &Room) {
         .pictures([map(Bright::Far, "lighter is further"), map(Bright::Near, "lighter is nearer")]);
 }
 
-/// Translucent polygons over opaque ones.
+/// Translucent polygons over opaque polygons.
 fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     let mut sorted = Vec::new();
     room.tree.back_to_front_into(room.camera.viewpoint(), &mut sorted);
@@ -252,12 +252,12 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
     }
     chapter.heading("Textures in perspective");
     chapter.text(
-        "Colours and texture coordinates are linear on a polygon, but not on its projection. The \
-         quotients attribute / w and 1 / w are linear on the projection. Dividing one by the other gives \
-         the attribute in each pixel (Heckbert & Moreton 1991). A painter needs this too. The splits of \
-         the tree create vertices, whose attributes are weighted sums of the attributes of the corners. \
-         The weights are exact. If the attributes themselves are interpolated on the projection, squares \
-         bend, and they bend differently on each side of a split.",
+        "Colours and texture coordinates are linear on a polygon, but not on its projection. The quotients \
+         attribute / w and 1 / w are linear on the projection. Dividing one by the other gives the attribute \
+         in each pixel (Heckbert & Moreton 1991). A painter needs this division too. The splits of the tree \
+         create vertices, whose attributes are weighted sums of the attributes of the corners. The weights \
+         are exact. If the attributes themselves are interpolated on the projection, squares bend, and they \
+         bend differently on each side of a split.",
     );
     chapter.pictures(pictures);
     chapter.table(

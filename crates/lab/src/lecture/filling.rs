@@ -75,11 +75,11 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     chapter.heading("Scan conversion");
     chapter.text(
         "Scan conversion finds the pixels that a polygon covers, and its depth in each of them. Edge \
-         functions decide each pixel separately. The other methods walk. Along an edge, x grows by 1/m \
-         from one scanline to the next. From one pixel to the next, z grows by -A/C. A trapezoid lies \
-         between the heights of two vertices. Along its left edge, z grows by (A/m + B)/C, or by B/C if \
-         the edge is vertical. Integer edges store x as a number of pixels and a remainder, as Bresenham \
-         (1965) does for lines. Their vertices are rounded to 1/256 of a pixel.",
+         functions decide each pixel separately. The other methods walk along edges and scanlines. Along an \
+         edge, x grows by 1/m from one scanline to the next. From one pixel to the next, z grows by -A/C. A \
+         trapezoid lies between the heights of two vertices. Along its left edge, z grows by (A/m + B)/C, or \
+         by B/C if the edge is vertical. Integer edges store x as a number of pixels and a remainder, as \
+         Bresenham (1965) does for lines. Their vertices are rounded to 1/256 of a pixel.",
     );
     chapter.pictures(pictures);
     chapter.table(["walk", "stored", "wrong order", "holes", "spills"], rows);

@@ -42,11 +42,11 @@ fn partial_order(chapter: &mut Chapter) -> Result<(), Failure> {
          Then one of the polygons must be split.",
     );
     chapter.text(
-        "The table decides every pair in exact arithmetic. One polygon is clipped to the cone of rays \
-         through the other, and the rest is compared with the plane of the other. \"Fewest to split\" is \
-         the smallest number of polygons whose removal breaks all cycles. It is found by trying all \
-         subsets, which is expensive. Newell's algorithm and the tree therefore split more polygons. The \
-         splits of the tree serve all eyes.",
+        "The table decides every pair in exact arithmetic. For each pair, one polygon is clipped to the cone \
+         of rays from the eye through the other polygon. The clipped part is then compared with the plane of \
+         the other polygon. \"Fewest to split\" is the smallest number of polygons whose removal breaks all \
+         cycles. It is found by trying all subsets, which is expensive. Newell's algorithm and the tree \
+         therefore split more polygons. The splits of the tree serve all eyes.",
     );
     let few = Family::Penetration.scene(8.0, 1);
     let crowd = Family::Penetration.scene(14.0, 1);

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use binspace_evidence::{EYE_OF_EIGHT, eight};
 
-/// Pixels of a unit of the plan.
+/// The length of a unit of the plan, in pixels.
 const UNIT: f64 = 32.0;
 /// The plan's width and depth.
 const EXTENT: [f64; 2] = [11.0, 13.0];
 
-/// The walls with their letters, the lines of A, B and C as far as they divide, and the eye.
+/// Draws the walls with their letters, the lines that divide them, and the eye.
 pub(super) fn of_eight() -> String {
     let [width, height] = EXTENT.map(|c| c * UNIT);
     let mut svg = format!(
@@ -22,7 +22,8 @@ pub(super) fn of_eight() -> String {
         let _ = write!(svg, "<path d=\"M{a} {b}L{c} {d}\" fill=\"none\" {look}/>");
     };
     let dashed = "stroke=\"#999\" stroke-dasharray=\"5 5\"";
-    // A's line divides all, C's the part beyond it, B's and then D's and E's the part on this side.
+    // The line of A divides all walls. The line of C divides the part beyond it. The lines of B, D and E
+    // divide the part on the eye's side.
     line([0.0, 8.0], [11.0, 8.0], dashed);
     line([6.0, 8.0], [6.0, 12.5], dashed);
     line([4.0, 8.0], [4.0, 0.0], dashed);
@@ -43,7 +44,7 @@ pub(super) fn of_eight() -> String {
             text([2.7, 4.2], "D₁");
             text([5.0, 4.2], "D₂");
         } else {
-            // Below a rising wall, above a falling or level one.
+            // The letter is below a rising wall, and above a falling or level wall.
             let (middle, along) = ((a + b) * 0.5, b - a);
             let below = if along.x * along.y > 0.0 { 0.75 } else { 0.0 };
             text([middle.x + 0.15, middle.y + 0.2 - below], &letter.to_string());

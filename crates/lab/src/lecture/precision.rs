@@ -107,12 +107,12 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
         formats.map(row),
     );
     chapter.text(
-        "The error of z grows with the square of the depth: half a step is w² (f - n) / (2 f n) / \
-         (2^bits - 1). An f32 that holds z is no better than 24 bits, because most f32 numbers lie near \
-         0, where z does not need them. The earlier stages of the pipeline also round, so the error of \
-         the f32 exceeds half a step. If 1 - z is stored, the uneven steps of z and of f32 almost cancel \
-         (Lapidous & Jiao 1999). The error of a w-buffer is the same length everywhere. Relative to the \
-         depth, it is small far away and large near the eye.",
+        "The error of z grows with the square of the depth: half a step is w² (f - n) / (2 f n) / (2^bits - \
+         1). An f32 that holds z is no better than 24 bits, because most f32 numbers lie near 0, where z \
+         does not need them. The earlier stages of the pipeline also round, so the error of the f32 exceeds \
+         half a step. If 1 - z is stored, the uneven steps of z and of f32 almost cancel (Lapidous & Jiao \
+         1999). The error of a w-buffer is the same at all depths. Relative to the depth, it is small far \
+         away and large near the eye.",
     );
     Ok(())
 }
@@ -122,12 +122,12 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Z-fighting");
     chapter.text(
         "Two sheets fill the picture and recede from depth 20 (bottom) to 190 (top). Along each ray, the \
-         orange sheet is further away than the blue one, by a fixed share of the depth. So no orange \
-         should be visible. But where a buffer stores the same number for both sheets, the sheet that \
-         was drawn first stays, and that is the orange one. This happens only where the distance of the \
-         sheets is less than one step of the buffer. Where the distance is a share s of a step, it \
-         happens in 1 − s of the pixels. So both the depths at which z-fighting occurs and the \
-         number of wrong pixels can be predicted.",
+         orange sheet is further away than the blue one, by a fixed share of the depth. So no orange should \
+         be visible. But where a buffer stores the same number for both sheets, the sheet that was drawn \
+         first stays, and that is the orange one. This happens only where the distance of the sheets is less \
+         than one step of the buffer. Where the distance is s steps, with s below 1, it happens in a share 1 \
+         − s of the pixels. So both the depths at which z-fighting occurs and the number of wrong pixels can \
+         be predicted.",
     );
     let (coarse, fine) = (Sheets::new(6e-4, SIZE), Sheets::new(2.4e-6, SIZE));
     let nearest = Sheets::new(5e-5, SIZE);
@@ -176,14 +176,14 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "For z, the fight begins at depth f n (2^bits - 1) / (f - n) times the share, and continues at \
-         all greater depths. In a w-buffer, the fight ends at some depth instead. Integer formats fight \
-         at the depths that their steps predict. For an f32, the computation before the number is stored \
-         rounds as much as the f32 itself, so the fight begins earlier. The column \"predicted with \
-         rounding\" includes this: it uses the planes that the buffer computes, and bounds the rounding \
-         in each pixel. For each format, the tests check that no pixel is wrong at other depths. The \
-         tree compares no depths. It decides once, exactly, on which side of one sheet the other lies. \
-         So no pixel is wrong, however small the distance.",
+        "For z, the fight begins at depth g f n (2^bits - 1) / (f - n), where g is the share by which the \
+         sheets are apart. It continues at all greater depths. In a w-buffer, the fight ends at some depth \
+         instead. Integer formats fight at the depths that their steps predict. For an f32, the computation \
+         before the number is stored rounds as much as the f32 itself, so the fight begins earlier. The \
+         column \"predicted with rounding\" includes this rounding: it uses the planes that the buffer \
+         computes, and bounds of the rounding in each pixel. For each format, the tests check that no pixel \
+         is wrong at other depths. The tree compares no depths. It decides once, exactly, on which side of \
+         one sheet the other lies. So no pixel is wrong, however small the distance.",
     );
     Ok(())
 }

@@ -21,15 +21,15 @@ const WHITE: f64 = 0.035;
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Light between surfaces");
     chapter.text(
-        "A diffuse surface lights every surface that it sees. A scene divided into patches gives a system \
-         of linear equations. The form factor from one patch to another is the share of its light that \
-         arrives there (Goral, Torrance, Greenberg & Battaile, Modeling the Interaction of Light Between \
-         Diffuse Surfaces, 1984). The form factor from a point to a whole patch has a closed form \
-         (Lambert, 1760). The tree finds the visible share of the patch, by exact sight lines between \
-         pairs of points. Each sight line is weighted by the light that it carries. Points on surfaces \
-         are rounded, so each sight line ends a millionth of its length before the surface. In a closed \
-         room, the form factors of a patch sum to 1. Here a black wall closes the open side, so that \
-         escaping light is counted too.",
+        "A diffuse surface lights every surface that it sees. A scene divided into patches gives a system of \
+         linear equations. The form factor from one patch to another is the share of the first patch's light \
+         that arrives at the second (Goral, Torrance, Greenberg & Battaile, Modeling the Interaction of \
+         Light Between Diffuse Surfaces, 1984). The form factor from a point to a whole patch has a closed \
+         form (Lambert, 1760). The tree finds the visible share of the patch, by exact sight lines between \
+         pairs of points. Each sight line is weighted by the light that it carries. Points on surfaces are \
+         rounded, so each sight line ends a millionth of its length before the surface. In a closed room, \
+         the form factors of a patch sum to 1. Here a black wall closes the open side, so that escaping \
+         light is counted too.",
     );
     published(chapter)?;
     let mut rows = Vec::new();
@@ -46,9 +46,9 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         ]);
     }
     chapter.text(
-        "The next test is the Cornell box, where blocks hide some sight lines. All light of the lamp \
-         must arrive at the surfaces or escape. The last column is the difference for one set of random \
-         points; the tests take the mean of six sets.",
+        "The next test is the Cornell box, where blocks hide some sight lines. All light of the lamp must \
+         arrive at the surfaces or escape. The last column is the light that is missing or surplus for one \
+         set of random points; the tests take the mean of six sets.",
     );
     chapter.table(
         [

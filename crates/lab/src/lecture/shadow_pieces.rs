@@ -10,8 +10,8 @@ use super::chapter::{Chapter, Picture, failure, percent};
 use super::shadows::{SIZE, colour};
 use binspace_cli::failure::Failure;
 
-/// Writes the part of the chapter on pieces. `by_lines` contains the zones of the pixels, found by sight lines
-/// to the corners of the lamp.
+/// Writes the part of the chapter on pieces. `by_lines` contains the zones of the pixels, found by sight
+/// lines to the corners of the lamp.
 pub(super) fn fill(
     chapter: &mut Chapter,
     tree: &BspTree,
@@ -21,14 +21,14 @@ pub(super) fn fill(
 ) -> Result<(), Failure> {
     chapter.heading("Shadows as pieces of polygons");
     chapter.text(
-        "A point lamp and a convex polygon span a cone. The part of the cone behind the polygon is in \
-         its shadow (F. Crow, \"Shadow algorithms for computer graphics\", 1977). The planes of these \
-         cones cut each polygon into convex pieces. For one point of light, each piece is lit as a whole or dark as a whole. A \
-         rectangular lamp is treated as its four corners. Only some polygons can throw a shadow on a \
-         given polygon: they intersect the pyramid between it and the lamp. A query to the tree finds \
-         them. The pieces do not depend on pixels or on an eye, so they are computed once (P. Atherton, \
-         K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). The corners of pieces are \
-         stored exactly, as points where three planes meet.",
+        "A point lamp and a convex polygon span a cone. The part of the cone behind the polygon is in its \
+         shadow (F. Crow, \"Shadow algorithms for computer graphics\", 1977). The planes of these cones cut \
+         each polygon into convex pieces. For one point of light, each piece is lit as a whole or dark as a \
+         whole. A rectangular lamp is treated as its four corners. A polygon can throw a shadow on a second \
+         polygon only if it intersects the pyramid between the second polygon and the lamp. A query to the \
+         tree finds these polygons. The pieces do not depend on pixels or on an eye, so they are computed \
+         once (P. Atherton, K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). The corners of \
+         pieces are stored exactly, as points where three planes meet.",
     );
     let faces = tree.faces();
     let lamps = [("a point", middle.to_vec()), ("a rectangle, by its corners", lamp(2))];
@@ -55,11 +55,11 @@ pub(super) fn fill(
     ];
     chapter.table(head, rows);
     chapter.text(format!(
-        "The shares are of the area of all polygons. The areas of the pieces of each polygon sum to its \
-         area, in rational numbers. In the tests, rational numbers decide a million sight lines from \
-         points in pieces to the corners of the lamp: all agree with the zone of the piece. Here, {} of \
-         {} pixels show another zone than the sight lines above. The reason is that those sight lines \
-         start from points that are rounded to whole numbers.",
+        "The shares refer to the total area of all polygons. The areas of the pieces of a polygon sum \
+         exactly to the area of the polygon. In the tests, rational numbers decide a million sight lines \
+         from points in pieces to the corners of the lamp: all agree with the zone of the piece. Here, {} of \
+         {} pixels show another zone than the sight lines above. The reason is that those sight lines start \
+         from points that are rounded to whole numbers.",
         differ.0, differ.1,
     ));
     Ok(())

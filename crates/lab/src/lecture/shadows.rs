@@ -16,16 +16,16 @@ const SIDES: [u32; 4] = [2, 3, 5, 7];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A point is in shadow if the lamp does not see it. So shadows are hidden surfaces, seen from \
-         another eye. A point lamp makes two zones, lit and umbra. A lamp with an extent adds the \
-         penumbra, from which a part of the lamp is visible. The tree decides each sight line exactly: \
-         does any polygon contain a point of the segment that is not one of its ends? One tree of the \
-         scene serves all lamps and all points.",
+        "A point is in shadow if the lamp does not see it. So shadows are hidden surfaces, seen from another \
+         eye. A point lamp makes two zones, lit and umbra. A lamp with an extent adds the penumbra, from \
+         which a part of the lamp is visible. The tree decides each sight line exactly: does any polygon \
+         contain an inner point of the segment? One tree of the scene serves all lamps and all points.",
     );
     chapter.text(
-        "The tested points are the surface points in the pixels, in whole numbers. All surfaces are \
-         level or upright, so these points lie in their planes exactly. The tests compare a million such \
-         sight lines, many along boundaries of polygons, with integers of 128 bits: none is wrong.",
+        "The tested points are the surface points in the pixels, rounded to whole numbers. All surfaces are \
+         level or upright, so these points lie exactly in the planes of the surfaces. The tests compare a \
+         million such sight lines, many along boundaries of polygons, with integers of 128 bits: none is \
+         wrong.",
     );
     let scene = courtyard();
     let build = BuildOptions::DEFAULT.with_tolerance(0.0).build(scene.polygons());
@@ -44,11 +44,11 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let umbra = seen.clone().filter(|(_, zone)| **zone == Some(Zone::Umbra));
     let certain = umbra.filter(|(p, _)| p.is_some_and(|p| is_umbra(&tree, p, &corners)));
     chapter.text(format!(
-        "Only the given points of the lamp are tested. A polygon that hides only other parts of the lamp \
-         is missed, so lit and umbra of a rectangular lamp are wrong in a border, which becomes narrower \
-         with more points. A point found in the penumbra is always right. Of the {} points in the umbra, \
-         {} are certain: one convex polygon is between them and all four corners of the lamp, so it \
-         hides the whole lamp.",
+        "Only the given points of the lamp are tested. A polygon that hides only other parts of the lamp is \
+         missed. So the zones lit and umbra of a rectangular lamp are wrong in a strip along their \
+         boundaries. The strip becomes narrower with more points. The zone penumbra is always right. Of the \
+         {} points in the umbra, {} are certain: for each of these, one convex polygon is between the point \
+         and all four corners of the lamp, so it hides the whole lamp.",
         count(&all[3], Zone::Umbra),
         certain.count(),
     ));
@@ -85,7 +85,14 @@ fn table(chapter: &mut Chapter, all: &[Vec<Option<Zone>>; 4]) {
         ]
     });
     chapter.table(
-        ["points of the lamp", "sight lines", "lit", "penumbra", "umbra", "different by 49 points"],
+        [
+            "points of the lamp",
+            "sight lines",
+            "lit",
+            "penumbra",
+            "umbra",
+            "zone differs with 49 points",
+        ],
         rows,
     );
 }

@@ -62,10 +62,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
         rows,
     );
     chapter.text(format!(
-        "The figures are sums over {VIEWS} views of each scene, {} by {} pixels. The tree's order is the \
-         exact one, bit for bit. Centroids are wrong where polygons cross, and also where a long polygon \
-         passes a short one. If polygons cross, or hide one another in a cycle, no order of whole \
-         polygons is right.",
+        "The figures are sums over {VIEWS} views of each scene, {} by {} pixels. In the tree's order, the \
+         colours are exactly those of the judge, bit for bit. Centroids are wrong where polygons cross, and \
+         also where a long polygon passes a short one. If polygons cross, or hide one another in a cycle, no \
+         order of whole polygons is right.",
         SIZE[0], SIZE[1],
     ));
     glass(chapter)

@@ -37,7 +37,7 @@ struct Errors<'a> {
     failure: Option<&'a str>,
 }
 
-/// Its cost: times and memory depend on the machine.
+/// The times and the memory of a method on a scene, which depend on the machine.
 #[derive(Serialize)]
 struct Times<'a> {
     subject: &'a str,

@@ -9,7 +9,7 @@ use binspace_evidence::culling::{Left, measure, over_the_city};
 use binspace_cli::failure::Failure;
 use binspace_cli::progress::Progress;
 
-/// The number of polygons of the city, as large as in courses. If `quick`, it is smaller, but still reaches far
+/// The number of polygons of the city: as in a course, and for `quick`. The smaller city also reaches far
 /// beyond the eye.
 const POLYGONS: [u32; 2] = [2_600_000, 100_000];
 const SIZE: [u32; 2] = [320, 240];

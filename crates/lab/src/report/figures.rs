@@ -131,7 +131,7 @@ pub(super) struct Exactness {
 }
 
 impl Exactness {
-    /// Whether it was measured, and nothing was wrong.
+    /// Whether the exact tree was measured, and nothing was wrong.
     pub(super) fn is_zero(&self) -> bool {
         self.rows > 0 && self.failed + self.wrong + self.misplaced + self.torn == 0
     }

@@ -30,7 +30,7 @@ pub(super) struct Growth {
     pub(super) found: Result<Size, String>,
 }
 
-/// Its cost.
+/// The size of a tree, and the time that it takes.
 pub(super) struct Size {
     pub(super) fragments: usize,
     pub(super) depth: usize,
@@ -67,7 +67,7 @@ pub(super) fn run(
     scenes.iter().try_for_each(|scene| each(scene.name(), Heuristic::Auto, scene))
 }
 
-/// A scene of a size.
+/// A scene with a given size.
 struct Case {
     subject: Subject,
     size: u32,

@@ -20,8 +20,8 @@ pub(super) fn report(report: &Report<'_>) -> String {
     );
     if let Some(table) = summary::in_common(&report.sections) {
         text += &format!(
-            "\nA method that gave up is compared above over easier trials than the others. This table \
-             compares all methods over the trials that every method finished:\n\n{}",
+            "\nIn the table above, a method that gave up is compared over easier trials than the other \
+             methods. The next table compares all methods over the trials that every method finished:\n\n{}",
             table.markdown()
         );
     }
@@ -97,8 +97,8 @@ const METHODS: &str = "
   precision.
 - Edge functions, exact trees and centroids cover the same pixels as the judge. Holes and spills are
   therefore measured for the other methods only.
-- All differences count, however small. In `boxes` there are doubled walls whose distance is a few
-  roundings. The plots show twelve methods, the tables all.
+- All differences count, however small. In `boxes`, walls that touch are only a few rounding
+  errors apart. The plots show twelve methods; the tables show all.
 - Build times are for prepared faces, with all threads. Pictures are drawn by one thread.
 ";
 
@@ -146,9 +146,9 @@ fn culling(city: &City) -> String {
         ]);
     }
     format!(
-        "\n## Culling\n\nA city of {} polygons is seen from above its roofs. Its tree has {} fragments \
-         and was built in {}. Each step leaves out everything that the steps before it leave out, and \
-         more. Its time includes those steps.\n\n{}",
+        "\n## Culling\n\nA city of {} polygons is seen from above its roofs. Its tree has {} fragments and \
+         was built in {}. Each step leaves out everything that the steps before it leave out, and more. Its \
+         time includes the earlier steps.\n\n{}",
         grouped(city.polygons),
         grouped(city.fragments),
         time(city.build),
@@ -205,14 +205,14 @@ const MEASURES: &str = "
   **Spill**: a polygon shows, although none covers the pixel. The *deepest error* is the largest difference
   between the depths of the painted and the nearest polygon in a wrong pixel.
 - **Misplaced vertices** are vertices of fragments that are on a wrong side of a plane. The definition of
-  the vertex (corners and planes of the input) is evaluated exactly. The vertex is misplaced if it lies on
-  another side of a plane above its fragment than the fragment, or off the plane that contains the fragment,
-  by more than the tolerance.
+  the vertex (corners and planes of the input) is evaluated exactly. The vertex is misplaced if, by more than
+  the tolerance, it lies on the wrong side of the plane of a node above its fragment, or off the plane that
+  contains the fragment.
 - **Drift** is the distance of a fragment's vertex from its exact position: the largest difference of a
   coordinate, in units of the scene's grid (ulp; 2⁻⁵² to 2⁻⁵⁰ of the extent) and as a share of the extent.
   The drift of the exact tree is the single rounding of positions that it returns; no decision uses them.
-- **Torn** polygons differ from the sum of their pieces: the areas, by the exact definitions of the vertices,
-  are compared exactly.
+- A polygon is **torn** if its area differs from the sum of the areas of its pieces. The areas are computed
+  exactly, from the definitions of the vertices.
 - **Area error** is the largest relative difference between a polygon's area and the sum of the areas of its
   pieces, computed in `f64` from rounded vertices. For a polygon that is hardly wider than a unit of the grid,
   rounding alone causes a large error.

@@ -37,7 +37,7 @@ use binspace_cli::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use binspace_cli::units::count;
 
 /// The budget of fragments of a tree, and of pieces of Newell's algorithm. Too large: a single step of a
-/// sweep takes minutes. Too small: methods are stopped that would have finished.
+/// sweep takes minutes. Too small: methods that would finish are stopped.
 const MAX_PIECES: usize = 1 << 19;
 /// The budget per corner of a scene from a file.
 const PIECES_PER_CORNER: usize = 8;
@@ -51,7 +51,7 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const GROWTH_FILES: [&str; 3] = ["growth-build.svg", "growth-fragments.svg", "growth.csv"];
 /// The files of every report.
 const FILES: [&str; 4] = ["report.md", "speed.svg", "errors.csv", "times.csv"];
-/// Views of scenes that are files.
+/// The number of views of a scene from a file.
 const VIEWS: usize = 6;
 
 /// The content of the report up to now.
@@ -63,7 +63,7 @@ pub(super) struct Report<'a> {
     city: Option<City>,
     /// Scenes that could not be measured.
     failed: Vec<String>,
-    /// Whether it contains all requested sections.
+    /// Whether the report contains all requested sections.
     complete: bool,
 }
 

@@ -130,7 +130,7 @@ fn growth(
     let mut series = Vec::new();
     for (number, scene) in scenes(rows).into_iter().enumerate() {
         let colour = COLOURS[number % COLOURS.len()];
-        // A small marker within a large one where both values are equal.
+        // Where both values are equal, the small marker is within the large one.
         for (is_exact, marker, reach) in [(true, Marker::Ring, 7), (false, Marker::Cross, 3)] {
             let of_it = |row: &&Growth| row.scene == scene && (row.method == EXACT) == is_exact;
             let points: Vec<(f64, f64)> = rows

@@ -29,17 +29,17 @@ pub(super) struct Summary<'a> {
     build: f64,
     picture: f64,
     bytes: usize,
-    /// The space in which it decides; `None` without trials.
+    /// The space in which the method decides; `None` without trials.
     space: Option<Space>,
 }
 
 impl<'a> Summary<'a> {
-    /// One for each method, in order, over its finished trials; none without families.
+    /// Returns a summary for each method, in order, over its finished trials; an empty list without families.
     pub(super) fn of_families(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |_, _| true)
     }
 
-    /// The same, over the trials that every method finished.
+    /// Returns the same sums over the trials that every method finished.
     fn of_common_trials(sections: &'a [Section]) -> Vec<Self> {
         Self::of_trials(sections, |family, row| {
             let mut same = family.rows.iter().filter(|other| other.difficulty == row.difficulty);
@@ -114,7 +114,7 @@ impl<'a> Summary<'a> {
         self.bytes = self.bytes.max(figures.bytes);
     }
 
-    /// Its name, and the number of finished trials if it gave up in others.
+    /// Returns the method's name, and the number of finished trials if it gave up in others.
     pub(super) fn label(&self) -> String {
         label(self.method, self.ended, self.ended + self.failed)
     }
@@ -133,7 +133,7 @@ impl<'a> Summary<'a> {
         (self.build / self.ended.max(1) as f64).exp()
     }
 
-    /// The mean share of faces that are left out as back faces; a dash if none is.
+    /// The mean share of faces that are left out as back faces; a dash if no face is left out.
     fn removed_share(&self) -> String {
         match self.removed / self.ended.max(1) as f64 {
             0.0 => "–".to_owned(),
@@ -181,7 +181,8 @@ pub(super) fn headline(sections: &[Section]) -> Table {
     six(Summary::of_families(sections))
 }
 
-/// The same, over the trials that every method finished; `None` if every method finished all.
+/// Returns the same table over the trials that every method finished; `None` if every method finished all
+/// trials.
 pub(super) fn in_common(sections: &[Section]) -> Option<Table> {
     let all = Summary::of_families(sections);
     all.iter().any(|summary| summary.failed > 0).then(|| six(Summary::of_common_trials(sections)))

@@ -10,7 +10,7 @@ use tabled::settings::{Alignment, Padding, Style};
 use super::figures::{Figures, Row, Section};
 use binspace_cli::units::{bytes, time};
 
-/// A table of text: a column of names, and columns of figures to the right of it.
+/// A table of text: a column of names, and columns of figures to the right of this column.
 pub(super) struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<String>>,

@@ -47,9 +47,9 @@ fn all_chapters_are_on_one_page() {
     {
         assert!(page.contains(part), "{part}");
     }
-    // A command is never left as it was typed.
+    // No backticks around a command are left.
     assert!(!page.contains(">`") && !page.contains(" `"));
-    // Without the pictures, whose letters may be anything.
+    // Pictures are left out, because their encoded data may contain any letters.
     let texts =
         page.split("base64,").map(|part| part.split_once('"').map_or(part, |(_, text)| text));
     for text in texts {

@@ -42,7 +42,7 @@ fn the_exact_rows_are_zero_and_others_are_not() {
     for row in &rows {
         let removed: f64 = row["removed_share"].parse().unwrap();
         let has_step = row["method"].starts_with("fronts");
-        // About a half for closed boxes; others may show all their fronts.
+        // About a half of the faces of closed boxes are removed. Other scenes may show only fronts.
         let is_known = row["subject"] != "boxes" || (0.3..0.7).contains(&removed);
         assert!(if has_step { is_known && removed < 1.0 } else { removed == 0.0 }, "{row:?}");
     }
@@ -79,7 +79,7 @@ fn a_seed_gives_the_same_errors_again() {
 }
 
 #[test]
-fn what_cannot_be_reported_is_refused_before_anything_is_measured() {
+fn reports_that_cannot_be_written_are_refused_before_any_measurement() {
     let folder = Folder::new("report_refused");
     folder.write("file", "");
     assert!(folder.run("report --family angel").refused().contains("angle, gap"));
@@ -106,7 +106,7 @@ fn a_folder_in_which_nothing_can_be_made_is_refused_before_anything_is_measured(
 /// A report without a named family has all sections.
 #[test]
 #[ignore = "takes a quarter of a minute"]
-fn culling_and_growth_stand_behind_the_families() {
+fn culling_and_growth_follow_the_families() {
     let folder = Folder::new("report_all");
     folder.write("scene.obj", CROSSING);
     folder.run("report --quick --size 64x48 -o out scene.obj").good();

@@ -4,7 +4,8 @@ use std::fs;
 
 use crate::run::{CROSSING, Folder};
 
-/// Files may be called anything. In a report each name is text: no column, heading, emphasis, link or tag.
+/// Files may have any name. In a report, each name is text, and makes no column, heading, emphasis, link or
+/// tag.
 #[test]
 fn names_of_scenes_are_text_in_a_report() {
     let folder = Folder::new("report_names");

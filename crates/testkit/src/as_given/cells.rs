@@ -1,5 +1,5 @@
-//! The cells of a tree: the side of each plane on which a fragment is said to be, and whether a point is
-//! there, exactly.
+//! The cells of a tree: on which side of each plane the tree reports a fragment, and whether a point is in
+//! the cell, exactly.
 
 use super::exact::{Plane, Spot};
 use super::ray::Targets;
@@ -41,7 +41,7 @@ impl Cells {
         Self { nodes, above }
     }
 
-    /// Whether two fragments are said to lie on one plane.
+    /// Returns whether the tree reports two fragments on the plane of one node.
     pub fn share_a_plane(&self, a: u32, b: u32) -> bool {
         let [above, other] = [a, b].map(|fragment| self.above[fragment as usize]);
         above.is_some_and(|node| {
@@ -49,8 +49,9 @@ impl Cells {
         }) && above == other
     }
 
-    /// Whether a point of a fragment's polygon is in the cell of the fragment: inside, on its border, or
-    /// (`None`) not. An error if the fragment is said to lie on a plane that does not contain the point.
+    /// Returns whether a point of a fragment's polygon is in the cell of the fragment: inside, on the border,
+    /// or (`None`) outside. Returns an error if the tree reports the fragment on a plane that does not
+    /// contain the point.
     pub fn within(&self, fragment: u32, spot: &Spot) -> Result<Option<Border>, String> {
         let mut border = Border::Inside;
         let mut next = self.above[fragment as usize];

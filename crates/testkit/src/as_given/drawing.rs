@@ -7,8 +7,8 @@ use crate::judge::{Verdict, ensure};
 use crate::prelude::*;
 use binspace::Fragment;
 
-/// The largest allowed error of a vertex, as a share of the scene's size: each rounding of a vertex is 2⁻⁵²
-/// of it.
+/// The largest allowed error of a vertex, as a share of the scene's size. Each rounding of a vertex has an
+/// error of 2⁻⁵² of this size.
 const OFF: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// Whether a point is in a fragment, as far as rounded vertices can decide.
@@ -46,7 +46,8 @@ impl<'t> Drawing<'t> {
         Self { targets, outlines, off }
     }
 
-    /// The fragments of a polygon that a point may be in; if it certainly is in one, only that.
+    /// Returns the fragments of a polygon that a point may be in. If the point is certainly in one fragment,
+    /// returns only this fragment.
     pub fn fragments_at(&self, polygon: usize, point: [f64; 3]) -> Vec<(u32, Within)> {
         let at = flat(&self.targets.planes[polygon], DVec3::from(point));
         let within = |outline: &Outline| (outline.fragment, self.within(outline, at));
@@ -80,8 +81,8 @@ impl<'t> Drawing<'t> {
         within
     }
 
-    /// Checks that the fragments of every polygon have its area, lie on its plane and within it, on the
-    /// sides of the planes that are said to bound them, and on the edges.
+    /// Checks that the fragments of every polygon have its area, lie on its plane and within it, and on the
+    /// right sides of the planes and edges that are reported to bound them.
     pub fn check(&self, tree: &BspTree) -> Verdict {
         for (polygon, outlines) in self.outlines.iter().enumerate() {
             let plane = &self.targets.planes[polygon];

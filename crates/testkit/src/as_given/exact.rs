@@ -25,11 +25,11 @@ pub fn float(value: &IBig) -> f64 {
     value.to_f64().value()
 }
 
-/// A result in `f64` is certain beyond this share of the sum of magnitudes: a hundred times the error of a
-/// dozen operations.
+/// The sign of a result in `f64` is certain if the result exceeds this share of the sum of magnitudes: a
+/// hundred times the error of a dozen operations.
 const BELIEVED: f64 = 1e-13;
 
-/// The sign of the determinant of three rows.
+/// Returns the sign of the determinant of three rows.
 pub fn turn(rows: [&Vector; 3]) -> Ordering {
     let [a, b, c] = rows.map(|row| row.map(|x| x as f64));
     let (mut value, mut size) = (0.0, 0.0);
@@ -63,7 +63,7 @@ impl Plane {
         Self { normal, offset, rounded }
     }
 
-    /// The plane of a polygon: twice its area vector is the normal.
+    /// Creates the plane of a polygon: twice its area vector is the normal.
     pub fn of(polygon: &[Point]) -> Self {
         let first = polygon[0];
         let from_first = |p: Point| big(wide(minus(p, first)));
@@ -81,7 +81,7 @@ impl Plane {
         Self::new(normal, [at; 3])
     }
 
-    /// Whether it has a direction.
+    /// Returns whether the normal is not zero.
     pub fn is_proper(&self) -> bool {
         self.normal.iter().any(|c| !c.is_zero())
     }
@@ -90,7 +90,7 @@ impl Plane {
         scalar(&self.normal, &big(wide(p))) - &self.offset
     }
 
-    /// The first of the axes along which the normal is longest.
+    /// Returns the first of the axes along which the normal is longest.
     pub fn main_axis(&self) -> usize {
         main_axis(&self.normal)
     }
@@ -106,7 +106,7 @@ impl Plane {
         parallel && &self.offset * &other.normal[axis] == &other.offset * &self.normal[axis]
     }
 
-    /// The side on which a point is.
+    /// Returns the side on which a point is.
     pub fn side(&self, spot: &Spot) -> Ordering {
         let ([a, b, c, d], [x, y, z]) = (self.rounded, spot.rounded);
         let (value, size) =
@@ -117,7 +117,7 @@ impl Plane {
         sign(&(scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator))
     }
 
-    /// The distance of a point, rounded, with the sign of its side.
+    /// Returns the distance of a point, rounded, with the sign of its side.
     pub fn distance(&self, spot: &Spot) -> f64 {
         let value = scalar(&self.normal, &spot.numerators) - &self.offset * &spot.denominator;
         float(&value) / float(&spot.denominator) / self.length()

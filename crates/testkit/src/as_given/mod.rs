@@ -1,10 +1,11 @@
-//! Trees of large scenes, judged independently of the library: by the polygons as given and the library's
+//! Judges trees of large scenes independently of the library: by the given polygons and the library's
 //! guarantees, in separate big integers.
 //!
-//! Rays are shot at the *source polygons*: these hits and their depths are exact. The fragment at a hit is
-//! found by its rounded vertices, and if these cannot decide, by the cells that
-//! [`nodes`](binspace::BspTree::nodes) describes. Then every pair must come far before near, pairs in one
-//! plane in input order, and every hit must find its polygon covered once.
+//! Rays are shot at the *source polygons*, so hits and their depths are exact. The rounded vertices of
+//! fragments tell which fragment is at a hit. If they cannot decide, the cells that
+//! [`nodes`](binspace::BspTree::nodes) describes decide. Then, in every pair of hits, the further must come
+//! before the nearer in the order. Pairs in one plane must be in input order. At every hit, exactly one
+//! fragment must cover the polygon.
 
 pub mod cells;
 pub mod drawing;

@@ -1,4 +1,4 @@
-//! The hits of rays on the polygons as given, exactly sorted.
+//! The hits of rays on the given polygons, exactly sorted.
 
 use super::exact::{Big, Plane, Spot, Vector, big, float, product, scalar, sign, turn, wide};
 use super::scene::{Point, Scene, minus, world};
@@ -6,7 +6,7 @@ use crate::prelude::*;
 use binspace::internals::PlaneKind;
 use dashu_int::IBig;
 
-/// The points (origin / below) + s · direction, with s above 0, or any s if it is endless.
+/// The points (origin / below) + s · direction, with s above 0, or with any s if the ray is endless.
 #[derive(Clone, Debug)]
 pub struct Ray {
     pub origin: Vector,
@@ -66,7 +66,7 @@ impl<'s> Targets<'s> {
         Self { scene, planes, balls }
     }
 
-    /// A plane by its name, from the corners as given.
+    /// Returns the plane with a name, computed from the given corners.
     pub fn named(&self, tree: &BspTree, id: PlaneId) -> Plane {
         let faces = tree.faces();
         match id.kind() {
@@ -78,13 +78,13 @@ impl<'s> Targets<'s> {
         }
     }
 
-    /// The hits of a ray, the furthest first; hits at the same point are in one list.
+    /// Returns the hits of a ray, the furthest first; hits at the same point are in one list.
     pub fn hits(&self, ray: &Ray) -> Vec<Vec<Hit>> {
         let origin = DVec3::from_array(ray.origin.map(|c| c as f64 / ray.below as f64));
         let along = DVec3::from_array(ray.direction.map(|c| c as f64)).normalize();
         let mut hits = Vec::new();
         for (polygon, &(centre, radius)) in self.balls.iter().enumerate() {
-            // The rounding error of the origin's and the centre's coordinates, a thousand times over.
+            // A thousand times the rounding error of the coordinates of the origin and the centre.
             let slack = 1e-12 * (origin.abs().max_element() + centre.abs().max_element());
             if along.cross(centre - origin).length() <= radius * 1.001 + slack {
                 hits.extend(self.hit(ray, polygon));
@@ -152,13 +152,13 @@ fn is_convex(polygon: &[Point], plane: &Plane) -> bool {
 }
 
 impl Ray {
-    /// Whether the whole ray lies in a plane.
+    /// Returns whether the whole ray lies in a plane.
     pub fn is_in(&self, plane: &Plane) -> bool {
         let start = scalar(&plane.normal, &big(self.origin)) - &plane.offset * self.below;
         sign(&start).is_eq() && sign(&scalar(&plane.normal, &big(self.direction))).is_eq()
     }
 
-    /// The distance from a plane at which it begins; `None` if it is endless.
+    /// Returns the distance of the ray's start from a plane; `None` if the ray is endless.
     pub fn start_from(&self, plane: &Plane) -> Option<f64> {
         let eye = Spot::new(big(self.origin), self.below.into());
         (!self.endless).then(|| plane.distance(&eye))

@@ -5,7 +5,7 @@ use binspace::Error;
 
 pub type Point = [i64; 3];
 
-/// Convex, planar polygons with whole corners, so that the lattice moves none of them.
+/// Convex, planar polygons with integer corners, so that rounding to the lattice moves no corner.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
@@ -23,7 +23,7 @@ impl Scene {
         Self { tolerance, ..self }
     }
 
-    /// The largest magnitude of a coordinate.
+    /// Returns the largest magnitude of a coordinate.
     pub fn size(&self) -> i64 {
         self.polygons.iter().flatten().flatten().map(|c| c.abs()).max().unwrap_or(1)
     }
@@ -32,7 +32,7 @@ impl Scene {
         self.options(heuristic, max_fragments).build(self.corners())
     }
 
-    /// The tree of a frame, whose planes are chosen in another way.
+    /// Returns the tree of a frame, whose planes are chosen in another way.
     pub fn frame(&self, max_fragments: usize) -> Result<BspTree, Error> {
         let options = self.options(Heuristic::Auto, max_fragments);
         FrameBuilder::new(options).build(self.corners()).cloned()
@@ -64,7 +64,7 @@ impl Scene {
     }
 }
 
-/// A point as input of the library; exact.
+/// Converts a point exactly to an input of the library.
 pub fn world(p: Point) -> DVec3 {
     DVec3::from_array(p.map(|c| c as f64))
 }
@@ -81,12 +81,12 @@ pub fn times(k: i64, p: Point) -> Point {
     p.map(|c| k * c)
 }
 
-/// Seven times a rotation away from all axes, in integers.
+/// Returns a rotated point, scaled by seven so that it has integer coordinates. The rotation moves all axes.
 pub fn tilt([x, y, z]: Point) -> Point {
     add(add(times(x, [2, 3, 6]), times(y, [3, -6, 2])), times(z, [6, 2, -3]))
 }
 
-/// One of the 48 rotations and reflections that map the axes to the axes.
+/// Returns one of the 48 rotations and reflections that map the axes to the axes.
 pub fn turned(p: Point, which: usize) -> Point {
     const ORDERS: [[usize; 3]; 6] =
         [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
@@ -98,12 +98,12 @@ pub fn each(polygons: Vec<Vec<Point>>, go: impl Fn(Point) -> Point) -> Vec<Vec<P
     polygons.into_iter().map(|polygon| polygon.into_iter().map(&go).collect()).collect()
 }
 
-/// A whole number from `low` to `high`.
+/// Returns a whole number from `low` to `high`.
 pub fn between(dice: &mut Dice, low: i64, high: i64) -> i64 {
     low + dice.below((high - low + 1) as usize) as i64
 }
 
-/// A point with coordinates from 0 to `n`.
+/// Returns a point with coordinates from 0 to `n`.
 pub fn point_within(dice: &mut Dice, n: i64) -> Point {
     [0; 3].map(|_| between(dice, 0, n))
 }

@@ -1,5 +1,5 @@
-//! Trees compared with rays: far before near, input order if polygons are in one plane, and every polygon
-//! covered once.
+//! Compares trees with rays: fragments must come far before near, or in input order if they are in one plane,
+//! and must cover every polygon once.
 
 use super::cells::{Border, Cells};
 use super::drawing::{Drawing, Within};
@@ -15,19 +15,19 @@ use crate::prelude::*;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
     pub trees: usize,
-    /// Trees that would have had more fragments than allowed.
+    /// Trees that were given up because they would have more fragments than allowed.
     pub given_up: usize,
     pub faces: usize,
     pub fragments: usize,
     pub rays: usize,
     /// Pairs of polygons that a ray meets one behind the other, or in one plane.
     pub pairs: usize,
-    /// The pairs of these in one plane.
+    /// The number of these pairs that are in one plane.
     pub coplanar: usize,
     /// Points on the border of a fragment, whose cells were computed in big integers; with a tolerance,
     /// these hits are left out.
     pub borders: usize,
-    /// Pairs met on both borders by a ray that lies in the plane between: either may come first.
+    /// Pairs met on both borders by a ray that lies in the plane between them: either may come first.
     pub grazing: usize,
     /// Pairs in the wrong order within the tolerance.
     pub excused: usize,
@@ -89,7 +89,7 @@ pub struct Court<'t> {
     score: Score,
 }
 
-/// A hit with the fragment there: on its border, or not.
+/// A hit, the fragment there, and whether the hit is on the fragment's border.
 struct Found<'h> {
     hit: &'h Hit,
     fragment: u32,
@@ -110,7 +110,7 @@ impl<'t> Court<'t> {
         Self { targets, tree, drawing, cells, score }
     }
 
-    /// All checks.
+    /// Runs all checks.
     pub fn judge(mut self, shots: &[Shot]) -> Result<Score, String> {
         self.input_has_not_moved()?;
         self.drawing.check(self.tree)?;
@@ -121,7 +121,7 @@ impl<'t> Court<'t> {
         Ok(self.score)
     }
 
-    /// The judge's assumptions: faces are the polygons, with exactly the same corners.
+    /// Checks the judge's assumption that faces are the polygons, with exactly the same corners.
     fn input_has_not_moved(&self) -> Verdict {
         let (scene, faces) = (self.targets.scene, self.tree.faces());
         ensure(faces.len() == scene.polygons.len(), || format!("{} faces", faces.len()))?;
@@ -202,7 +202,8 @@ impl<'t> Court<'t> {
         Ok(())
     }
 
-    /// The fragments of a polygon at a hit: one around it, or some that share a border there.
+    /// The fragments of a polygon at a hit: one fragment around the hit, or several that share a border
+    /// there.
     fn find<'h>(&mut self, hit: &'h Hit, places: &[u32]) -> Result<Vec<Found<'h>>, String> {
         let found = |fragment: u32, border| Found {
             hit,
@@ -258,8 +259,9 @@ impl<'t> Court<'t> {
         self.excuse(ray, [a, b], &between)
     }
 
-    /// Within the tolerance of the plane between, parts may be exchanged: both must be as near to it, or
-    /// the nearer one and the eye; if both count as lying on it, they come in input order.
+    /// Checks that the tolerance excuses a wrong order. Both parts, or the nearer part and the eye, must be
+    /// within the tolerance of the plane between the parts. If both parts count as lying on this plane, they
+    /// must be in input order.
     fn excuse(&mut self, ray: &Ray, [a, b]: [&Found<'_>; 2], between: &Plane) -> Verdict {
         self.score.excused += 1;
         let tolerance = self.targets.scene.tolerance * (1.0 + 1e-9);
@@ -275,7 +277,8 @@ impl<'t> Court<'t> {
         })
     }
 
-    /// Two polygons that meet there: in input order, if they are in one plane.
+    /// Checks the order of two polygons that a ray meets at the same point: input order, if they are in one
+    /// plane.
     fn compare_at_one_place(&mut self, ray: &Ray, a: &Found<'_>, b: &Found<'_>) -> Verdict {
         let (p, q) = (a.hit.polygon, b.hit.polygon);
         let planes = [p, q].map(|polygon| &self.targets.planes[polygon]);
@@ -284,7 +287,7 @@ impl<'t> Court<'t> {
         }
         self.score.pairs += 1;
         self.score.coplanar += 1;
-        // Where borders meet, each is visible on its own side.
+        // Where only borders meet, both polygons are visible, each on its side.
         let apart = a.border == Border::On && b.border == Border::On;
         if apart || p.cmp(&q) == a.place.cmp(&b.place) {
             return Ok(());

@@ -1,12 +1,12 @@
-//! Exactly known viewpoints, most of them where sides are hard to decide.
+//! Exactly known viewpoints, most of them at places where sides are hard to decide.
 
 use super::exact::{Vector, wide};
 use super::ray::Ray;
 use super::scene::{Point, Scene, add, between, minus, times};
 use crate::prelude::*;
 
-/// The viewpoint: integers over a power of two, or a direction whose largest component is a power of two,
-/// so that the library rounds neither.
+/// The viewpoint: integers over a power of two, or a direction whose largest component is a power of two, so
+/// that the library does not round it.
 #[derive(Clone, Debug)]
 pub enum Place {
     Eye(Vector, i128),
@@ -19,17 +19,17 @@ pub struct View {
     pub place: Place,
     /// The polygons that most rays aim at; all polygons if this is empty.
     about: Vec<usize>,
-    /// A point that the first ray aims at: numerators over a number.
+    /// A point that the first ray aims at: numerators and a denominator.
     target: Option<(Vector, i128)>,
 }
 
-/// The number of bits that a viewpoint may have beyond the scene's coordinates: together, the lattice and a
-/// rounded number have room for these.
+/// The number of bits that a viewpoint may have beyond the bits of the scene's coordinates, so that all bits
+/// together fit the lattice and an `f64`.
 fn spare_bits(scene: &Scene) -> u32 {
     50 - (scene.size() as u64).next_power_of_two().ilog2()
 }
 
-/// A hair is one unit over this.
+/// The least distance from a plane or a point is one unit divided by this number.
 fn hair(scene: &Scene) -> i128 {
     1 << spare_bits(scene).min(18)
 }
@@ -58,7 +58,7 @@ impl View {
         }
     }
 
-    /// A ray to a corner, a point of an edge or a point inside a polygon; `None` if the eye is there.
+    /// Returns a ray to a corner, a point of an edge or a point inside a polygon; `None` if the eye is there.
     pub fn some_ray(&self, scene: &Scene, generic: bool, dice: &mut Dice) -> Option<Ray> {
         let all = self.about.is_empty() || dice.below(4) == 0;
         let polygon = if all {
@@ -82,7 +82,7 @@ impl View {
         self.ray_to(target, total)
     }
 
-    /// The ray to the view's target, if it has one.
+    /// Returns the ray to the view's target, if the view has a target.
     pub fn first_ray(&self) -> Option<Ray> {
         self.target.and_then(|(target, total)| self.ray_to(target, total))
     }
@@ -107,7 +107,7 @@ fn some_corner(scene: &Scene, dice: &mut Dice) -> (usize, Point) {
     (polygon, corners[dice.below(corners.len())])
 }
 
-/// A point on a polygon's plane, within a few of its sizes.
+/// A point on a polygon's plane, within a few diameters of the polygon.
 fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     let corners = &scene.polygons[polygon];
     let arm = |k: usize| minus(corners[k], corners[0]);
@@ -115,8 +115,9 @@ fn on_plane(scene: &Scene, polygon: usize, dice: &mut Dice) -> Point {
     add(corners[0], add(times(s, arm(1)), times(t, arm(corners.len() - 1))))
 }
 
-/// A viewpoint around the scene, within it, on a corner or a plane, just off a plane, far out at the height
-/// of a corner, or collinear with two corners; or a direction along an edge or a plane, or next to one.
+/// Returns a viewpoint around the scene, within it, on a corner or a plane, just off a plane, far out at the
+/// height of a corner, or collinear with two corners; or a direction along an edge or a plane, or next to
+/// one.
 pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
     let size = scene.size();
     let anywhere = |dice: &mut Dice, n: i64| [0; 3].map(|_| between(dice, -n, n));
@@ -127,7 +128,7 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
         2 => View::eye(some_corner(scene, dice).1),
         3 => View::eye(on_plane(scene, polygon, dice)).about(vec![polygon]),
         4 => {
-            // Fewer bits are spare, because eyes reach a few sizes beyond the scene.
+            // Fewer bits are spare, because eyes are up to a few diameters from the scene.
             let below = hair(scene) >> 4;
             let mut eye = wide(on_plane(scene, polygon, dice)).map(|c| c * below);
             eye[dice.below(3)] += [-1, 1][dice.below(2)];
@@ -156,8 +157,8 @@ pub fn some_view(scene: &Scene, kind: usize, dice: &mut Dice) -> View {
 /// The number of kinds of views.
 pub const KINDS: usize = 10;
 
-/// An eye collinear with points of two consecutive polygons, which may be near each other; rays aim at
-/// both.
+/// Returns an eye collinear with points of two consecutive polygons, which may be near each other; rays aim
+/// at both.
 pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     let first = dice.below(scene.polygons.len());
     let second = (first + 1 + dice.below(3)) % scene.polygons.len();
@@ -173,14 +174,15 @@ pub fn in_line(scene: &Scene, dice: &mut Dice) -> View {
     View { target: Some((wide(a), 4)), ..view }
 }
 
-/// A direction near another: along the axis in which that is longest, a power of two.
+/// A direction near a given one. Its largest component is a power of two, along the axis in which the given
+/// direction is longest.
 fn direction(near: Point, size: i64, dice: &mut Dice) -> View {
     let axis = (0..3).max_by_key(|&i| near[i].abs()).unwrap_or(0);
     let mut rounded = wide(near);
     let longest = rounded[axis];
     let power = (longest.unsigned_abs().max(1)).next_power_of_two() as i128;
     if power != longest.abs() && dice.below(2) == 0 {
-        // Next to it, except for rounding.
+        // Next to the given direction, up to rounding.
         let unit = (size as u64).next_power_of_two() as i128;
         rounded = rounded.map(|c| c * unit / longest.abs().max(1));
         rounded[axis] = unit * if longest < 0 { -1 } else { 1 };

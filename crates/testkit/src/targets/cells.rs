@@ -1,4 +1,4 @@
-//! Scenes as cells, judged together; and partitions in files, forged ones and any bytes.
+//! Scenes divided into cells, judged together; and files of partitions, either forged or with any bytes.
 
 use super::super::cell_orders::{self, Score};
 use super::super::divided::{Divided, extent};
@@ -12,8 +12,8 @@ use binspace::{BuildOptions, Viewpoint};
 /// The largest number of cells.
 const CELLS: usize = 9;
 
-/// Three of four times a judged scene; otherwise the file of a partition, changed or arbitrary, with a
-/// right checksum, which can be used if it is read.
+/// In three of four cases, builds a scene and judges it. Otherwise reads the file of a partition, changed or
+/// arbitrary, with a right checksum; a partition that is read must be usable.
 pub fn run(data: &[u8]) {
     let Some((kind, rest)) = data.split_first() else { return };
     // Too few bytes make no scene, and change nothing.
@@ -55,7 +55,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
         panic!("{what}: {options:?} {cells} cells {polygons:?}");
     }
     assert_eq!(Partition::read(&written(&scene.partition)[..]).unwrap(), scene.partition);
-    // The counts of the whole, for any cells.
+    // The counts equal the counts of the whole scene, for any cells.
     let (whole, sum) = (options.build(&polygons), scene.partition.preparation(&polygons));
     let counts = |found: &binspace::Preparation| {
         [found.dropped, found.triangulated, found.crossing, found.flattened]
@@ -64,7 +64,7 @@ fn build(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A partition's file.
+/// Returns a partition's file.
 pub fn written(partition: &Partition) -> Vec<u8> {
     let mut bytes = Vec::new();
     partition.write(&mut bytes).expect("a list takes all");
@@ -80,7 +80,7 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     };
     let mut file = written(&partition);
     while !bytes.is_empty() {
-        // After the head, whose changes are always noticed.
+        // Changes begin after the head, because a changed head is always refused.
         let at = bytes.int_in_range(16..=file.len() - 5)?;
         match bytes.int_in_range(0..=3u8)? {
             0 => file[at] = bytes.arbitrary()?,
@@ -98,7 +98,8 @@ fn forge(bytes: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A partition that is read can be used: all cells are in the order, bounded, and have each point once.
+/// Reads a partition, and uses it if it is valid: orders must contain all cells, bounds must not be NaN, and
+/// trees of cells must not panic. Returns whether it was valid.
 pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     let Ok(partition) = Partition::read(file) else { return false };
     assert_eq!(Partition::read(&written(&partition)[..]).unwrap(), partition);
@@ -119,7 +120,7 @@ pub fn try_file(file: &[u8], polygons: &[Vec<DVec3>]) -> bool {
     for (cell, given) in given.iter().enumerate() {
         let [low, high] = partition.bounds(cell);
         assert!(!low.is_nan() && !high.is_nan());
-        // The grid may be another, and the polygons beyond it.
+        // The grid may be different, and the polygons may be outside it.
         let built = [given.clone(), polygons.iter().collect()]
             .map(|polygons| BuildOptions::DEFAULT.build_cell(&partition, cell, polygons));
         let [Ok(tree), Ok(all)] = built else { continue };

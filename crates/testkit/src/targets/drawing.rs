@@ -8,7 +8,7 @@ use binspace::glam::DVec3;
 use binspace::raster::Rays;
 use binspace::view::Camera;
 
-/// Builds a tree, and draws it from as many views as there are bytes for.
+/// Builds a tree, and draws views of it until the bytes end.
 pub fn run(data: &[u8]) {
     // Too few bytes change nothing.
     let _ = draw(&mut Unstructured::new(data));
@@ -25,7 +25,7 @@ fn draw(bytes: &mut Unstructured<'_>) -> Result<()> {
         if Rays::new(&camera, tree.faces()).is_err() {
             continue;
         }
-        // One of four polygons is translucent, another is left out.
+        // Of four polygons, one is translucent, and one is left out.
         let opacity = |polygon: usize| [1.0, 0.5, 1.0, 0.0][polygon % 4];
         let checked = check(&tree, &camera, &mut Score::default());
         let checked =

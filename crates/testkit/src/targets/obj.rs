@@ -1,4 +1,4 @@
-//! OBJ files: some written from a known meaning, some any bytes.
+//! OBJ files: files with a known meaning, and files of any bytes.
 
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
@@ -15,7 +15,7 @@ struct Known {
     lines: usize,
 }
 
-/// Half the time a file with a known meaning, half the time the bytes themselves.
+/// Reads a file with a known meaning in half of the cases, and the bytes themselves in the other half.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {
@@ -27,9 +27,10 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// Any bytes: a scene that is read is finite, and reads the same when it is written.
+/// Reads any bytes. A scene that is read must be finite, and must be read back as the same scene after
+/// writing.
 fn read_any(bytes: &[u8]) {
-    // A library that is the file itself: its lines are read as material lines too.
+    // The material library is the file itself, so its lines are read as material lines too.
     let Ok((scene, report)) = Scene::from_obj("any", bytes, |_| Some(bytes.to_vec())) else {
         return;
     };
@@ -50,7 +51,7 @@ fn read_any(bytes: &[u8]) {
     }
     let again = Scene::from_obj("again", text.as_bytes(), |_| None);
     let (again, _) = again.unwrap_or_else(|error| panic!("{error}: {text}"));
-    // Only corners: the precision also follows from vertices that no face names.
+    // Only corners are compared, because vertices that no face names also determine the precision.
     let corners = |scene: &Scene| scene.polygons().map(|p| p.points().to_vec()).collect::<Vec<_>>();
     assert_eq!(corners(&scene), corners(&again), "{text}");
 }
@@ -119,7 +120,7 @@ impl Known {
         for _ in 0..bytes.int_in_range(0..=6u8)? {
             let count = self.corners.len();
             let number = bytes.int_in_range(0..=count + 1)?;
-            // 0 is not a valid number; one too many is, if another corner follows.
+            // 0 is not a valid number. A number one above the last vertex is valid if another vertex follows.
             let index = if number > 0 && number <= count && bytes.arbitrary()? {
                 number as i64 - count as i64 - 1
             } else {
@@ -139,7 +140,7 @@ impl Known {
 
     /// A line that is not a polygon.
     fn aside(&mut self, bytes: &mut Unstructured<'_>) -> Result<bool> {
-        // No empty line: after a lone CR it would be half of a line end.
+        // No line is empty, because an LF after a lone CR would be half of a line end.
         let asides =
             [" ", "# f 1 2 3", "l 1 2 3", "p 1", "g f 1", "o v", "s 1", "vn 0 0 1", "usemtl x"];
         self.text.push_str(bytes.choose(&asides)?);

@@ -1,4 +1,4 @@
-//! Files of trees: forged ones, and any bytes. A tree that is read can be used.
+//! Files of trees, either forged or with any bytes. A tree that is read must be usable.
 
 use super::super::decode;
 use super::super::saved::{bytes, seal, use_all};
@@ -8,8 +8,8 @@ use binspace::{BspTree, BuildOptions, ErrorKind, FrameBuilder};
 /// The largest file, in bytes, in which places are changed.
 const MOST: usize = 20_000;
 
-/// Half the time a tree's file with some changes, half the time the bytes themselves; the checksum is
-/// right.
+/// Reads a tree's file with some changes in half of the cases, and the bytes themselves in the other half.
+/// The checksum is right.
 pub fn run(data: &[u8]) {
     match data.split_first() {
         Some((kind, rest)) if kind % 2 == 1 => {
@@ -68,9 +68,9 @@ fn file<P: binspace::Polygon>(
     (file.len() < MOST).then_some(file)
 }
 
-/// Changes a number of the file slightly or completely, or copies one over another.
+/// Changes a number of the file slightly or completely, or copies one number over another.
 fn change(bytes: &mut Unstructured<'_>, file: &mut [u8]) -> Result<()> {
-    // After the head, whose changes are always noticed.
+    // Changes begin after the head, because a changed head is always refused.
     let place = |bytes: &mut Unstructured<'_>| bytes.int_in_range(16..=file.len() - 5);
     let at = place(bytes)?;
     let word = |at: usize| at & !3;

@@ -5,7 +5,7 @@ use super::super::decode;
 use arbitrary::{Result, Unstructured};
 use binspace::internals::{Faces, PlaneId};
 
-/// A scene of at most eight polygons, and up to sixteen cuts.
+/// Cuts a face of a scene of at most eight polygons up to sixteen times.
 pub fn run(data: &[u8]) {
     // The cuts end with the bytes.
     let _ = try_run(&mut Unstructured::new(data));

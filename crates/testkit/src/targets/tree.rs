@@ -1,4 +1,4 @@
-//! A tree of any scene, by any heuristic, judged.
+//! Builds a tree of any scene by any heuristic, and judges it.
 
 use super::super::dice::Dice;
 use super::super::hits::{Oracle, Score};
@@ -9,8 +9,8 @@ use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 use binspace::{BspTree, FrameBuilder};
 
-/// A scene of at most twelve polygons: fragments by exact rationals, orders by rays, and hits of rays by
-/// exact rationals.
+/// Builds a scene of at most twelve polygons. Exact rationals judge fragments and hits of rays, and rays
+/// judge orders.
 pub fn run(data: &[u8]) {
     // Too few bytes make no scene.
     let _ = try_run(&mut Unstructured::new(data));

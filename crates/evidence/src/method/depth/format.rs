@@ -12,9 +12,9 @@ use crate::Precision;
 
 /// The content of a depth buffer.
 ///
-/// With n and f the near and the far plane's depths, z is the depth after the perspective divide,
-/// as graphics libraries have it: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far
-/// one. Half of its values go to depths below 2 n. For parallel cameras it is (w − n) / (f − n).
+/// With n and f the near and the far plane's depths, z is the depth after the perspective divide, as in
+/// graphics libraries: f (w − n) / (w (f − n)), 0 at the near plane and 1 at the far plane. Half of the
+/// values of z are used for depths below 2 n. For parallel cameras, z is (w − n) / (f − n).
 ///
 /// Lapidous & Jiao, "Optimal depth buffer for low-cost graphics hardware" (1999), compare these and
 /// more.
@@ -22,8 +22,8 @@ use crate::Precision;
 pub enum DepthFormat {
     /// z in steps of 1 / (2^bits − 1), rounded to the nearest; 1 to 32 bits.
     Integer(u8),
-    /// z as an `f32`. Most of its values are near 0, as z values after the divide are, so far depths have the
-    /// worst resolution.
+    /// z as an `f32`. Most `f32` numbers are near 0, where z is small and depths are near. So far depths have
+    /// the worst resolution.
     Float,
     /// 1 − z as an `f32`, interpolated as n (f − w) / (w (f − n)), where larger numbers are
     /// nearer. The uneven steps of z and of `f32` almost cancel.
@@ -58,41 +58,41 @@ impl fmt::Display for DepthFormat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// By the plane's equation in each pixel: z₀ + (y − y₀)·(−B/C) + (x − x₀)·(−A/C), from the left. The
-    /// coverage of a face is decided exactly, so that it shows nowhere else: there are no spills. A face that
-    /// is within the range of depths has no holes either. A face that leaves this range, as all faces do that
-    /// reach behind the eye, ends there by its depths in `f64`. The rest of it is missing; that may be the
-    /// whole visible part of a face that the eye touches.
+    /// pixels that a face covers are decided exactly, so there are no spills. A face within the range of
+    /// depths has no holes either. A face that leaves the range, as every face that reaches behind the eye
+    /// does, is cut off there by its depths in `f64`. If the eye touches a face, its whole visible part may
+    /// be cut off.
     EdgeFunctions,
     /// Scanline by scanline, as in Catmull's thesis (1974) and, without a buffer, in Wylie, Romney, Evans &
     /// Erdahl (1967) and Bouknight (1970). x and z grow by a constant along the edges from one scanline to
-    /// the next, and z by −A/C from one pixel to the next. The same sums give the coverage of a face, so
-    /// pixels at its edges may be missing, or too many.
+    /// the next, and z by −A/C from one pixel to the next. The same sums decide which pixels a face covers,
+    /// so pixels at its edges may be missing or superfluous.
     Incremental,
     /// Trapezoid by trapezoid: between the heights of two vertices a convex face has one edge on the left and
-    /// one on the right. With 1/m the slope of the left one, from one scanline to the next x grows by 1/m and
-    /// z by −(A/m + B)/C, by −B/C if it is vertical; and z by −A/C from pixel to pixel. (With y upwards and
-    /// scanlines taken from above, as textbooks have it: x − 1/m, and z + (A/m + B)/C.) Sums begin again in
-    /// each trapezoid, from the edges' ends.
+    /// one on the right. Let m be the slope of the left edge. From one scanline to the next, x grows by 1/m
+    /// and z by −(A/m + B)/C; if the edge is vertical, z grows by −B/C. From pixel to pixel, z grows by −A/C.
+    /// (In textbooks, y points upwards and scanlines are taken from above: x − 1/m, and z + (A/m + B)/C.) The
+    /// sums begin again in each trapezoid, at the ends of the edges.
     Trapezoids,
     /// Edges in integers, as Bresenham (1965) walks along lines: vertices are rounded to 1/256 of a pixel.
-    /// From there on the pixel centres between two edges are exact. z follows from the plane's equation at
-    /// the first pixel of a scanline, and grows by −A/C from there.
+    /// After this rounding, the pixel centres between two edges are exact. z follows from the plane's
+    /// equation at the first pixel of a scanline, and grows by −A/C from there.
     IntegerEdges,
 }
 
 impl Interpolation {
-    /// All of them.
+    /// All ways to interpolate.
     pub const ALL: [Self; 4] =
         [Self::EdgeFunctions, Self::Incremental, Self::Trapezoids, Self::IntegerEdges];
 }
 
-/// From depths to interpolated values, and from there to stored numbers.
+/// Converts depths to interpolated values, and interpolated values to stored numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale<P> {
     format: DepthFormat,
     range: Range,
     perspective: bool,
-    /// The interpolated value is (a · w + b), over w for a perspective.
+    /// The interpolated value is a · w + b, divided by w for a perspective.
     a: f64,
     b: f64,
     /// The largest step of an integer format.
@@ -153,7 +153,7 @@ impl<P: Precision> Scale<P> {
         Sample { x: position(x, width), y: position(y, height), value: self.value(w) }
     }
 
-    /// The stored number of an interpolated value: the smaller, the nearer.
+    /// The stored number of an interpolated value. Smaller numbers are nearer.
     #[inline]
     pub(super) fn key(&self, value: f64) -> u32 {
         match self.format {
@@ -176,15 +176,16 @@ impl<P: Precision> Scale<P> {
         }
     }
 
-    /// The nearest step; beyond the ends, the end's.
+    /// The nearest step; values beyond an end give the step of this end.
     #[inline]
     fn step(&self, value: f64) -> u32 {
-        // Nothing but a conversion, which ends at 0: `round` is a call on some machines.
+        // A conversion alone, which limits the result to 0 or more: `round` is a function call on some
+        // machines.
         ((value * self.steps + 0.5) as u32).min(self.steps as u32)
     }
 }
 
-/// A number that is not negative as an `f32`, as an integer of the same order.
+/// The bits of a non-negative number as an `f32`. Their order as integers is the order of the numbers.
 #[inline]
 fn bits(value: f64) -> u32 {
     (value as f32 + 0.0).to_bits()

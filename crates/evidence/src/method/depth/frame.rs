@@ -1,4 +1,4 @@
-//! The two buffers: a depth and a face a pixel.
+//! The two buffers: a depth and a face for each pixel.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// An empty section; the memory of another one's depths is used again.
+    /// Creates an empty section, which reuses the memory of another section's depths.
     pub(super) fn new(
         width: u32,
         rows: Range<u32>,

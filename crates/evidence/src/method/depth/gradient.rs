@@ -22,8 +22,8 @@ pub(in crate::method) struct Gradient<P> {
 }
 
 impl<P: Precision> Gradient<P> {
-    /// Through the first sample and two neighbours that span the most with it. Where they span nothing, the
-    /// first value holds everywhere.
+    /// Creates the function through the first sample and the two neighbours that span the largest triangle
+    /// with it. If no triangle has an area, the function is constant.
     pub(in crate::method) fn new(samples: &[Sample]) -> Self {
         let precision = PhantomData;
         let Some((&origin, rest)) = samples.split_first() else {
@@ -46,7 +46,7 @@ impl<P: Precision> Gradient<P> {
         Self { origin, along_x, along_y, precision }
     }
 
-    /// The first value of a row: the value on the row's centre, at the x of the first sample.
+    /// The first value of a row: the value at the row's centre line and the x of the first sample.
     #[inline]
     pub(in crate::method) fn row(&self, y: u32) -> f64 {
         let dy = P::round(f64::from(y) + 0.5 - self.origin.y);
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn slopes_are_those_of_the_largest_triangle() {
-        // The first three span next to nothing, and 6 + 5e-7 is 6 in `f32`.
+        // The triangle of the first three has almost no area, and 6 + 5e-7 is 6 in `f32`.
         let all = samples(&[[0.0, 0.0], [6.0, 0.0], [12.0, 1e-6], [8.0, 8.0], [0.0, 8.0]]);
         let gradient = Gradient::<f32>::new(&all);
         assert_eq!((gradient.along_x, gradient.along_y), (0.25, 0.5));

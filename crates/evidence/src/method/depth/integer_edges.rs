@@ -7,7 +7,7 @@ use super::pass::Pass;
 use super::walk::FaceWalk;
 use crate::Precision;
 
-/// The number of parts of a pixel that vertices are rounded to. Too large: coordinates of wide pictures need
+/// The number of parts of a pixel to which vertices are rounded. Too large: coordinates of wide pictures need
 /// more than 32 bits in hardware. Too small: edges move, and neighbours of different slopes show gaps.
 const PARTS: i64 = 256;
 
@@ -28,9 +28,9 @@ impl<P: Precision> FaceWalk<P> for Walk {
     }
 }
 
-/// An edge on the scanlines whose centres it crosses. On each, `column` is the first pixel whose centre is on
-/// it or to its right. `rest`, from 0 up to but not including `unit`, is the distance to its right, in `unit`
-/// parts of a pixel.
+/// An edge on the scanlines whose centres it crosses. On the current scanline, `column` is the first pixel
+/// whose centre is on the edge or to the right of it. `rest / unit` is the distance of this centre from the
+/// edge in pixels, from 0 up to but not including 1.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     first: i64,
@@ -71,7 +71,7 @@ impl Edge {
 }
 
 /// Calls `visit` with the row and the columns of all pixels whose centres are within a convex polygon, on its
-/// left boundary, or on its upper one.
+/// left boundary, or on its upper boundary.
 fn for_each_run(points: &[[i64; 2]], size: [u32; 2], mut visit: impl FnMut(u32, Range<u32>)) {
     let [width, height] = size.map(i64::from);
     let next = points.iter().cycle().skip(1);
@@ -113,7 +113,7 @@ mod tests {
             && (0..3).all(|k| {
                 let (a, b) = (points[k], points[(k + 1) % 3]);
                 let [run, rise] = [b[0] - a[0], b[1] - a[1]].map(|d| d * turn);
-                // With y down and this turn the inside is to the right of a rising edge.
+                // With y down and this orientation, the inside is to the right of a rising edge.
                 let on_left_or_top = rise < 0 || rise == 0 && run > 0;
                 let side = area([a, b, centre]) * turn;
                 side > 0 || side == 0 && on_left_or_top
@@ -125,7 +125,7 @@ mod tests {
         let mut random = SplitMix64::new(4);
         let mut covered = 0;
         for round in 0..3000 {
-            // Every second time on a coarse grid, so that centres are on edges.
+            // Every second triangle is on a coarse grid, so that centres of pixels are on edges.
             let grid = if round % 2 == 0 { 1 } else { PARTS / 2 };
             let mut point = || {
                 let p = random.point(-1.0, 1.0) * 12.0 * PARTS as f64;

@@ -1,4 +1,4 @@
-//! Opaque polygons by depth, and translucent ones over them in an order.
+//! Opaque polygons by depth, and translucent polygons over them in an order.
 
 use super::super::MethodError;
 use super::super::clip::{Clipper, Range};
@@ -13,35 +13,35 @@ use binspace::BspTree;
 use binspace::raster::{NONE, Outline, Piece, Rays};
 use binspace::view::Camera;
 
-/// The polygons that show in each pixel, row by row from the top left, those behind first: an opaque
-/// one, if there is one, and all translucent ones that passed the depth test, in the order in which
-/// they were drawn.
+/// The visible polygons of each pixel, row by row from the top left. In a pixel, the opaque polygon comes
+/// first, if there is one. Then come all translucent polygons that passed the depth test, in the order in
+/// which they were drawn.
 pub type Layers = Vec<Vec<u32>>;
 
 /// A picture of opaque and translucent polygons.
 #[derive(Clone, Copy, Debug)]
 pub struct Layered<'a> {
-    /// The depth buffer. Its rule on writing applies to the opaque polygons.
+    /// The depth buffer. Its rule `writes` applies to the opaque polygons.
     pub buffer: DepthBuffer,
     /// The polygons, and the order of their fragments.
     pub tree: &'a BspTree,
-    /// Who looks.
+    /// The camera.
     pub camera: &'a Camera,
     /// The camera's rays through the tree's faces.
     pub rays: &'a Rays,
     /// Which polygons are opaque, by number.
     pub opaque: &'a [bool],
-    /// Whether translucent polygons leave their depths; they should not.
+    /// Whether translucent polygons write their depths; they should not.
     pub writes: bool,
 }
 
 impl Layered<'_> {
-    /// Draws the opaque polygons by depth, and then fragments of the translucent ones in the order
-    /// that is given, each where it passes the depth test.
+    /// Draws the opaque polygons by depth. Then draws the fragments of the translucent polygons in the given
+    /// order, each where it passes the depth test.
     ///
     /// # Errors
     ///
-    /// If the buffer's planes make no range.
+    /// If the buffer's near and far planes do not suit the camera.
     pub fn draw(&self, order: &[u32]) -> Result<Layers, MethodError> {
         if self.buffer.format.is_float() {
             self.draw_in::<f32>(order)

@@ -11,7 +11,7 @@ use crate::Precision;
 use binspace::internals::Faces;
 use binspace::raster::{Outline, Piece, Rays, for_each_run};
 
-/// One picture in the making.
+/// The state of one picture while it is drawn.
 pub(super) struct Pass<'a, P> {
     pub(super) space: CameraSpace,
     pub(super) range: DepthRange,
@@ -134,7 +134,7 @@ struct Depths<P> {
 /// The margin beyond the near and the far plane, for the rounding of depths.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// The depth of a face, or its reciprocal for a perspective, and the values of it that are in range.
+/// The depth of a face, or the reciprocal of the depth for a perspective, and the range of allowed values.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     linear: Gradient<f64>,

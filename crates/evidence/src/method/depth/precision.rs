@@ -7,7 +7,7 @@ use crate::method::clip::Range;
 /// The stored value of a depth in a depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
-    /// The stored number, from 0 at the near plane to 1 at the far one; the other way round for
+    /// The stored number: 0 at the near plane and 1 at the far plane, or the reverse for
     /// [`DepthFormat::FloatReversed`].
     pub value: f64,
     /// The depth that this number stands for.
@@ -15,7 +15,8 @@ pub struct Stored {
 }
 
 impl DepthFormat {
-    /// The stored value in a perspective picture's buffer, for a depth between the near and the far plane.
+    /// Returns the stored value in a perspective picture's buffer, for a depth between the near and the far
+    /// plane.
     pub fn store(self, planes: [f64; 2], depth: f64) -> Stored {
         if self.is_float() {
             self.store_in::<f32>(planes, depth)
@@ -42,19 +43,21 @@ impl DepthFormat {
         Stored { value, depth }
     }
 
-    /// The largest difference between depths around this one, within `share` of it, and their stored values.
+    /// Returns the largest difference between a depth and its stored value, over depths that differ from
+    /// `depth` by at most a share `share`.
     pub fn largest_error(self, planes: [f64; 2], depth: f64, share: f64) -> f64 {
-        // Steps that no regular pattern of the format's steps follows.
+        // Samples at irregular distances, so that their pattern differs from the regular steps of the format.
         let golden = |i: u32| (f64::from(i) * 0.618_033_988_749_894_9).fract() * 2.0 - 1.0;
         let near = |i: u32| (depth * (1.0 + share * golden(i))).clamp(planes[0], planes[1]);
         let error = |i| (self.store(planes, near(i)).depth - near(i)).abs();
         (0..LOOKED_AT).map(error).fold(0.0, f64::max)
     }
 
-    /// The difference of two depths, near this one, whose stored numbers are a step apart, by the formula: a
-    /// step times the slope of w over the stored number. For z the slope is w² (f − n) / (f n).
+    /// Returns the difference of two depths near `depth` whose stored numbers are a step apart. It is
+    /// computed by the formula: a step times the slope of w over the stored number. For z the slope is w² (f
+    /// − n) / (f n).
     ///
-    /// Steps of an `f32` are the steps of the number's power of two.
+    /// The step of an `f32` depends on the power of two of the stored number.
     pub fn step(self, [near, far]: [f64; 2], depth: f64) -> f64 {
         let slope = depth * depth * (far - near) / (far * near);
         let of_bits = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);
@@ -70,7 +73,8 @@ impl DepthFormat {
     }
 }
 
-/// The number of depths sampled for an error. Too small: the largest error is missed. Too large: time.
+/// The number of depths sampled for an error. Too small: the largest error is missed. Too large: the search
+/// takes longer.
 const LOOKED_AT: u32 = 2000;
 
 #[cfg(test)]

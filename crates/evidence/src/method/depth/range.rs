@@ -6,7 +6,7 @@ use super::super::space::CameraSpace;
 use binspace::internals::Faces;
 
 /// The nearest near plane that is chosen, as a share of the far plane's depth. Too small: one face at the eye
-/// takes all depths. Too large: it is cut off.
+/// uses up all depths. Too large: such a face is cut off.
 const NEAREST: f64 = 1.0 / (1u64 << 44) as f64;
 /// The least range that is chosen, as a share of the larger depth, so that the range is a valid divisor.
 const SHALLOWEST: f64 = 1.0 / (1u64 << 20) as f64;
@@ -49,7 +49,7 @@ fn visible(space: &CameraSpace, faces: &Faces) -> Option<Range> {
             seen.include(vertex.at.z);
         }
     }
-    // So that rounding moves no face at the ends beyond them.
+    // The range is a little wider, so that rounding does not move faces at its ends out of the range.
     let pad = 1e-12 * if space.perspective { seen.far } else { 1.0 };
     seen = Range { near: seen.near - pad, far: seen.far + pad };
     if space.perspective {

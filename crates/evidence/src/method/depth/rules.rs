@@ -1,6 +1,6 @@
 //! The conventions of a depth buffer: its first value, its test and its writes.
 
-/// The state that graphics libraries leave to their users.
+/// The state of a depth buffer that users of graphics libraries set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepthRules {
     /// Which of two stored numbers is nearer.
@@ -9,8 +9,8 @@ pub struct DepthRules {
     pub test: DepthTest,
     /// The buffer's clear value.
     pub clear: Clear,
-    /// Whether a visible polygon also leaves its depth. Translucent polygons must not: polygons behind them
-    /// are still seen.
+    /// Whether a visible polygon also writes its depth. Translucent polygons must not write their depths,
+    /// because polygons behind them are visible too.
     pub writes: bool,
 }
 
@@ -18,29 +18,29 @@ pub struct DepthRules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nearer {
     /// The smaller: stored numbers run from 0 at the near plane to the format's largest number at the far
-    /// one.
+    /// plane.
     Smaller,
-    /// The larger: stored numbers run the other way.
+    /// The larger: stored numbers run in the opposite direction.
     Larger,
 }
 
 /// The test that a depth must pass to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthTest {
-    /// Its number is smaller than the stored one.
+    /// The new number is smaller than the stored number.
     Less,
-    /// It is not larger.
+    /// The new number is not larger.
     LessOrEqual,
-    /// It is larger.
+    /// The new number is larger.
     Greater,
-    /// It is not smaller.
+    /// The new number is not smaller.
     GreaterOrEqual,
 }
 
 /// The clear value of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clear {
-    /// To nothing: any depth passes where no face is yet.
+    /// To no number: any depth passes in a pixel without a face.
     Nothing,
     /// To the smallest number that can be stored.
     Smallest,
@@ -57,19 +57,19 @@ impl DepthRules {
         writes: true,
     };
 
-    /// With another test.
+    /// Sets the test.
     #[must_use]
     pub const fn with_test(self, test: DepthTest) -> Self {
         Self { test, ..self }
     }
 
-    /// Cleared to another value.
+    /// Sets the clear value.
     #[must_use]
     pub const fn with_clear(self, clear: Clear) -> Self {
         Self { clear, ..self }
     }
 
-    /// With the larger number nearer, or the smaller.
+    /// Sets which of two numbers is nearer.
     #[must_use]
     pub const fn with_nearer(self, nearer: Nearer) -> Self {
         Self { nearer, ..self }
@@ -79,13 +79,13 @@ impl DepthRules {
 /// Rules as a comparison of integers, given the keys of a format's ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Comparison {
-    /// A stored number is kept as its key, the smaller, the nearer, with these bits flipped: none, or all if
-    /// the test selects the further.
+    /// The bits that are flipped in a stored key: none, or all bits if the test selects the further face.
+    /// Keys are smaller for nearer depths.
     flip: u32,
     or_equal: bool,
     /// The clear value, flipped.
     pub(super) cleared: u32,
-    /// Whether any depth passes where no face is yet.
+    /// Whether any depth passes in a pixel without a face.
     pub(super) is_open: bool,
     pub(super) writes: bool,
 }
@@ -94,7 +94,7 @@ impl Comparison {
     pub(super) fn new(rules: DepthRules, [first, last]: [u32; 2]) -> Self {
         let asks_smaller = matches!(rules.test, DepthTest::Less | DepthTest::LessOrEqual);
         let smaller_is_nearer = rules.nearer == Nearer::Smaller;
-        // A test for the end that is not the nearer shows the furthest faces.
+        // If the test selects the numbers that are not nearer, the furthest faces show.
         let flip = if asks_smaller == smaller_is_nearer { 0 } else { u32::MAX };
         let cleared = match (rules.clear, smaller_is_nearer) {
             (Clear::Nothing, _) => u32::MAX ^ flip,
@@ -112,7 +112,7 @@ impl Comparison {
         key ^ self.flip
     }
 
-    /// Whether a new number shows before the stored one.
+    /// Whether a new number passes the test against the stored number.
     #[inline]
     pub(super) fn passes(&self, new: u32, stored: u32) -> bool {
         new < stored || self.or_equal && new == stored

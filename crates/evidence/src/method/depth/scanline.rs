@@ -35,7 +35,7 @@ impl Edge {
     }
 }
 
-/// The lists of a walk, which the next face uses again.
+/// The lists of a walk, which the next face reuses.
 #[derive(Debug, Default)]
 pub(super) struct Walk {
     edges: Vec<Edge>,
@@ -43,7 +43,7 @@ pub(super) struct Walk {
 }
 
 impl<P: Precision> FaceWalk<P> for Walk {
-    /// Fills the area between the edges of a face, taken by their first scanlines.
+    /// Fills the area between the edges of a face. Edges become active in the order of their first scanlines.
     fn fill(&mut self, pass: &mut Pass<'_, P>, face: u32, samples: &[Sample]) {
         let Self { edges, active } = self;
         let next = samples.iter().cycle().skip(1);

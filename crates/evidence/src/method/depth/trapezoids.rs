@@ -24,7 +24,7 @@ impl Edge {
         (first < end).then(|| Self { first, end, top, step: P::round(run / rise) })
     }
 
-    /// Its x on a scanline.
+    /// The x of the edge on a scanline.
     fn x<P: Precision>(&self, y: u32) -> f64 {
         let skip = P::round(f64::from(y) + 0.5 - self.top.y);
         P::round(self.top.x + P::round(skip * self.step))
@@ -48,7 +48,8 @@ impl<P: Precision> FaceWalk<P> for Walk {
         for pair in heights.windows(2) {
             let (first, end) = (pair[0], pair[1]);
             let mut sides = edges.iter().filter(|edge| edge.first <= first && edge.end >= end);
-            // The picture of a convex face has two; if rounding leaves one, it is a line.
+            // The picture of a convex face has two edges there. If rounding leaves only one, the face is a
+            // line.
             let (Some(a), Some(b)) = (sides.next(), sides.next()) else { continue };
             let middle = |edge: &Edge| edge.x::<P>(first) + edge.x::<P>(end - 1);
             let [left, right] = if middle(a) <= middle(b) { [a, b] } else { [b, a] };

@@ -1,4 +1,4 @@
-//! The number that a depth buffer is about to store, with bounds of the roundings on the way.
+//! The number that a depth buffer is about to store, with bounds of the roundings before that.
 
 use super::super::clip::{Clipper, Range};
 use super::super::space::CameraSpace;
@@ -13,10 +13,10 @@ use binspace::view::Camera;
 /// A number that is about to be stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unstored {
-    /// The number of the face's plane in the pixel, as the pipeline set the plane up, with rounded corners
-    /// and slopes; the smaller, the nearer.
+    /// The number of the face's plane in the pixel, for the plane that the pipeline sets up with rounded
+    /// corners and slopes. Smaller numbers are nearer.
     pub value: f64,
-    /// The difference of two stored numbers that are next to each other there.
+    /// The difference of two consecutive stored numbers there.
     pub step: f64,
     /// The largest effect of the roundings in the pixel on the number, before it is stored.
     pub rounding: f64,
@@ -30,7 +30,7 @@ pub struct SetUp {
     perspective: bool,
     /// Half of the step between numbers from 1 to 2 in the pipeline.
     unit: f64,
-    /// For each face a point and slopes, if it is seen.
+    /// A point and the slopes of each face; `None` if the face is not visible.
     planes: Vec<Option<(Sample, [f64; 2])>>,
 }
 
@@ -78,15 +78,15 @@ impl SetUp {
         self.unit * 2f64.powi(size.log2().floor() as i32)
     }
 
-    /// The number that is about to be stored for a face at a pixel's centre; `None` for a face that is not
-    /// seen.
+    /// Returns the number that is about to be stored for a face at a pixel's centre; `None` for a face that
+    /// is not seen.
     pub fn at(&self, face: u32, x: u32, y: u32) -> Option<Unstored> {
         let (origin, [along_x, along_y]) = self.planes[face as usize]?;
         let by_y = (f64::from(y) + 0.5 - origin.y) * along_y;
         let by_x = (f64::from(x) + 0.5 - origin.x) * along_x;
         let row = origin.value + by_y;
         let value = row + by_x;
-        // The differences and the products, and the sum of a row; the last sum is stored.
+        // The roundings of the differences, the products and the sum of a row. The last sum is stored.
         let products = 2.0 * self.unit * (by_y.abs() + by_x.abs());
         let rounding = products + self.half_step(row.abs() + products);
         let whole = |bits: u8| 1.0 / (2f64.powi(i32::from(bits.clamp(1, 32))) - 1.0);
@@ -108,7 +108,8 @@ impl SetUp {
                 Unstored { value, step, rounding: rounding + 3.0 * sum }
             }
             DepthFormat::LinearInteger(_) | DepthFormat::LinearFloat => {
-                // 1 / w is interpolated: w moves by as much times w², and is rounded itself.
+                // 1 / w is interpolated. An error of 1 / w changes w by this error times w², and w is rounded
+                // as well.
                 let depth = 1.0 / value;
                 let rounding = (rounding + sum) * depth * depth;
                 let Range { near, far } = self.range;

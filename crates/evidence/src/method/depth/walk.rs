@@ -35,7 +35,8 @@ pub(super) fn index(coordinate: f64, limit: u32) -> u32 {
     (coordinate - 0.5).ceil().clamp(0.0, f64::from(limit)) as u32
 }
 
-/// Twice the area that samples span: negative where they run counter-clockwise as one sees them.
+/// Twice the area of a polygon of samples. It is negative if the samples run counter-clockwise on the
+/// picture.
 fn area(samples: &[Sample]) -> f64 {
     let next = samples.iter().cycle().skip(1);
     samples.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()

@@ -64,7 +64,7 @@ impl Whole<'_> {
         })
     }
 
-    /// Draws some rows; `faces` are theirs.
+    /// Draws some rows, and writes the faces of their pixels to `faces`.
     fn section<P: Precision>(
         &self,
         rows: Range<u32>,

@@ -9,13 +9,13 @@ pub(super) const TOUCH: f64 = 1e-6;
 /// The test that proves that P does not hide Q.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Reason {
-    /// They are pieces of one face.
+    /// P and Q are pieces of one face.
     OneFace,
-    /// One of the five tests, by its number from 0.
+    /// One of the five tests, numbered from 0.
     Test(usize),
 }
 
-/// The first reason why P does not hide Q; `None` if it may hide a part of it.
+/// The first reason why P does not hide Q; `None` if P may hide a part of Q.
 #[inline]
 pub(super) fn why_not_hidden(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> Option<Reason> {
     let (a, b) = (pieces.get(p), pieces.get(q));
@@ -38,19 +38,19 @@ pub(super) fn why_not_hidden(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> O
     }
 }
 
-/// Whether nothing of P is in front of Q's plane.
+/// Whether no part of P is in front of Q's plane.
 pub(super) fn is_behind(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool {
     let plane = pieces.plane(q);
     pieces.vertices(p).iter().all(|vertex| plane.distance(vertex.at) <= epsilon)
 }
 
-/// Whether nothing of P is behind Q's plane.
+/// Whether no part of P is behind Q's plane.
 pub(super) fn is_in_front(pieces: &Pieces, p: u32, q: u32, epsilon: f64) -> bool {
     let plane = pieces.plane(q);
     pieces.vertices(p).iter().all(|vertex| plane.distance(vertex.at) >= -epsilon)
 }
 
-/// Whether an edge of one of two convex polygons has them on different sides.
+/// Whether an edge of one of two convex polygons separates them.
 fn are_apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     has_separating_edge(a, b) || has_separating_edge(b, a)
 }

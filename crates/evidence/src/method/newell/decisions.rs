@@ -13,9 +13,9 @@ pub struct Decisions {
     pub painted: usize,
     /// Pairs P, Q that overlap in depth and were compared.
     pub compared: u64,
-    /// Pairs among these of pieces of one face, which cannot hide each other.
+    /// Compared pairs of pieces of one face, which cannot hide each other.
     pub of_one_face: u64,
-    /// Pairs among these that each of the five tests decided and no earlier test did.
+    /// Compared pairs that each of the five tests decided, after the earlier tests did not.
     pub by_test: [u64; 5],
     /// Pairs that no test decided: Q took P's place in the list.
     pub moved: u64,

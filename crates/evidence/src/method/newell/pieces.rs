@@ -14,7 +14,7 @@ pub(super) struct EyePlane {
 }
 
 impl EyePlane {
-    /// The plane of a face. A face whose plane contains the eye has it on either side.
+    /// The plane of a face. If the plane contains the eye, the normal may point to either side.
     fn of(space: &CameraSpace, faces: &Faces, face: u32) -> Self {
         let [p, q, r] = faces.reference_triangle(face).map(|c| DVec3::from(faces.corner(c)));
         // Differences of lattice points are exact.
@@ -25,20 +25,20 @@ impl EyePlane {
         if eye < 0.0 { Self { normal: -normal, offset: -offset } } else { Self { normal, offset } }
     }
 
-    /// The distance of a place on the eye's side; behind the plane it is negative.
+    /// The distance of a place from the plane: positive on the eye's side, negative behind the plane.
     #[inline]
     pub(super) fn distance(&self, at: DVec3) -> f64 {
         self.normal.dot(at) - self.offset
     }
 }
 
-/// A piece's extents and where its vertices are.
+/// The extents of a piece, and the place of its vertices in the lists.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) face: u32,
     start: u32,
     len: u32,
-    /// Whether it is the whole visible part of its face.
+    /// Whether the piece is the whole visible part of its face.
     whole: bool,
     pub(super) near: f64,
     pub(super) far: f64,
@@ -145,7 +145,7 @@ impl Pieces {
         &self.planes[self.pieces[piece as usize].face as usize]
     }
 
-    /// The face of a piece, and whether the piece is the whole visible part of it.
+    /// The face of a piece, and whether the piece is the whole visible part of this face.
     pub(super) fn source(&self, piece: u32) -> (u32, bool) {
         let piece = self.get(piece);
         (piece.face, piece.whole)

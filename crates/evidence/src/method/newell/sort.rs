@@ -18,7 +18,7 @@ enum State {
     Gone,
 }
 
-/// The next piece to paint, unless it hides something; no piece from `place` in the list on prevents it.
+/// The next piece to paint, unless it hides another piece. It hides no piece of the list from `place` on.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     piece: u32,
@@ -32,7 +32,7 @@ pub(super) struct Sorter<'a> {
     /// Pieces by their furthest depths, the furthest last; removed pieces may still be there.
     list: Vec<u32>,
     state: Vec<State>,
-    /// Each has taken the place of the one before it.
+    /// Candidates, each of which has taken the place of the candidate before it.
     chain: Vec<Candidate>,
     /// The number of removed pieces in the list.
     gone: usize,
@@ -48,7 +48,7 @@ impl<'a> Sorter<'a> {
     ) -> Result<Self, MethodError> {
         let mut list: Vec<u32> = (0..pieces.len() as u32).collect();
         let far = |piece: u32| pieces.get(piece).far;
-        // Of two faces at the same depth, the earlier is painted first, so it is the last in the list.
+        // If two faces have the same depth, the earlier is painted first, so it is later in the list.
         list.sort_unstable_by(|&a, &b| far(a).total_cmp(&far(b)).then(b.cmp(&a)));
         let state = vec![State::Waiting; list.len()];
         let (chain, gone, comparisons) = (Vec::new(), 0, 0);
@@ -64,7 +64,7 @@ impl<'a> Sorter<'a> {
         if self.pieces.len() > limit { Err(MethodError::pieces(limit)) } else { Ok(()) }
     }
 
-    /// All pieces, the furthest first, and the deciding tests.
+    /// Returns all pieces, the furthest first, and the counts of the deciding tests.
     pub(super) fn sort(mut self) -> Result<(Vec<u32>, Decisions), MethodError> {
         let mut order = Vec::with_capacity(self.list.len());
         while let Some(candidate) = self.next() {
@@ -149,8 +149,8 @@ impl<'a> Sorter<'a> {
         is_behind(self.pieces, q, p, epsilon) || is_in_front(self.pieces, p, q, epsilon)
     }
 
-    /// Cuts a piece so that the end of the chain and `q`, which it may hide, can be put in order:
-    /// one of the two, or, if `q` is in the chain, two neighbours in the cycle that begins there.
+    /// Cuts a piece so that the end of the chain and `q`, which the end may hide, can be put in order. One of
+    /// the two is cut. If `q` is in the chain, one of two neighbours in the cycle that begins at `q` is cut.
     fn cut_for(&self, q: u32) -> Option<(u32, Halves)> {
         let begin = self.chain.iter().position(|candidate| candidate.piece == q);
         let cycle = begin.map_or(&[][..], |begin| &self.chain[begin..]);
@@ -164,7 +164,7 @@ impl<'a> Sorter<'a> {
         cut.or_else(|| pairs.iter().flat_map(both).find_map(outline))
     }
 
-    /// Puts two halves in the place of a piece, and begins again with the furthest.
+    /// Replaces a piece by its two halves, and begins again with the furthest piece.
     fn replace(&mut self, piece: u32, halves: &Halves) -> Result<(), MethodError> {
         for candidate in self.chain.drain(..) {
             self.state[candidate.piece as usize] = State::Waiting;

@@ -6,16 +6,17 @@ use super::super::space::{CameraSpace, Vertex};
 use super::compare::TOUCH;
 use super::pieces::Pieces;
 
-/// A polygon's part in front of a plane and the one behind.
+/// The parts of a polygon in front of a plane and behind it.
 pub(super) type Halves = [Vec<Vertex>; 2];
 
-/// Cuts a piece by the plane of another; `None` unless it reaches beyond the epsilon on both sides.
+/// Cuts a piece by the plane of another piece; `None` unless the piece reaches beyond the epsilon on both
+/// sides.
 pub(super) fn by_plane(pieces: &Pieces, piece: u32, by: u32, epsilon: f64) -> Option<Halves> {
     let plane = pieces.plane(by);
     cut(pieces.vertices(piece), |vertex| plane.distance(vertex.at), |_| epsilon)
 }
 
-/// Cuts a piece along an edge of another, as both are seen, the first edge that cuts it.
+/// Cuts a piece along an edge of another piece, as both are seen: along the first edge that cuts it.
 pub(super) fn by_outline(
     space: &CameraSpace,
     pieces: &Pieces,
@@ -62,7 +63,7 @@ fn cut(
             back.push(*here);
         }
         if a < 0.0 && b > 0.0 || a > 0.0 && b < 0.0 {
-            // From the front, in either direction of the edge: neighbours get the same vertex.
+            // Computed from the front, whatever the direction of the edge: so neighbours get the same vertex.
             let vertex = if a > 0.0 {
                 Vertex::between(here, next, a / (a - b))
             } else {

@@ -5,11 +5,11 @@ use crate::panes::{panes, world_polygons};
 use crate::plain::PlainView;
 use testkit::prelude::*;
 
-/// Texture coordinates of a parallelogram's corners, and a colour that is linear on it.
+/// Texture coordinates of a parallelogram's corners, and a colour that is linear on the parallelogram.
 const CORNERS: [[i64; 3]; 4] = [[0, 0, 10], [8, 0, 200], [8, 8, 250], [0, 8, 60]];
 
 #[test]
-fn attributes_are_those_of_the_polygon_through_all_cuts() {
+fn attributes_match_the_polygon_after_all_cuts() {
     let view = PlainView::new([96, 72]);
     let camera = view.camera();
     let (mut compared, mut cut, mut squares) = (0, 0, [0; 2]);

@@ -16,13 +16,14 @@ fn ahead(size: [u32; 2]) -> Camera {
     Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, size).unwrap()
 }
 
-/// A square across the view at some depth; wider than the picture.
+/// A square perpendicular to the direction of view at some depth, wider than the picture.
 fn wall(depth: f64) -> Vec<DVec3> {
     let c = 2.0 * depth;
     [(-c, -c), (c, -c), (c, c), (-c, c)].map(|(x, y)| DVec3::new(x, y, -depth)).to_vec()
 }
 
-/// The number of pairs of walls, `gap` apart, in which the further, which comes first, is shown.
+/// The number of pairs of walls, `gap` apart, in which the further wall is shown. The further wall is drawn
+/// first.
 fn mistaken(format: DepthFormat, gap: f64) -> usize {
     let camera = ahead([2, 2]);
     let method = DepthBuffer::new(format).with_range(1.0, 1000.0);
@@ -36,8 +37,8 @@ fn mistaken(format: DepthFormat, gap: f64) -> usize {
 
 #[test]
 fn precision_is_that_of_the_format() {
-    // At depth 500 of 1 to 1000, z changes by 4e-6 a unit, and w by 1e-3 of its range.
-    // A step of 16 bits is 15e-6 of z, or 0.0152 units of w.
+    // At depth 500 of 1 to 1000, z changes by 4e-6 per unit, and w by 1e-3 of its range. A step of 16 bits is
+    // 15e-6 of z, or 0.0152 units of w.
     assert!(mistaken(Integer(16), 1.0) > 20);
     assert_eq!(mistaken(Integer(16), 4.0), 0);
     assert_eq!(mistaken(LinearInteger(16), 0.016), 0);
@@ -52,8 +53,8 @@ fn precision_is_that_of_the_format() {
     assert!(mistaken(FloatReversed, 1e-6) > 20 && mistaken(LinearFloat, 1e-6) > 20);
 }
 
-/// The justification of two pictures that differ in a pixel: one of the two polygons has an edge there, or
-/// both are at about the same depth.
+/// Whether a difference between two pictures in a pixel is excused: one of the two polygons has an edge
+/// there, or both are at about the same depth.
 fn is_excused(polygons: &Polygons, camera: &Camera, [x, y]: [u32; 2], shown: [u32; 2]) -> bool {
     let meeting = shown.map(|face| match face {
         NONE => Meeting::Nothing,
@@ -103,7 +104,8 @@ fn walks_along_edges_agree_with_edge_functions() {
 
 #[test]
 fn edge_functions_leave_holes_only_beyond_the_range_of_depths() {
-    // A floor at the eye's feet, so near below it that the range ends before.
+    // A floor below the eye. At the least height, the eye is so near to the floor that its visible part is
+    // outside the range of depths.
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let floor = corners.map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
     let faces = faces(&vec![floor], Some(0.0));
@@ -135,7 +137,7 @@ fn rounded_sums_are_seldom_wrong() {
 }
 
 #[test]
-fn wrong_pixels_are_those_of_near_depths_alone() {
+fn only_pixels_with_near_depths_are_wrong() {
     let polygons = polygons_of(&scene::random_triangles(80, 6));
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [80, 60], 6) {
@@ -171,8 +173,8 @@ fn planes_near_and_far_cut_off() {
 
 #[test]
 fn a_floor_is_cut_off_between_the_planes() {
-    // Below the eye by 1, it shows in row y of 12, 0.577 / 6 each, at depth 1 / (0.0962 (y − 5.5)):
-    // 20.8, 6.9, 4.2, 3.0, 2.3, 1.9.
+    // The floor is 1 below the eye. The picture has 12 rows of height 0.577 / 6 = 0.0962 at depth 1. Row y
+    // shows the floor at depth 1 / (0.0962 (y − 5.5)): 20.8, 6.9, 4.2, 3.0, 2.3, 1.9.
     let c = 100.0;
     let floor = [(-c, c), (c, c), (c, -c), (-c, -c)].map(|(x, z)| DVec3::new(x, -1.0, z)).to_vec();
     let faces = faces(&vec![floor], Some(0.0));

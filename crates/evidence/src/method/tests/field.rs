@@ -39,7 +39,7 @@ fn every_method_paints_every_kind_of_scene() {
     for (number, polygons) in scenes.iter().enumerate() {
         let faces = faces(polygons, Some(0.0));
         let cameras = if polygons.is_empty() {
-            // A parallel camera has no pixels on the grid of a point.
+            // If a scene is a single point, its grid has no pixels for a parallel camera.
             cameras(&scenes[0], [40, 30], 4)[..3].to_vec()
         } else {
             cameras(polygons, [40, 30], 4)
@@ -123,7 +123,7 @@ fn centroids_are_right_for_layers_and_wrong_for_a_long_floor() {
 }
 
 #[test]
-fn rays_that_see_only_fronts_are_heeded() {
+fn methods_respect_rays_that_meet_only_fronts() {
     let mut back = vec![DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, -1.0, 1.0), DVec3::Z * 2.0];
     back.reverse();
     let front = vec![DVec3::new(-2.0, -2.0, 0.0), DVec3::new(2.0, -2.0, 0.0), DVec3::Y * 2.0];

@@ -30,8 +30,8 @@ fn points<const N: usize>(corners: [[f64; 3]; N]) -> Vec<DVec3> {
     corners.map(DVec3::from).to_vec()
 }
 
-/// A at depth 5 all over; B from depth 4 at the left to depth 10 at the right, above the diagonal:
-/// at the centres of the columns 4.5, 5.5, 6.5 …
+/// A has depth 5 everywhere. B covers the part above the diagonal, from depth 4 at the left to depth 10 at
+/// the right. At the centres of the columns, its depths are 4.5, 5.5, 6.5, ….
 fn two_triangles() -> Polygons {
     let a = points([[0.0, 0.0, -5.0], [12.0, 0.0, -5.0], [0.0, 12.0, -5.0]]);
     let b = points([[0.0, 0.0, -4.0], [6.0, 6.0, -10.0], [0.0, 6.0, -4.0]]);
@@ -53,7 +53,7 @@ fn the_nearer_of_two_triangles_wins_pixel_by_pixel() {
         assert_eq!(drawn(&*method, &there, &camera()), NEARER_WINS, "{name}");
         assert_eq!(drawn(&*method, &back, &camera()), swapped, "{name}, the other order");
     }
-    // The last face is on top, wherever it is; with its back to the eye it is not there.
+    // The last face is on top, whatever its depth. If its back is to the eye, it is left out.
     let all_a = "AAAAAA ".repeat(6);
     let b_on_top = "BBBBBA BBBBAA BBBAAA BBAAAA BAAAAA AAAAAA";
     assert_eq!(drawn(&InputOrder, &there, &camera()), b_on_top);
@@ -62,7 +62,7 @@ fn the_nearer_of_two_triangles_wins_pixel_by_pixel() {
     let mut turned = there.clone();
     turned[1].reverse();
     assert_eq!(drawn(&FrontFaces(InputOrder), &turned, &camera()), all_a.trim());
-    // B's centroid is at depth 6, A's at 5: A is painted over all of B.
+    // B's centroid is at depth 6 and A's centroid at depth 5, so A is painted over all of B.
     assert_eq!(drawn(&Centroid, &there, &camera()), all_a.trim());
 }
 
@@ -79,7 +79,7 @@ fn of_two_in_one_plane_painters_show_the_later_and_depth_buffers_the_earlier() {
     let b = points([[2.0, 0.0, 1.0], [6.0, 0.0, 1.0], [6.0, 6.0, 1.0], [2.0, 6.0, 1.0]]);
     for method in all(&Options::DEFAULT) {
         let name = method.name();
-        // All is at the far plane, to which that one is cleared.
+        // All faces are at the far plane, and this buffer is cleared to it, so nothing shows.
         if name.ends_with("cleared") {
             continue;
         }
@@ -93,8 +93,9 @@ fn of_two_in_one_plane_painters_show_the_later_and_depth_buffers_the_earlier() {
 
 #[test]
 fn two_bits_tell_four_depths_apart() {
-    // From near 0 to far 9, steps of 3: depths below 1.5 are 0, below 4.5 are 1, below 7.5 are 2.
-    // A is at 5, so 2; B from ¾ at the left to 5¾ at the right, so 0 1 1 1 2 2.
+    // From near 0 to far 9, steps of 3: depths below 1.5 are 0, below 4.5 are 1, below 7.5 are 2. A is at
+    // depth 5, which is stored as 2. B is from depth ¾ at the left to 5¾ at the right, which is stored as 0 1
+    // 1 1 2 2.
     let a = points([[0.0, 0.0, -5.0], [12.0, 0.0, -5.0], [0.0, 12.0, -5.0]]);
     let b = points([[0.0, 0.0, -0.25], [12.0, 0.0, -12.25], [0.0, 12.0, -0.25]]);
     let row = |text: &str| [text; 6].join(" ");
@@ -103,7 +104,7 @@ fn two_bits_tell_four_depths_apart() {
             let method = DepthBuffer::new(format).with_interpolation(interpolation);
             let method = method.with_range(0.0, 9.0);
             let there = drawn(&method, &vec![a.clone(), b.clone()], &camera());
-            // 4¾ is as far as A, to two bits: the earlier wins.
+            // In two bits, 4¾ is as far as A, and the earlier face shows.
             assert_eq!(there, row("BBBBAA"), "{method:?}");
             let back = drawn(&method, &vec![b.clone(), a.clone()], &camera());
             assert_eq!(back, row("AAAAAA"), "{method:?}, the other order");
@@ -116,9 +117,10 @@ fn two_bits_tell_four_depths_apart() {
 
 #[test]
 fn perspective_depths_crowd_at_the_far_plane_and_linear_ones_do_not() {
-    // Near 1, far 4, two bits, so z = 4 (w − 1) / 3w in thirds, or w in steps of 1 from 1 on: a wall
-    // at depth 4 is step 3, one at 2.2 is z = 0.727, so step 2 of both. At 3, z = 8/9, step 3; w is
-    // step 2. At 1.2, z = 2/9, step 1; w is step 0.
+    // The near plane is 1, the far plane 4, and there are two bits. So z = 4 (w − 1) / 3w has steps of 1/3,
+    // and w has steps of 1 from 1 on. A wall at depth 4 is step 3 of both. At depth 2.2, z = 0.727: step 2 of
+    // both. At depth 3, z = 8/9: step 3 of z, and step 2 of w. At depth 1.2, z = 2/9: step 1 of z, and step 0
+    // of w.
     let camera = Camera::perspective(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 1.0, [6, 6]).unwrap();
     let wall = |depth: f64| {
         let c = 2.0 * depth;

@@ -1,4 +1,4 @@
-//! Methods by hand, against brute force, against each other, and against the judge.
+//! Compares methods with hand computation, with brute force, with each other, and with the judge.
 
 mod attributes;
 mod depth;
@@ -18,8 +18,8 @@ use testkit::prelude::*;
 
 type Polygons = Vec<Vec<DVec3>>;
 
-/// Triangles that do not touch each other: each in its own cell of a cubic grid in the cube from −1 to 1, and
-/// away from its walls.
+/// Triangles that do not touch each other. Each is in a separate cell of a cubic grid in the cube from −1 to
+/// 1, and away from the cell's walls.
 fn disjoint(side: usize, seed: u64) -> Polygons {
     let mut random = SplitMix64::new(seed);
     let cell = 2.0 / side as f64;
@@ -32,10 +32,11 @@ fn disjoint(side: usize, seed: u64) -> Polygons {
     polygons
 }
 
-/// Blades around the z axis, each over the next, the last over the first; none of their planes
+/// Blades around the z axis. Each blade is over the next, and the last over the first. No plane of a blade
 /// cuts a neighbour.
 fn cycle_that_no_plane_cuts() -> Polygons {
-    // With 5 blades, they overlap beyond 36 degrees each way, and cut the next beyond 54.
+    // Five blades overlap if each reaches further than 36 degrees in both directions. A blade's plane cuts
+    // the next blade if they reach further than 54 degrees.
     let blade = |number: f64| {
         let corner = |radius: f64, angle: f64| {
             let turned = (72.0 * number + angle).to_radians();
@@ -55,7 +56,7 @@ fn faces(polygons: &Polygons, tolerance: Option<f64>) -> Faces {
     Faces::new(polygons, tolerance).unwrap().0
 }
 
-/// Cameras outside of a scene and within it, and parallel ones.
+/// Cameras outside a scene and within it, and parallel cameras.
 fn cameras(polygons: &Polygons, size: [u32; 2], seed: u64) -> Vec<Camera> {
     let corners = || polygons.iter().flatten();
     let low = corners().fold(DVec3::INFINITY, |low, &p| low.min(p));

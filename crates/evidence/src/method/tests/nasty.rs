@@ -39,7 +39,7 @@ fn in_line(polygons: &Polygons, size: [u32; 2]) -> Vec<(bool, Camera)> {
 }
 
 #[test]
-fn views_in_line_with_much_are_no_worse() {
+fn views_in_line_with_many_planes_are_no_worse() {
     let scenes = [
         disjoint(3, 2),
         cycle_that_no_plane_cuts(),
@@ -58,8 +58,8 @@ fn views_in_line_with_much_are_no_worse() {
                 if ["bsp exact", "z f64"].contains(&&*name) || name == "newell" && !touches {
                     assert_eq!(result.wrong(), 0, "{at}");
                 }
-                // A face that the eye touches is clipped off, or, where it was cut, drawn by rounded
-                // vertices, and so seen from the side.
+                // A face that the eye touches is clipped off. If it was cut, it is drawn by rounded vertices,
+                // so the eye may see it from the side.
                 let is_seen_by_rounding = touches && name != "bsp exact";
                 let own_coverage = covers_by_itself(&name) || name.starts_with("fronts");
                 if !is_seen_by_rounding && !own_coverage {

@@ -1,4 +1,4 @@
-//! Newell's algorithm against brute force, and its cycles.
+//! Compares Newell's algorithm with brute force, and tests cycles.
 
 use glam::DQuat;
 use testkit::prelude::*;
@@ -9,8 +9,8 @@ use crate::method::{Method, Newell};
 use binspace::internals::SplitMix64;
 use binspace::raster::NONE;
 
-/// Asserts that every pixel for which brute force is certain shows its result; and returns the pieces of all
-/// views together.
+/// Asserts that every pixel for which brute force is certain shows the result of brute force. Returns the
+/// number of pieces of all views together.
 fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     let faces = faces(polygons, Some(0.0));
     let (mut certain, mut all, mut pieces) = (0, 0, 0);
@@ -31,13 +31,13 @@ fn assert_right(name: &str, polygons: &Polygons, cameras: &[Camera]) -> usize {
     pieces
 }
 
-/// A square around the origin, of which each corner is put somewhere.
+/// A square around the origin whose corners are moved by `place`.
 fn square(half: f64, place: impl Fn(f64, f64) -> DVec3) -> Vec<DVec3> {
     [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| place(x, y)).to_vec()
 }
 
 #[test]
-fn disjoint_triangles_come_out_as_brute_force_has_them() {
+fn disjoint_triangles_agree_with_brute_force() {
     for seed in 0..3 {
         let polygons = disjoint(5, seed);
         assert_right("disjoint", &polygons, &cameras(&polygons, [48, 36], seed));
@@ -45,7 +45,7 @@ fn disjoint_triangles_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
+fn crossing_and_cyclic_scenes_agree_with_brute_force() {
     let scenes = [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)];
     for scene in scenes {
         let polygons = polygons_of(&scene);
@@ -56,8 +56,8 @@ fn crossing_and_cyclic_scenes_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn thin_layers_come_out_as_brute_force_has_them() {
-    // Tilted by more than they are apart, now one way, now the other, in no order of depth.
+fn thin_layers_agree_with_brute_force() {
+    // Tilted by more than their distance, in alternating directions, in no order of depth.
     let layer = |i: u32| {
         let height = 1e-3 * f64::from(i * 7 % 20);
         let (tilt, reach) = (2e-4 * f64::from(i % 3) - 2e-4, 0.3 + 0.03 * f64::from(i * 3 % 20));
@@ -73,7 +73,7 @@ fn thin_layers_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn what_lies_just_behind_the_nearest_corner_is_not_forgotten() {
+fn polygons_just_behind_the_nearest_corner_are_compared() {
     // A slope that reaches far down, and a small square just below its upper end.
     let slope = square(1.0, |x, y| DVec3::new(x, y, x));
     let square = [(0.994, -0.01), (1.005, -0.01), (1.005, 0.01), (0.994, 0.01)];
@@ -91,7 +91,7 @@ fn from_above(height: f64, size: [u32; 2]) -> [Camera; 2] {
     [perspective, Camera::parallel(down, DVec3::Y, DVec3::ZERO, height, size).unwrap()]
 }
 
-/// The cycle of three bars, each of which is over the next at one end.
+/// The cycle of three bars: each bar is over the next at one end.
 fn three_bars() -> Polygons {
     let bar = |number: i32| {
         let corner = |x: f64, y: f64, z: f64| {
@@ -118,8 +118,8 @@ fn a_cycle_of_three_is_cut() {
     }
 }
 
-/// Spikes along the sides of a polygon around the z axis, each over the next where they meet, and
-/// the last over the first. (Triangles, which are planar however they are turned.)
+/// Spikes along the sides of a polygon around the z axis. Where two spikes meet, each is over the next, and
+/// the last is over the first. (Spikes are triangles, which stay planar if they are rotated.)
 fn random_ring(random: &mut SplitMix64) -> Polygons {
     let count = 3 + random.next() % 6;
     let angle = |i: u64| std::f64::consts::TAU * (i % count) as f64 / count as f64;
@@ -146,7 +146,7 @@ fn any_turn(random: &mut SplitMix64) -> DQuat {
 }
 
 #[test]
-fn random_cycles_come_out_as_brute_force_has_them() {
+fn random_cycles_agree_with_brute_force() {
     let mut random = SplitMix64::new(17);
     for number in 0..24 {
         let ring = random_ring(&mut random);
@@ -155,7 +155,7 @@ fn random_cycles_come_out_as_brute_force_has_them() {
         let place = |point: DVec3| turn * point * scale + shift;
         let polygons: Polygons =
             ring.iter().map(|spike| spike.iter().map(|&corner| place(corner)).collect()).collect();
-        // From above, all of it is seen, and no order is right.
+        // From above, the whole ring is visible, and no order of whole spikes is right.
         let eye =
             place(DVec3::new(0.3 * random.range(-1.0, 1.0), 0.3 * random.range(-1.0, 1.0), 4.0));
         let [target, up] = [place(DVec3::ZERO), turn * DVec3::Y];
@@ -168,7 +168,7 @@ fn random_cycles_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
+fn random_cycles_in_each_other_agree_with_brute_force() {
     let mut random = SplitMix64::new(23);
     for number in 0..8 {
         let mut polygons = Polygons::new();
@@ -184,7 +184,7 @@ fn random_cycles_in_each_other_come_out_as_brute_force_has_them() {
 }
 
 #[test]
-fn two_that_cross_are_three_pieces() {
+fn two_crossing_polygons_become_three_pieces() {
     let tilted = |tilt: f64| square(1.0, |x, y| DVec3::new(x, y, tilt * x));
     for camera in from_above(2.5, [40, 40]) {
         assert_eq!(assert_right("a cross", &vec![tilted(0.5), tilted(-0.4)], &[camera]), 3);
@@ -199,7 +199,7 @@ fn a_cycle_that_no_plane_cuts_is_cut_along_an_outline() {
     }
 }
 
-/// The upper one reaches further down the slope, so a sort by depth alone would paint it first.
+/// The upper layer reaches further down the slope, so a sort by depth alone would paint it first.
 #[test]
 fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
     let slope = |half, lift: f64| square(half, |x, y| DVec3::new(x, y, x + lift));
@@ -213,7 +213,7 @@ fn layers_much_further_apart_than_the_epsilon_are_told_apart() {
 }
 
 #[test]
-fn what_has_an_order_is_not_cut() {
+fn scenes_with_an_order_are_not_cut() {
     let polygons = polygons_of(&scene::layers(40, 0.01));
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [32, 24], 2) {
@@ -222,7 +222,7 @@ fn what_has_an_order_is_not_cut() {
 }
 
 #[test]
-fn budgets_run_out_with_a_figure() {
+fn errors_of_budgets_name_the_limit() {
     let polygons = polygons_of(&scene::random_triangles(60, 5));
     let faces = faces(&polygons, None);
     let camera = cameras(&polygons, [32, 24], 2)[0];
@@ -238,7 +238,7 @@ fn budgets_run_out_with_a_figure() {
 
 #[test]
 fn a_long_chain_of_swaps_needs_no_stack() {
-    // Parallel and tilted: the higher a plank, the deeper it reaches. So of all remaining planks the highest
+    // Parallel and tilted: the higher a plank, the deeper it reaches. So the highest of the remaining planks
     // is always the furthest, and all others take its place, one after the other.
     let count = 4000;
     let plank = |i: i32| {
@@ -258,7 +258,7 @@ fn a_long_chain_of_swaps_needs_no_stack() {
     std::thread::Builder::new().stack_size(1 << 17).spawn(paint).unwrap().join().unwrap();
 }
 
-/// Two squares, or their substitutes. The further, P, is the first: one test decides.
+/// Two squares, or polygons in their place. P, the further, comes first. One test decides each pair.
 #[test]
 fn each_test_decides_the_pair_that_it_is_for() {
     let camera = Camera::parallel(DVec3::NEG_Z, DVec3::Y, DVec3::ZERO, 12.0, [120, 120]).unwrap();
@@ -272,30 +272,30 @@ fn each_test_decides_the_pair_that_it_is_for() {
         let faces = faces(&vec![points(&p), points(other)], Some(0.0));
         Newell::DEFAULT.decisions(&faces, &camera).unwrap()
     };
-    // To the right; above; just in front of P's plane; a triangle that P is behind but that is not
-    // in front of P; one that only its box overlaps.
+    // Q is to the right of P; above P; or just in front of P's plane. Or Q is a triangle with P behind its
+    // plane, but not all of Q is in front of P's plane. Or only the box of Q overlaps P.
     let right = counts(&moved(3.0, 0.0, 0.5));
     assert_eq!((right.compared, right.by_test), (1, [1, 0, 0, 0, 0]));
     let above = counts(&moved(0.0, 3.0, 0.5));
     assert_eq!((above.compared, above.by_test), (1, [0, 1, 0, 0, 0]));
     let over = counts(&moved(0.0, 0.0, 0.5));
     assert_eq!((over.compared, over.by_test), (1, [0, 0, 1, 0, 0]));
-    // Its plane z = −4.5 + x cuts P, but all of it is in front of P's.
+    // The plane of Q, z = −4.5 + x, cuts P, but all of Q is in front of P's plane.
     let steep = counts(&[[0.5, 1.5, -4.0], [1.5, 1.5, -3.0], [1.5, 1.9, -3.0], [0.5, 1.9, -4.0]]);
     assert_eq!((steep.compared, steep.by_test), (1, [0, 0, 0, 1, 0]));
-    // Beside a corner of P, with a plane that cuts P, and on both sides of P's.
+    // Q is beside a corner of P. The plane of Q cuts P, and Q is on both sides of P's plane.
     let beside = counts(&[[1.5, 2.6, -4.5], [2.6, 1.5, -4.5], [2.6, 2.6, -3.0]]);
     assert_eq!((beside.compared, beside.by_test), (1, [0, 0, 0, 0, 1]));
-    // Behind P, though nearer than its furthest vertex: it takes P's place.
+    // Q is behind P's plane, but nearer than P's furthest vertex, so Q takes P's place.
     let below = counts(&[[0.5, 0.2, -4.5], [1.5, 0.2, -4.5], [1.5, 0.6, -4.5], [0.5, 0.6, -4.5]]);
     assert_eq!((below.moved, below.cuts, below.painted), (1, 0, 2));
-    // Through P.
+    // Q goes through P.
     let through = counts(&[[0.5, 0.2, -3.5], [1.5, 0.2, -3.5], [1.5, 1.8, -3.5], [0.5, 1.8, -3.5]]);
     assert_eq!((through.cuts, through.begun, through.painted), (1, 2, 3));
 }
 
 #[test]
-fn all_that_is_compared_is_decided_moved_cut_or_passed() {
+fn every_compared_pair_is_decided_moved_cut_or_passed() {
     let mut compared = 0;
     for scene in [scene::newell_bars(), scene::crossing(6), scene::random_triangles(60, 5)] {
         let polygons = polygons_of(&scene);

@@ -1,5 +1,5 @@
-//! The nearest polygon along a ray, found polygon by polygon in world coordinates and plain `f64`, without
-//! any code of the library except the camera's vectors.
+//! Finds the nearest polygon along a ray by testing every polygon, in world coordinates and plain `f64`. Uses
+//! no code of the library except the camera's vectors.
 
 use super::Polygons;
 use binspace::view::Projection;
@@ -21,9 +21,9 @@ fn ray(camera: &Camera, x: u32, y: u32) -> (DVec3, DVec3) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
     Nothing,
-    /// The distance along its direction, in lengths of the direction.
+    /// The ray meets the polygon at this distance, in lengths of the ray's direction.
     At(f64),
-    /// It passes too near an edge, or is too parallel to the polygon, to tell.
+    /// Undecided: the ray passes too near an edge, or is too parallel to the polygon.
     Doubtful,
 }
 
@@ -60,7 +60,7 @@ pub(super) fn meet(polygon: &[DVec3], camera: &Camera, x: u32, y: u32) -> Meetin
     }
 }
 
-/// The nearest polygon in a pixel, if there is one; `None` if that is uncertain.
+/// The nearest polygon in a pixel, if there is one; `None` if the result is uncertain.
 pub(super) fn nearest(polygons: &Polygons, camera: &Camera, x: u32, y: u32) -> Option<Option<u32>> {
     let mut hits: Vec<(f64, u32)> = Vec::new();
     for (polygon, number) in polygons.iter().zip(0..) {

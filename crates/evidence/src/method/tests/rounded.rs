@@ -1,4 +1,4 @@
-//! Rounded planes and an epsilon against exact decisions.
+//! Compares decisions by rounded planes and an epsilon with exact decisions.
 
 use super::{cameras, disjoint, faces, judge};
 use crate::method::Bsp;
@@ -6,8 +6,7 @@ use crate::{Precision, RoundedPiece, RoundedPlane};
 use binspace::internals::{PreparedPlane, Side, SplitMix64, Vertex, split};
 use testkit::prelude::*;
 
-/// The least distance of positions from the plane of a face, as a share of half the extent and of up to four
-/// times that: the unit of an epsilon.
+/// The least distance of positions from the plane of a face, in the unit of an epsilon: 2⁵¹ lattice steps.
 fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let normal = (q - p).cross(r - p).normalize();
@@ -16,8 +15,8 @@ fn least_distance(faces: &Faces, positions: &[[f64; 3]], plane: u32) -> f64 {
     least / 2f64.powi(51)
 }
 
-/// The growth of a plane's rounding: a sliver's plane is as uncertain as its corners, times its length over
-/// its width.
+/// The factor by which the plane of a triangle magnifies the rounding of its corners: the triangle's length
+/// over its width.
 fn reach(faces: &Faces, plane: u32) -> f64 {
     let [p, q, r] = faces.reference_triangle(plane).map(|c| DVec3::from(faces.corner(c)));
     let longest = (q - p).length().max((r - p).length()).max((r - q).length());
@@ -30,7 +29,7 @@ fn with_close_calls() -> Faces {
     let mut random = SplitMix64::new(3);
     let mut polygons = disjoint(3, 4);
     polygons.extend((0..30).map(|_| (0..3).map(|_| random.point(-1.0, 1.0)).collect()));
-    // Lifted by a little from the plane of another, now to one side, now to both.
+    // Each triangle is lifted slightly from the plane of another, to one side or to both sides.
     for i in 0..30 {
         let base = polygons[i].clone();
         let normal = (base[1] - base[0]).cross(base[2] - base[0]).normalize();
@@ -40,7 +39,7 @@ fn with_close_calls() -> Faces {
     faces(&polygons, Some(0.0))
 }
 
-/// A piece of a face, by exact and by rounded arithmetic, as the same planes cut it.
+/// A piece of a face, cut by the same planes in exact and in rounded arithmetic.
 struct Twins {
     face: u32,
     exact: Vec<Vertex>,
@@ -62,7 +61,7 @@ impl Twins {
         pairs.map(apart).fold(0.0, f64::max)
     }
 
-    /// Cuts both, and keeps the parts in front or those behind.
+    /// Cuts both pieces, and keeps either the parts in front or the parts behind.
     fn cut<T: Precision>(
         &mut self,
         faces: &Faces,
@@ -80,9 +79,9 @@ impl Twins {
     }
 }
 
-/// Compares every face with all planes, cuts it several times, and asserts that rounded sides are the exact
-/// ones of each piece wherever none of its vertices is within the epsilon, its drift and the plane's
-/// rounding. Returns the number of other sides that differ.
+/// Compares every face with all planes, and cuts it several times. Asserts that the rounded side of a piece
+/// is the exact one if all vertices are further from the plane than the epsilon, the drift and the plane's
+/// rounding together. Returns the number of nearer pieces whose rounded side is wrong.
 fn disagreements<T: Precision>(epsilon: f64, rounding: f64, faces: &Faces) -> usize {
     let mut random = SplitMix64::new(5);
     let count = faces.len() as u32;
@@ -142,7 +141,7 @@ fn trees_without_close_calls_paint_the_same() {
             let method = Bsp::double(BuildOptions::DEFAULT, epsilon);
             assert_eq!(judge(&method, &faces, &camera).wrong(), 0, "{epsilon:e}");
         }
-        // Cuts are rounded to about 1e-7 of the extent: a pixel on one may be missing.
+        // Cuts are rounded to about 1e-7 of the extent, so a pixel on a cut may be missing.
         let method = Bsp::single(BuildOptions::DEFAULT, 1e-6);
         assert!(judge(&method, &faces, &camera).wrong() <= 2);
     }
@@ -150,7 +149,7 @@ fn trees_without_close_calls_paint_the_same() {
 
 #[test]
 fn layers_within_the_epsilon_are_mistaken_for_one() {
-    // Squares 1e-5 apart, and half the extent is 1; reversed, so that the lowest comes last.
+    // Squares 1e-5 apart; half the extent is 1. The list is reversed, so that the lowest square comes last.
     let mut polygons = super::polygons_of(&scene::layers(6, 1e-5));
     polygons.reverse();
     let faces = faces(&polygons, Some(0.0));

@@ -67,7 +67,7 @@ fn each_rule_decides_what_it_says() {
             let nearest = u32::from(order[1] < order[0]);
             assert_eq!(walls(&order, format, smaller), nearest, "{format}");
             assert_eq!(walls(&order, format, LARGER), nearest);
-            // The wrong test, from the end that it selects: the furthest shows.
+            // With the reversed test, and the buffer cleared to the near end, the furthest wall shows.
             let wrong = smaller.with_test(DepthTest::Greater).with_clear(Clear::Smallest);
             assert_eq!(walls(&order, format, wrong), 1 - nearest);
             let wrong = LARGER.with_test(DepthTest::Less).with_clear(Clear::Largest);
@@ -75,7 +75,7 @@ fn each_rule_decides_what_it_says() {
             // Cleared to the near end: nothing shows.
             assert_eq!(walls(&order, format, smaller.with_clear(Clear::Smallest)), NONE);
             assert_eq!(walls(&order, format, LARGER.with_clear(Clear::Largest)), NONE);
-            // Without a depth left behind, the last shows.
+            // If no depth is written, the last wall shows.
             assert_eq!(walls(&order, format, DepthRules { writes: false, ..smaller }), 1);
         }
         // Of two faces at the same depth, `LESS` shows the first and `LEQUAL` the last.
@@ -94,7 +94,8 @@ fn sections_make_the_same_picture_for_any_number_of_rows_and_threads() {
     let faces = faces(&polygons, Some(0.0));
     for camera in cameras(&polygons, [64, 50], 2) {
         let rays = Rays::new(&camera, &faces).unwrap();
-        // If a number equalled the clear value, the data that another section leaves in it would show.
+        // If a stored number could equal the clear value, the faces that another section left there would
+        // show.
         let rules = [Clear::Nothing, Clear::Largest].map(|c| DepthRules::DEFAULT.with_clear(c));
         for (format, rules) in FORMATS.into_iter().flat_map(|f| rules.map(|rules| (f, rules))) {
             for how in Interpolation::ALL {
@@ -145,8 +146,8 @@ fn translucent_fragments_over_opaque_polygons_are_the_exact_layers() {
         }
     }
     assert!(several > 2000, "{several}");
-    // Drawn from back to front, each is nearer than all before it: remaining depths have no effect until the
-    // order is wrong.
+    // If drawn from back to front, each polygon is nearer than all before it, so written depths have no
+    // effect until the order is wrong.
     assert_eq!(wrong[..2], [0, 0]);
     assert!(wrong[2] > 500 && wrong[3] > 500 && lost > 500, "{wrong:?} {lost}");
 }

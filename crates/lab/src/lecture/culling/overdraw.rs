@@ -1,4 +1,4 @@
-//! Pixels painted without need.
+//! Overdraw: pixels that are painted more than once.
 
 use binspace::BspTree;
 use binspace::glam::{DVec3, dvec3};
@@ -21,11 +21,11 @@ const SHUFFLES: u32 = 2000;
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Overdraw");
     chapter.text(
-        "Overdraw is the number of written pixels divided by the number of visible pixels. A painter \
-         writes each pixel once for every surface in it. A depth buffer writes a pixel whenever a \
-         surface is nearer than all earlier ones, so its overdraw depends on the order of the polygons. \
-         For n layers it is 1 + 1/2 + … + 1/n in random order, n from back to front, and 1 from front to \
-         back. A tree that is walked from front to back, with a mask of covered pixels, writes each \
+        "Overdraw is the number of written pixels divided by the number of visible pixels. A painter writes \
+         each pixel once for every surface in it. A depth buffer writes a pixel whenever a surface is nearer \
+         than all earlier ones, so its overdraw depends on the order of the polygons. For n layers, its \
+         overdraw is n from back to front and 1 from front to back. In random order it is 1 + 1/2 + … + 1/n \
+         on average. A tree that is walked from front to back, with a mask of covered pixels, writes each \
          pixel once. It skips subtrees that the mask hides completely.",
     );
     let city = scene::city(1500, 1);
@@ -67,9 +67,9 @@ fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     }
     let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.1);
     chapter.text(format!(
-        "For a stack of squares, the depth buffer gets them in {SHUFFLES} random orders. With 100 layers \
-         it writes each pixel {:.2} times on average (1 + 1/2 + … + 1/100 = 5.19), and the painter \
-         writes it {} times.",
+        "The next graph shows the overdraw of a stack of squares. The depth buffer gets the squares in \
+         {SHUFFLES} random orders. With 100 layers, it writes each pixel {:.2} times on average (1 + 1/2 + … \
+         + 1/100 = 5.19), and the painter writes it {} times.",
         last(&buffered),
         last(&painted),
     ));
@@ -89,8 +89,8 @@ fn stack(chapter: &mut Chapter) -> Result<(), Failure> {
     })
 }
 
-/// The overdraw of squares one over another: of a painter, of depth buffers that get them in random
-/// orders, and of a mask.
+/// Returns the overdraw of a stack of squares: for a painter, for a depth buffer (the mean over random
+/// orders), and for a mask.
 fn overdraw_of_stack(layers: u32) -> Result<[f64; 3], Failure> {
     let failure = |error| Failure::about("a view", error);
     let square = |z: f64| [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| [x, y, z]);

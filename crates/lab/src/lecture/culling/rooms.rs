@@ -85,7 +85,7 @@ impl Level {
     }
 }
 
-/// The view of an eye, and a plan of the polygons kept for it and for its cell.
+/// Shows the view of an eye, and a plan of the polygons kept for the eye and for its cell.
 fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Result<(), Failure> {
     let failure = |error| Failure::about("a view", error);
     let camera = Camera::perspective(eye, target, DVec3::Z, 0.9, SIZE).map_err(failure)?;
@@ -107,14 +107,14 @@ fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Resu
         Picture::new(
             SIZE,
             level.picture(&plan, status, true)?,
-            "From above, without ceilings. Green: owns a pixel of the view. Yellow: kept for the eye, \
-             but owns no pixel. Blue: only in the set of the eye's cell. Grey: left out",
+            "From above, without ceilings. Green: visible in a pixel of the view. Yellow: kept for the eye, \
+             but not visible. Blue: only in the set of the eye's cell. Grey: left out",
         ),
     ]);
     let counts = [owners.len(), seen.polygon_count(), set.iter().filter(|&&kept| kept).count()];
     chapter.text(format!(
-        "Of {} polygons, {} own a pixel of this view. Portals keep {} for the eye, and {} for its whole \
-         cell and all directions.",
+        "Of {} polygons, {} are visible in at least one pixel of this view. For this view, portals keep {} \
+         polygons. For the whole cell of the eye and all directions, portals keep {}.",
         level.polygons, counts[0], counts[1], counts[2],
     ));
     Ok(())
@@ -124,7 +124,7 @@ fn show(chapter: &mut Chapter, level: &Level, eye: DVec3, target: DVec3) -> Resu
 fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     let mut random = SplitMix64::new(8);
     let [mut owned, mut around] = [0; 2];
-    // Polygons kept, and those left out that own a pixel.
+    // Polygons kept, and visible polygons left out.
     let [mut by_volume, mut by_eye, mut by_cell] = [[0; 2]; 3];
     for _ in 0..EYES {
         let mut at = || random.range(0.3, WIDTH - 0.3);
@@ -152,7 +152,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
         [name.to_owned(), kept.to_string(), owned.to_string(), too_many, missing.to_string()]
     };
     chapter.table(
-        ["kept", "polygons kept", "own a pixel", "too many", "left out that own a pixel"],
+        ["kept", "polygons kept", "visible", "too many", "visible but left out"],
         [
             row("for a view, all", [level.polygons * EYES * 4, 0], owned),
             row("for a view, by the view volume", by_volume, owned),
@@ -168,7 +168,7 @@ fn figures(chapter: &mut Chapter, level: &Level) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Adds to the number of kept polygons, and to the number of owners that are not kept.
+/// Adds to the number of kept polygons, and to the number of visible polygons that are not kept.
 fn add([kept, missing]: &mut [usize; 2], polygons: &[bool], owners: &BTreeSet<usize>) {
     *kept += polygons.iter().filter(|&&is_kept| is_kept).count();
     *missing += owners.iter().filter(|&&polygon| !polygons[polygon]).count();

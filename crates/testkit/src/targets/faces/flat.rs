@@ -32,15 +32,15 @@ pub(super) fn area_of(corners: &[[f64; 3]]) -> Area {
     parts.fold([0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
-/// The axis along which an area is largest, or several that are equal up to rounding.
+/// The axis along which an area is largest, or several axes with areas that are equal up to rounding.
 pub(super) fn main_axes(area: Area) -> Vec<usize> {
     let size = area.map(|component| component.unsigned_abs());
     let largest = size.into_iter().max().unwrap_or(0);
     (0..3).filter(|&axis| largest - size[axis] <= largest >> 40).collect()
 }
 
-/// Checks that each point inside a simple polygon lies in one of its faces, and no other point does: in a
-/// projection along an axis, at points in the middle of a face and anywhere near.
+/// Checks that each point inside a simple polygon lies in one of its faces, and that no other point does.
+/// Tests points in the middle of a face and points anywhere near, in a projection along an axis.
 pub(super) fn winds_once(
     faces: &Faces,
     range: Range<u32>,
@@ -81,7 +81,7 @@ pub(super) fn winds_once(
     Ok(())
 }
 
-/// Whether a polygon winds around any of some points between its corners, in a projection along any axis.
+/// Whether a polygon winds around one of some points between its corners, in a projection along some axis.
 pub(super) fn goes_around_something(corners: &[[f64; 3]], dice: &mut Dice) -> bool {
     (0..POINTS).any(|_| {
         let mut some = || DVec3::from(corners[dice.below(corners.len())]);

@@ -4,7 +4,7 @@ use super::super::super::dice::Dice;
 use super::outline::Corner;
 use std::collections::HashSet;
 
-/// The outline of a tree's cells on a grid, and of those between them: simple, with about `size` corners
+/// The outline of rooms and doors on a grid, which form a tree. It is simple, and has about `size` corners
 /// and only right angles.
 pub(super) fn outline(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let cells = cells(size.div_ceil(3).max(2), dice);
@@ -22,7 +22,7 @@ fn cells(rooms: usize, dice: &mut Dice) -> HashSet<Corner> {
     let mut grown = vec![[0, 0]];
     let mut cells = HashSet::from([[0, 0]]);
     while grown.len() < rooms {
-        // Mostly from the last room, so that corridors are long.
+        // The tree mostly grows from the last room, so that corridors are long.
         let last = grown.len() - 1;
         let from = grown[if dice.below(3) > 0 { last } else { dice.below(grown.len()) }];
         let step = STEPS[dice.below(4)];
@@ -38,7 +38,7 @@ fn cells(rooms: usize, dice: &mut Dice) -> HashSet<Corner> {
     cells
 }
 
-/// Once around the cells, counter-clockwise, with a corner at each turn.
+/// The outline of the cells, counter-clockwise, with a corner at each turn.
 fn around(cells: &HashSet<Corner>) -> Vec<Corner> {
     let start = *cells.iter().min().expect("a cell");
     // Along the lower side of the leftmost, lowest cell; the inside is to the left.
@@ -62,7 +62,7 @@ fn around(cells: &HashSet<Corner>) -> Vec<Corner> {
     }
 }
 
-/// The cells to the left and to the right ahead of a corner; a cell is named by its lower left.
+/// The cells ahead of a corner, to the left and to the right. A cell is named by its lower left corner.
 fn sides([x, y]: Corner, heading: usize) -> [Corner; 2] {
     match heading {
         0 => [[x, y], [x, y - 1]],

@@ -1,4 +1,4 @@
-//! Polygons of up to some thousand corners, simple or not: their preparation before a tree is built.
+//! Tests the preparation of polygons of up to some thousand corners, simple or not.
 
 mod flat;
 mod maze;
@@ -16,12 +16,13 @@ use flat::{Area, area_of, cross, main_axes};
 use outline::Outline;
 use std::ops::ControlFlow;
 
-/// Other targets test trees that take longer.
+/// The largest number of fragments of a tree. Other targets test larger trees.
 const MOST_FRAGMENTS: usize = 20_000;
-/// As above: a build reports its progress about once in 65 536 examined pieces.
+/// A build that reports its progress more often takes too long as well. It reports about once in 65 536
+/// examined pieces.
 const MOST_CALLS: usize = 60;
 
-/// One to three outlines, placed in space.
+/// Places one to three outlines in space, and checks their preparation.
 pub fn run(data: &[u8]) {
     // Too few bytes make no polygon.
     let _ = try_run(&mut Unstructured::new(data));
@@ -145,7 +146,7 @@ impl Given {
             match place.kind {
                 Kind::Whole => point,
                 Kind::Tenths => point * 0.1,
-                // The same for every repetition of the corner.
+                // The offset is the same for every repetition of the corner.
                 Kind::Rough => point + off * (2.0 * Dice(seed ^ hash([x, y])).share() - 1.0),
             }
         };
@@ -154,7 +155,7 @@ impl Given {
         Self { corners, kind: place.kind, is_simple }
     }
 
-    /// Whether it is known not to touch or cross itself.
+    /// Whether the polygon is known not to touch or cross itself.
     fn is_simple(&self) -> bool {
         self.is_simple
     }
@@ -172,8 +173,8 @@ impl Made<'_> {
         self.given.corners.iter().map(|&corner| self.faces.lattice().snap(corner)).collect()
     }
 
-    /// Polygons are dropped if they have fewer than three different corners, or collinear ones; if they
-    /// touch themselves, also if they wind around nothing, like spikes.
+    /// Checks that polygons are dropped if they have fewer than three different corners, or only collinear
+    /// corners. Polygons that touch themselves may also be dropped if they wind around no point, like spikes.
     fn is_dropped_if_it_has_no_area(&self, dice: &mut Dice) -> Verdict {
         let corners = self.snapped();
         let first = corners[0];
@@ -189,7 +190,7 @@ impl Made<'_> {
     }
 
     /// Checks that a face has area, that its corners are the polygon's by number, and that its outer edges
-    /// run along those of the polygon.
+    /// run along the edges of the polygon.
     fn names_its_corners(&self) -> Verdict {
         let corners = self.snapped();
         let moved = 2.0 * self.faces.tolerance() + 2.0;
@@ -226,7 +227,7 @@ impl Made<'_> {
         for face in self.range.clone() {
             let own = area_of(self.faces.corners(face));
             // Corners that are collinear except for rounding may make a triangle that is seen edge-on, or
-            // that faces the other way along an axis other than that of its projection.
+            // that faces the other way along an axis other than the axis of its projection.
             let least = i128::from(self.given.kind == Kind::Whole);
             let faces_as = |&axis: &usize| own[axis].signum() * whole[axis].signum() >= least;
             ensure(axes.iter().any(faces_as), || format!("face {face} faces the other way"))?;

@@ -1,4 +1,4 @@
-//! Outlines of polygons in the plane, with integer corners: simple ones by construction, and others.
+//! Outlines of polygons in the plane, with integer corners. Some are simple by construction.
 
 use super::super::super::dice::Dice;
 use super::maze;
@@ -10,13 +10,13 @@ pub(super) type Corner = [i32; 2];
 #[derive(Clone, Debug)]
 pub(super) struct Outline {
     pub(super) corners: Vec<Corner>,
-    /// Whether it is known not to touch or cross itself, except for consecutive equal corners.
+    /// Whether the outline is known not to touch or cross itself, except for consecutive equal corners.
     pub(super) is_simple: bool,
 }
 
 /// The approximate number of corners. Large ones are rare.
 const SIZES: [usize; 12] = [3, 4, 5, 6, 8, 12, 20, 40, 100, 300, 1_000, 3_000];
-/// The largest number of corners of an outline that crosses itself: the crossings grow with the square.
+/// The largest number of corners of an outline that crosses itself: the number of crossings is quadratic.
 const MOST_CROSSING: usize = 150;
 /// Larger outlines get no more corners.
 const MOST: usize = 6_000;
@@ -69,7 +69,7 @@ impl Shape {
     }
 }
 
-/// Any outline: one of the shapes, changed.
+/// Decodes an outline: a shape with changes.
 pub(super) fn some(bytes: &mut Unstructured<'_>) -> Result<Outline> {
     let (shape, size) = (*bytes.choose(&Shape::ALL)?, *bytes.choose(&SIZES)?);
     let size = size + bytes.int_in_range(0..=size / 2)?;
@@ -116,7 +116,7 @@ fn subdivide(corners: &mut Vec<Corner>) {
     *corners = (0..n).flat_map(twice).collect();
 }
 
-/// A corridor around itself, with right angles.
+/// A spiral corridor with right angles.
 fn spiral(size: usize) -> Vec<Corner> {
     let arms = (size / 2).max(2) as i32;
     let inner = |k: i32| {
@@ -141,7 +141,7 @@ fn spiral(size: usize) -> Vec<Corner> {
     start.into_iter().chain((0..arms).map(inner)).chain((0..arms).rev().map(outer)).collect()
 }
 
-/// A corridor around itself, with sixteen corners a turn.
+/// A spiral corridor with sixteen corners per turn.
 fn coil(size: usize) -> Vec<Corner> {
     let arms = (size / 2).max(3);
     let at = |k: usize, more: f64| {
@@ -162,7 +162,7 @@ fn comb(size: usize, dice: &mut Dice) -> Vec<Corner> {
     below.into_iter().chain(above.into_iter().rev()).collect()
 }
 
-/// Corners around a centre that sees all of them.
+/// Corners around a centre that sees all corners.
 fn star(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let n = size.max(5);
     let ray = |k: usize| {
@@ -173,7 +173,7 @@ fn star(size: usize, dice: &mut Dice) -> Vec<Corner> {
     (0..n).map(ray).collect()
 }
 
-/// Any corners, on a grid so small that they coincide, or not.
+/// Any corners, on a large grid, or on a grid so small that they coincide.
 fn walk(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let across = [2, 4, 8, 1000][dice.below(4)];
     (0..size).map(|_| [dice.below(across) as i32, dice.below(across) as i32]).collect()
@@ -189,7 +189,7 @@ fn steps(size: usize, dice: &mut Dice) -> Vec<Corner> {
     (0..size).map(step).collect()
 }
 
-/// Several times around a centre.
+/// An outline that winds several times around a centre.
 fn pentagram(size: usize, dice: &mut Dice) -> Vec<Corner> {
     let n = size.max(5);
     let times = 2 + dice.below(n - 2);
@@ -200,7 +200,7 @@ fn pentagram(size: usize, dice: &mut Dice) -> Vec<Corner> {
     (0..n).map(ray).collect()
 }
 
-/// Out in zigzag, and back in another that crosses it.
+/// A zigzag line out, and another back that crosses the first.
 fn weave(size: usize) -> Vec<Corner> {
     let there = (size / 2).max(2) as i32;
     let back = (0..there).rev().map(|k| [k, 1 - k % 2]);

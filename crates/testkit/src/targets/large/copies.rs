@@ -4,12 +4,12 @@ use super::super::super::decode;
 use arbitrary::{Result, Unstructured};
 use binspace::glam::DVec3;
 
-/// The approximate number of polygons of all copies: below and above every size at which the builder
-/// changes its method. The large ones are rare, because they take long.
+/// The approximate number of polygons of all copies: below and above every size at which the builder changes
+/// its method. Large sizes are rare, because they take long.
 const SIZES: [usize; 16] =
     [1, 40, 63, 64, 65, 120, 190, 255, 256, 257, 400, 700, 1_100, 2_047, 2_100, 5_000];
 
-/// Quarter turns and reflections: the image of each axis, and which of them are reversed. Exact.
+/// Exact quarter turns and reflections: the image of each axis, and which axes are reversed.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
     axes: [usize; 3],

@@ -41,7 +41,8 @@ pub(super) fn watch(
     Watched { result, heard, read_late: read_late.into_inner() }
 }
 
-/// First the polygons are counted, then the faces; `done` never decreases, and at the end equals the total.
+/// Checks that progress counts first the polygons and then the faces, that `done` never decreases, and that
+/// it equals the total at the end.
 pub(super) fn progress(heard: &[Progress], faces: usize) -> Verdict {
     let pairs = || heard.windows(2).map(|pair| (pair[0], pair[1]));
     let done = pairs().all(|(before, after)| before.done <= after.done);
@@ -53,7 +54,7 @@ pub(super) fn progress(heard: &[Progress], faces: usize) -> Verdict {
 }
 
 impl Base<'_> {
-    /// A cancelled build returns that error, and neither reports nor reads more.
+    /// Checks that a cancelled build returns `Cancelled`, and neither reports nor reads more.
     pub(super) fn cancel(&self, dice: &mut Dice) -> Verdict {
         for threads in [1, 1 + dice.below(pools::MOST_THREADS)] {
             let stop = match dice.below(4) {
@@ -69,7 +70,7 @@ impl Base<'_> {
                     let only = error.kind() == ErrorKind::Cancelled;
                     ensure(only && cut.heard.len() == stop, || format!("{error}, {}", what()))?;
                 }
-                // Several threads may have passed two marks together, and made a call less.
+                // Several threads may pass two marks together, and then make one call less.
                 Ok(tree) => {
                     ensure(threads > 1 && cut.heard.len() < stop, what)?;
                     ensure(Snapshot::of(tree) == Snapshot::of(self.tree), what)?;
@@ -79,7 +80,7 @@ impl Base<'_> {
         Ok(())
     }
 
-    /// A budget ends in an error exactly if the tree without it exceeds it.
+    /// Checks that a budget ends in an error exactly if the tree without a budget exceeds it.
     pub(super) fn budgets(&self, dice: &mut Dice) -> Verdict {
         let depth = self.tree.stats().depth_max;
         let fragments = self.tree.len().max(self.polygons.len());

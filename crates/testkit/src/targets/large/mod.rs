@@ -17,11 +17,11 @@ use binspace::glam::DVec3;
 use binspace::{BspTree, BuildOptions, Error, ErrorKind, Progress};
 use limits::Watched;
 
-/// A tree of more fragments takes too long to be judged: its scene is halved.
+/// A tree of more fragments takes too long to be judged, so its scene is halved.
 const MOST_FRAGMENTS: usize = 8_000;
 
-/// A build that reports its progress more often, about once in 65 536 examined pieces, takes too long as
-/// well.
+/// A build that reports its progress more often takes too long as well. It reports about once in 65 536
+/// examined pieces.
 const MOST_CALLS: usize = 100;
 
 /// Trees of at most this many fragments are judged in rationals.
@@ -40,7 +40,7 @@ impl Question {
     const ALL: [Self; 4] = [Self::Budgets, Self::Cancel, Self::Threads, Self::Rays];
 }
 
-/// A small scene repeated up to some thousand polygons.
+/// Builds a small scene that is repeated up to some thousand polygons, and judges its tree.
 pub fn run(data: &[u8]) {
     // Too few bytes make no scene.
     let _ = try_run(&mut Unstructured::new(data));
@@ -116,7 +116,7 @@ impl Base<'_> {
         self.orders(question, dice)
     }
 
-    /// Checks orders in all forms, and by rays in big integers: more of these if `question` is for them.
+    /// Checks orders in all forms, and by rays in big integers: more rays if `question` asks for orders.
     fn orders(&self, question: Question, dice: &mut Dice) -> Verdict {
         if self.tree.is_empty() {
             return Ok(());
