@@ -299,6 +299,13 @@ fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'stati
         && matches!(format, DrawFormat::Pdf | DrawFormat::Tex)
     {
         Err("only an SVG can add colours up: give `--seams trap` or none, or write .svg")
+    } else if args.fill.seams == Seams::PlusLighter
+        && !lines
+        && format == DrawFormat::Svg
+        && args.fill.translucent
+    {
+        Err("`--seams plus-lighter` draws translucent polygons, but never hidden ones: leave out \
+             --translucent, or give `--seams trap`")
     } else if format != DrawFormat::Svg && args.ids {
         Err("only SVG has a place for names: write .svg, or leave out --ids")
     } else if is_png && args.fill.background.0.is_none() {

@@ -11,7 +11,7 @@ use binspace::glam::{DMat4, DQuat, DVec3, Vec4};
 use binspace::internals::open_regular;
 use binspace::scene::Scene;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Source;
+use gltf::buffer::{Source, View};
 use gltf::json::validation::{Checked, Error as Invalid, Validate};
 use gltf::material::AlphaMode;
 use gltf::mesh::Mode;
@@ -426,6 +426,8 @@ struct Values<'a> {
     data_type: DataType,
     /// The integer that stands for 1.
     full: f64,
+    /// The values that a sparse accessor replaces, by number.
+    replaced: HashMap<usize, &'a [u8]>,
 }
 
 impl<'a> Values<'a> {
@@ -436,16 +438,27 @@ impl<'a> Values<'a> {
         buffers: &'a [Rc<Vec<u8>>],
     ) -> Result<Self, String> {
         let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
-        if accessor.sparse().is_some() {
-            return Err(about("it is sparse, which is not supported".into()));
-        }
         let view = accessor.view().ok_or_else(|| about("it has no buffer view".into()))?;
         let (count, size) = (accessor.count(), accessor.size());
         let stride = view.stride().unwrap_or(size).max(size);
-        let start = view.offset().checked_add(accessor.offset());
-        let end = view.offset().checked_add(view.length());
-        let buffer = &buffers[view.buffer().index()];
-        let bytes = start.zip(end).and_then(|(start, end)| buffer.get(start..end));
+        let within = |view: View<'_>, offset: usize| {
+            let bytes = buffers[view.buffer().index()].get(view.offset()..)?;
+            bytes.get(..view.length())?.get(offset..)
+        };
+        let mut replaced = HashMap::new();
+        if let Some(sparse) = accessor.sparse() {
+            let (indices, values) = (sparse.indices(), sparse.values());
+            let bytes = within(indices.view(), indices.offset()).unwrap_or_default();
+            let indices = bytes.chunks_exact(indices.index_type().size()).take(sparse.count());
+            let bytes = within(values.view(), values.offset()).unwrap_or_default();
+            let values = bytes.chunks_exact(size).take(sparse.count());
+            if indices.len().min(values.len()) < sparse.count() {
+                return Err(about("its sparse values do not fit into their buffer".into()));
+            }
+            let index = |bytes: &[u8]| bytes.iter().rev().fold(0, |n, &b| n << 8 | usize::from(b));
+            replaced.extend(indices.map(index).zip(values));
+        }
+        let bytes = within(view, accessor.offset());
         let needed =
             count.checked_sub(1).map(|last| last.saturating_mul(stride).saturating_add(size));
         match bytes {
@@ -460,7 +473,7 @@ impl<'a> Values<'a> {
                     DataType::U16 => 65_535.0,
                     DataType::U32 | DataType::F32 => 1.0,
                 };
-                Ok(Self { bytes, stride, count, dimensions, data_type, full })
+                Ok(Self { bytes, stride, count, dimensions, data_type, full, replaced })
             }
             _ => Err(about(format!("its {count} values do not fit into its buffer"))),
         }
@@ -471,7 +484,8 @@ impl<'a> Values<'a> {
         if index >= self.count {
             return None;
         }
-        let value = &self.bytes[index * self.stride..];
+        let value =
+            self.replaced.get(&index).copied().unwrap_or(&self.bytes[index * self.stride..]);
         let mut numbers = [1.0; 4];
         let size = self.data_type.size();
         for (number, bytes) in

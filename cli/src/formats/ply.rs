@@ -209,10 +209,26 @@ impl Contents {
             let position = DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
             self.vertices.push(Vertex { position, colour });
         } else if kind == "face" {
-            self.corners.extend(element.corners.ok_or("it has no corners")?);
-            self.faces.push((self.corners.len(), colour));
+            self.add_face(element.corners.ok_or("it has no corners")?, colour);
+        } else if kind == "tristrips" {
+            // A negative number ends a strip.
+            let corners = element.corners.ok_or("it has no corners")?;
+            for strip in corners.split(|&corner| corner < 0.0) {
+                for (number, triangle) in strip.windows(3).enumerate() {
+                    let &[a, b, c] = triangle else { continue };
+                    // Repeated corners join two strips.
+                    if a != b && b != c && c != a {
+                        self.add_face(if number % 2 == 0 { [a, b, c] } else { [b, a, c] }, colour);
+                    }
+                }
+            }
         }
         Ok(())
+    }
+
+    fn add_face(&mut self, corners: impl IntoIterator<Item = f64>, colour: Option<Colour>) {
+        self.corners.extend(corners);
+        self.faces.push((self.corners.len(), colour));
     }
 
     fn into_mesh(self, name: &str) -> Result<Mesh, String> {

@@ -112,6 +112,22 @@ fn off() -> Vec<u8> {
     text.into()
 }
 
+/// With a first line of text, and big-endian numbers.
+fn off_binary() -> Vec<u8> {
+    let mut bytes = b"OFF BINARY\n".to_vec();
+    let mut push = |number: [u8; 4]| bytes.extend(number);
+    [4u32, 4, 6].map(|count| push(count.to_be_bytes()));
+    VERTICES.iter().flatten().for_each(|number| push(number.to_be_bytes()));
+    for (face, colour) in FACES.iter().zip(COLOURS) {
+        push(3u32.to_be_bytes());
+        face.iter().for_each(|&corner| push((corner as u32).to_be_bytes()));
+        let channels = if colour[3] == 255 { &colour[..3] } else { &colour[..] };
+        push((channels.len() as u32).to_be_bytes());
+        channels.iter().for_each(|&channel| push((f32::from(channel) / 255.0).to_be_bytes()));
+    }
+    bytes
+}
+
 /// Light of an sRGB byte, as the colours above need it.
 fn light(byte: u8) -> f64 {
     let value = f64::from(byte) / 255.0;
@@ -192,6 +208,7 @@ fn files() -> Vec<(&'static str, Vec<u8>, MeshKind, bool)> {
         ("PLY, big-endian", ply("binary_big_endian"), MeshKind::Ply, false),
         ("PLY, little-endian", ply("binary_little_endian"), MeshKind::Ply, false),
         ("OFF", off(), MeshKind::Off, true),
+        ("binary OFF", off_binary(), MeshKind::Off, false),
         ("glTF", gltf(), MeshKind::Gltf, false),
         ("GLB", glb(), MeshKind::Gltf, false),
     ]
@@ -386,6 +403,89 @@ fn what_is_wrong_is_named() {
             "{problem}: {message}"
         );
         assert!(message.len() < 300 && !message.contains('\n'), "{message}");
+    }
+}
+
+/// Every other triangle of a strip is turned over; a negative number ends it, and repeated corners continue it.
+#[test]
+fn ply_files_have_strips_of_triangles() {
+    let text = String::from_utf8(ply("ascii")).unwrap();
+    let start = text.find("3 0 2 1").unwrap();
+    let end = text.find("0.1 0.2").unwrap();
+    let strips = "14 0 2 1 3 3 -1 0 1 3 -1 2 0 3 -1 1 2 3 4\n";
+    let header = text[..start].replace("face 4", "tristrips 1");
+    let file = header + strips + &text[end..];
+    let scene = read(MeshKind::Ply, file.as_bytes()).unwrap();
+    let whole = read(MeshKind::Ply, text.as_bytes()).unwrap();
+    assert_eq!(scene.len(), 4);
+    for (number, face) in [0, 2, 1, 3].into_iter().enumerate() {
+        assert_eq!(scene.polygon(number), whole.polygon(face));
+        assert_eq!(scene.material(number).color, [1.0, 2.0, 3.0].map(|c| c / 255.0));
+    }
+    let message = read(MeshKind::Ply, file.replace("2 1 3 3", "2 1 9 3").as_bytes()).unwrap_err();
+    assert!(message.contains("9 is not one of 4 vertices"), "{message}");
+}
+
+/// Vertices with normals, colours and texture coordinates.
+#[test]
+fn binary_off_files_have_colours_of_vertices() {
+    let mut bytes = b"STCNOFF BINARY\n".to_vec();
+    let mut push = |number: [u8; 4]| bytes.extend(number);
+    [3u32, 1, 0].map(|count| push(count.to_be_bytes()));
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
+        let vertex: [f32; 12] = [x, y, 5.0, 9.0, 9.0, 9.0, x, y, 0.6, 0.5, 9.0, 9.0];
+        vertex.iter().for_each(|number| push(number.to_be_bytes()));
+    }
+    [3u32, 0, 1, 2, 0].map(|number| push(number.to_be_bytes()));
+    let scene = read(MeshKind::Off, &bytes).unwrap();
+    let corners = [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]].map(DVec3::from);
+    assert_eq!(scene.polygon(0), corners);
+    let material = scene.material(0);
+    let colour = [material.color[0], material.color[1], material.color[2], material.opacity];
+    assert_eq!(colour.map(|channel| (channel * 255.0).round()), [85.0, 85.0, 153.0, 128.0]);
+    for (at, number, problem) in [
+        (bytes.len() - 8, 3, "face 0 (from 0): 3 is not one of 3 vertices"),
+        (bytes.len() - 20, u32::MAX, "face 0 (from 0): "),
+        (bytes.len() - 4, 7, "face 0 (from 0): cut short"),
+        (15, 4, "vertex 3 (from 0): cut short"),
+        (27, 0x7fc0_0000, "vertex 0 (from 0): a coordinate is not a finite number"),
+    ] {
+        let mut wrong = bytes.clone();
+        wrong[at..at + 4].copy_from_slice(&number.to_be_bytes());
+        let message = read(MeshKind::Off, &wrong).unwrap_err();
+        assert!(message.contains(problem), "{problem}: {message}");
+    }
+}
+
+/// A sparse accessor replaces some of its values.
+#[test]
+fn sparse_values_replace_others() {
+    let corners = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.5], [7.0, 8.5, 9.0]];
+    let mut buffer = little([corners[0], [0.0; 3], corners[2]].concat());
+    // Its number in 16 bits, and itself.
+    buffer.extend([1, 0, 0, 0]);
+    buffer.extend(little(corners[1]));
+    let file = |count: usize, base: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{{{base}"componentType":5126,"count":3,"type":"VEC3","sparse":{{"count":{count},
+            "indices":{{"bufferView":1,"componentType":5123}},"values":{{"bufferView":2}}}}}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":2}},
+            {{"buffer":0,"byteOffset":40,"byteLength":12}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":52}}]}}"#,
+            STANDARD.encode(&buffer)
+        )
+    };
+    let base = "\"bufferView\":0,";
+    let scene = read(MeshKind::Gltf, file(1, base).as_bytes()).unwrap();
+    assert_eq!(scene.polygon(0), corners.map(|corner| DVec3::from(corner.map(f64::from))));
+    for (file, problem) in [
+        (file(2, base), "accessor 0 (from 0): its sparse values do not fit into their buffer"),
+        (file(1, ""), "accessor 0 (from 0): it has no buffer view"),
+    ] {
+        let message = read(MeshKind::Gltf, file.as_bytes()).unwrap_err();
+        assert!(message.contains(problem), "{message}");
     }
 }
 

@@ -67,6 +67,7 @@ fn what_cannot_be_drawn_is_said_at_once() {
         ("-o p.pdf --scale 2 --view top --size 9x9", "cannot be used with"),
         ("-o p.pdf --scale 1e9 --view top", "4294967295"),
         ("-o p.svg --view top --fov 9", "cannot be used with"),
+        ("-o p.svg --view top --eye 9 -4 3", "cannot be used with"),
         ("-o p.svg --view back", "front, top, right, iso"),
         ("-o p.svg --eye 1,2", "as in 9,-4,3 or 9 -4 3, not 2"),
         ("-o p.pdf --size 14401x2", "a PDF or of TeX has at most 14400 points each way"),

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::run::{CROSSING, Folder};
+use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 const BEGIN: &str = "\\begin{tikzpicture}[x=1bp,y=-1bp,line join=round]\n";
@@ -148,6 +148,40 @@ fn tikz_paints_what_the_svg_does() {
         assert!(2_000 * wrong <= found.rgb.len(), "{options}: {wrong} of {}", found.rgb.len());
     }
     assert!(classes > 10, "{classes}");
+}
+
+/// All of a small picture: paths from back to front, hidden lines before visible ones.
+#[test]
+fn paths_have_their_places_colours_and_lines() {
+    let folder = Folder::new("tex_paths");
+    folder.write("cards.obj", CARDS);
+    folder.write("cards.mtl", CARDS_MATERIALS);
+    let look = "--translucent --background #ffeecc --edges all --hidden layers --line-width 2";
+    folder.run(&format!("draw {CARDS_VIEW} {look} -o a.tex")).good();
+    let text = fs::read_to_string(folder.path("a.tex")).unwrap();
+    let (_, rest) = text.split_once(BEGIN).unwrap();
+    let black = "draw={rgb,255:red,0;green,0;blue,0}";
+    let triangles =
+        ["(75,37.5)--(87.5,37.5)--(87.5,12.5)--cycle", "(81,35)--(84,35)--(84,30)--cycle"];
+    let expected = format!(
+        "\\clip (0,0) rectangle (100,50);
+\\fill[fill={{rgb,255:red,255;green,238;blue,204}},binspace/background/.try] (0,0) rectangle (100,50);
+\\fill[fill={{rgb,255:red,255;green,0;blue,0}}] {1}
+{0};
+\\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (0,50)--(100,50)--(100,0)--(0,0)--cycle;
+\\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (25,37.5)--(50,37.5)--(50,12.5)--(25,12.5)--cycle;
+\\draw[{black},line width=1.2bp,dash pattern=on 4bp off 6bp,binspace/hidden/.try,binspace/layers-2/.try] {1};
+\\draw[{black},line width=1.2bp,dash pattern=on 6bp off 4bp,binspace/hidden/.try] {0};
+\\draw[{black},line width=2bp,line cap=round,binspace/visible/.try] (0,50)
+",
+        triangles[0], triangles[1]
+    );
+    assert_eq!(rest.strip_suffix(END).unwrap(), expected);
+    // The page is as large as the drawing to scale, in big points.
+    folder.run("draw cards.obj --view front --up y --scale 10 --margin 0 -o a.tex").good();
+    let text = fs::read_to_string(folder.path("a.tex")).unwrap();
+    // 40 by 20 mm.
+    assert!(text.contains("\\clip (0,0) rectangle (114,57);\n"), "{text}");
 }
 
 #[test]
