@@ -34,7 +34,7 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "NAME", value_enum, hide_possible_values = true)]
     #[arg(group = "parallel", conflicts_with_all = ["eye", "fov"])]
     pub(crate) view: Option<View>,
-    /// Point in the middle of the picture [default: the scene's middle]
+    /// Point at the centre of the picture [default: the scene's centre]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) target: Option<DVec3>,
     #[command(flatten)]
@@ -45,7 +45,7 @@ pub(crate) struct ViewArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Empty share of the picture on each side of a whole scene, in percent
+    /// Empty border around a whole scene, in percent of the picture on each side
     #[arg(long, value_name = "PERCENT", default_value = "4", value_parser = values::margin)]
     #[arg(hide_short_help = true)]
     pub(crate) margin: f64,
@@ -57,13 +57,13 @@ pub(crate) const MARGIN: f64 = 0.04;
 /// The usual views of a technical drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum View {
-    /// Horizontally: along y if z is up, against z if y is up
+    /// Horizontal: towards +y if z is up, towards -z if y is up
     Front,
     /// From above
     Top,
-    /// Horizontally, from the right of the front view
+    /// Horizontal: from the right side of the front view
     Right,
-    /// Isometric: from the front, the right and above alike
+    /// Isometric: equally from the front, the right and above
     Iso,
 }
 
@@ -200,8 +200,8 @@ pub fn about(scene: &Scene, error: &Error) -> Failure {
         return Failure::about(scene.name(), error);
     }
     let problem = format!(
-        "the scene is too large for a camera: its coordinates reach {furthest:.1e}, so points \
-         around it overflow; scale it down"
+        "too large for a camera: coordinates reach {furthest:.1e}, and points around the scene \
+         overflow; scale it down"
     );
     Failure::about(scene.name(), problem)
 }

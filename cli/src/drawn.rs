@@ -28,13 +28,14 @@ pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
 /// pixel, a quarter of the background shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Seams {
-    /// Opaque polygons reach a little under later opaque neighbours; translucent ones have seams
+    /// Extend opaque polygons a little under opaque neighbours that are painted later; translucent
+    /// polygons keep their seams
     #[default]
     Trap,
-    /// SVG only: a path for each region where the same polygons show, with their blended colour; viewers
-    /// add the paths up (`mix-blend-mode: plus-lighter`), which leaves no seam, translucent or not
+    /// SVG only: write a path for each region in which the same polygons are visible, in their blended
+    /// colour; viewers add the paths up (`mix-blend-mode: plus-lighter`), and no seam remains
     PlusLighter,
-    /// Nothing: paths are the polygons alone
+    /// Leave the seams: each path is exactly its polygon
     None,
 }
 

@@ -253,7 +253,7 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(target),
         }
     }
-    Err(io::Error::other("too many links"))
+    Err(io::Error::other("too many symbolic links"))
 }
 
 fn unwritable(path: &Path, error: io::Error) -> Failure {
@@ -263,7 +263,7 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
 /// Makes a folder and its parents, unless they exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     if path == Path::new(STANDARD) {
-        let problem = "it cannot hold several files: name a folder (./- if it is called so)";
+        let problem = "several files cannot go there: name a folder (./- for a folder named -)";
         return Err(Failure::about("standard output", problem));
     }
     let made = fs::create_dir_all(path);

@@ -16,9 +16,10 @@ pub(crate) fn format<F: ValueEnum + PartialEq + 'static>(
     let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     let named = formats().find(|(name, _)| Some(name) == extension.as_ref());
     match (named, asked) {
-        (Some((_, named)), Some(asked)) if named != asked => {
-            Err(about_output(output, "its name and --format are of different formats"))
-        }
+        (Some((_, named)), Some(asked)) if named != asked => Err(about_output(
+            output,
+            "the file's name and --format disagree: omit --format, or name a file of that format",
+        )),
         (Some((_, format)), _) | (None, Some(format)) => Ok(format),
         (None, None) => {
             let names: Vec<String> = formats::<F>().map(|(name, _)| format!(".{name}")).collect();

@@ -23,11 +23,11 @@ pub(crate) enum EdgeChoice {
 /// How hidden parts of edges are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Hidden {
-    /// Dashed, and thinner
+    /// Dashed and thinner
     Dashed,
-    /// Dashed the more sparsely the more polygons lie in front: one, two, three, or more
+    /// Dashed, with sparser dashes behind two, three, or more polygons
     Layers,
-    /// Not at all
+    /// Not drawn
     #[default]
     None,
 }

@@ -106,7 +106,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let pixels = u64::from(width) * u64::from(height);
     if width.max(height) > Camera::MAX_SIDE || pixels > Camera::MAX_PIXELS {
         return Err(format!(
-            "at most {} pixels each way and {} in all",
+            "at most {} pixels wide or high, and {} in total",
             Camera::MAX_SIDE,
             Camera::MAX_PIXELS
         ));
@@ -133,7 +133,7 @@ pub(crate) fn margin(text: &str) -> Result<f64, String> {
 
 /// A length of more than 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
-    Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected more than 0".to_owned())
+    Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 /// A length of 0 or more.

@@ -45,17 +45,19 @@ impl NewFolder {
     pub(crate) fn create(target: &Path) -> Result<Self, Failure> {
         let about = |problem: String| Failure::about(target.display(), problem);
         if target == Path::new(STANDARD) {
-            return Err(about("with `--cells` a folder is written: name it".to_owned()));
+            return Err(about("`--cells` writes a folder: name a new one".to_owned()));
         }
         // Without a dot at the end, by which no folder can be replaced.
         let target: &Path = &target.components().collect::<PathBuf>();
         if target.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
-            return Err(about("it is a link: name the folder itself".to_owned()));
+            return Err(about("this is a symbolic link: name the folder itself".to_owned()));
         }
         match std::fs::read_dir(target).map(Iterator::count) {
             Ok(0) => {}
             Ok(_) => {
-                return Err(about("it is there already: remove it, or name another".to_owned()));
+                return Err(about(
+                    "this folder is not empty: remove it, or name another".to_owned(),
+                ));
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(about(format!("it cannot become a folder: {error}"))),
@@ -65,7 +67,7 @@ impl NewFolder {
         }
         let folder = Self { target: target.to_owned(), files: Vec::new() };
         if is_mounted(target, folder.beside()) {
-            return Err(about("it is a mount point: name a folder in it".to_owned()));
+            return Err(about("this is a mount point: name a folder inside it".to_owned()));
         }
         match files::unnamed(folder.beside()) {
             Ok(_) => Ok(folder),
@@ -177,7 +179,7 @@ impl Folder {
         let bounds = Scene::read(&mut input).map_err(about)?;
         let is_box = bounds.len() == 1 && bounds.polygon(0).len() == 2;
         if !is_box || has_more(&mut input) {
-            return Err(Failure::about(name, "it was not written by binspace"));
+            return Err(Failure::about(name, "not written by `binspace build --cells`"));
         }
         Ok(Self { path: path.to_owned(), partition, bounds })
     }
@@ -192,14 +194,14 @@ impl Folder {
         for _ in 0..scene.len() {
             let mut bytes = [0; 8];
             let read = input.read_exact(&mut bytes);
-            read.map_err(|_| Failure::about(&name, "it ends within its numbers: it is cut short"))?;
+            read.map_err(|_| Failure::about(&name, "truncated: numbers of polygons are missing"))?;
             numbers.push(u64::from_le_bytes(bytes) as usize);
         }
         let is_own = self.partition.is_tree_of(number, &tree);
         if !is_own || !numbers.is_sorted_by(|a, b| a < b) || has_more(&mut input) {
             return Err(Failure::about(
                 name,
-                "it is not this cell of the folder: build the folder again",
+                "it does not belong to this folder: build the folder again",
             ));
         }
         Ok(Cell { tree, scene, numbers })

@@ -16,7 +16,7 @@ use crate::scene_arg::{self, Source};
 use crate::terminal::remark;
 
 /// The problem with a tree in place of a scene.
-const BUILT: &str = "its tree is built already: give the scene that it was built of";
+const BUILT: &str = "it contains a finished tree: name the scene from which it was built";
 /// The most corners that are sampled to choose the planes between cells. Too large: memory. Too small: cells
 /// differ in size.
 const SAMPLES: usize = 1 << 20;
@@ -34,7 +34,7 @@ impl Polygons {
         let name = args.name.to_string_lossy();
         match scene_arg::source(&args.name)? {
             Source::StandardInput => {
-                let problem = "it is read twice with `--cells`: name a file";
+                let problem = "`--cells` reads a scene twice: name a file";
                 Err(Failure::about("standard input", problem))
             }
             Source::Builtin(..) => {
@@ -103,7 +103,10 @@ impl Polygons {
         mut visit: impl FnMut(usize, &[DVec3], u32) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let unwritable = |error: io::Error| {
-            Failure::about("a file beside the output", format!("cannot be written: {error}"))
+            Failure::about(
+                "a temporary file beside the output",
+                format!("cannot be written: {error}"),
+            )
         };
         match self {
             Self::File(file) => {

@@ -51,13 +51,13 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
         let scene = builtin.build(size, args.seed);
         show(args, builtin, &scene, &mut total)?;
     }
-    say("build: time to build the tree; order: time of an order, per fragment")?;
+    say("build: time to build the tree; order: time per fragment to list an order")?;
     say(format!("Wrote pictures of each scene into {}:", args.output.display()))?;
     let names = Kind::ALL.map(|kind| format!("…-{}.png", kind.name())).join(", ");
     say(format!("  {names}, ….svg"))?;
     say("  (a difference is dark where the painter is right; wrong pixels are bright)")?;
     say(format!(
-        "Compared {} from {} of each scene with a depth buffer:",
+        "Compared {} in {} of each scene with a depth buffer:",
         count(total.pixels.covered, "pixel"),
         count(args.views as usize, "view"),
     ))?;

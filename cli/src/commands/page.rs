@@ -38,7 +38,7 @@ pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
     }
     if tree.len() > MANY {
         let fragments = count(tree.len(), "fragment");
-        let slow = format!("{fragments}, so the page turns slowly without a graphics card");
+        let slow = format!("{fragments}: without a graphics card, the page turns slowly");
         remark(scene.name(), &slow, &slow);
     }
     let up = args.up.given().unwrap_or_else(|| up_of(scene));

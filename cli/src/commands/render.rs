@@ -53,7 +53,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let extension = extension.as_ref().map(|extension| extension.to_string_lossy());
     match extension.as_deref() {
         Some("svg" | "pdf") => {
-            return Err("`binspace render` makes pixels, a .png: use `binspace draw`".to_owned());
+            return Err("`binspace render` writes only .png: use `binspace draw`".to_owned());
         }
         Some("png") | None => {}
         Some(_) => return Err("name a file that ends in .png".to_owned()),
@@ -61,7 +61,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let is_plain = matches!(kind, Kind::Painter | Kind::ZBuffer);
     if !is_plain && args.samples > 1 {
         let name = kind.name();
-        return Err(format!("--{name} takes one sample a pixel: leave out --samples"));
+        return Err(format!("--{name} uses one sample per pixel: omit --samples"));
     }
     Ok(())
 }

@@ -56,9 +56,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         }
         if seen.comparison.wrong() > 0 {
             let view = reproduce(args, camera);
-            let advice = "add these options and yours to `binspace render --difference`";
-            let note_view = || note(&format!("to see view {number}, {advice}:\n  {view}"));
-            progress.suspend(note_view);
+            let advice = "run `binspace render --difference` with your options and these";
+            progress.suspend(|| note(&format!("to see view {number}, {advice}:\n  {view}")));
         }
         add(&mut total, &seen.comparison);
         all_right &= is_right;
@@ -93,7 +92,7 @@ pub(crate) fn unseen_faults(seen: &Verification) -> Vec<String> {
     let mut faults = Vec::new();
     let wrong = seen.front_to_back.wrong();
     if wrong > 0 && seen.front_to_back != seen.comparison {
-        faults.push(format!("{}, painted front to back", count(wrong, "wrong pixel")));
+        faults.push(format!("{} if painted front to back", count(wrong, "wrong pixel")));
     }
     if seen.miscounted > 0 {
         let pixels = count(seen.miscounted, "pixel");

@@ -40,29 +40,29 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let mut lines = Lines::new(bytes);
     let first = lines.next().ok_or("it is empty")?;
     let mut words = first.words();
-    let kind = Kind::of(words.next().unwrap_or_default().as_bytes()).ok_or("it is no OFF file")?;
+    let kind = Kind::of(words.next().unwrap_or_default().as_bytes()).ok_or("not an OFF file")?;
     let mut counts: Vec<&str> = words.collect();
     if counts.first() == Some(&"BINARY") {
         return binary(name, &kind, lines.rest());
     }
     if counts.is_empty() {
-        counts = lines.next().ok_or("cut short before its counts")?.words().collect();
+        counts = lines.next().ok_or("truncated before the counts")?.words().collect();
     }
     let count = |i: usize| counts.get(i).and_then(|word| word.parse::<usize>().ok());
     let (Some(vertices), Some(faces)) = (count(0), count(1)) else {
-        return Err("expected the numbers of vertices and faces behind `OFF`".into());
+        return Err("expected the numbers of vertices and faces after `OFF`".into());
     };
     // Each line of a vertex or a face has two bytes at least. So the memory requested later is at most
     // proportional to the file's size.
     if vertices.saturating_add(faces) > bytes.len() / 2 {
         return Err(format!(
-            "truncated: {vertices} vertices and {faces} faces declared, more than fit into it"
+            "truncated: {vertices} vertices and {faces} faces declared, more than the file can hold"
         ));
     }
     let mut precision = Precision::default();
     let mut content = Content::new(name);
     for number in 0..vertices {
-        let line = lines.next().ok_or_else(|| format!("vertex {number} (from 0): cut short"))?;
+        let line = lines.next().ok_or_else(|| format!("vertex {number} (from 0): truncated"))?;
         let mut words = line.words();
         let mut next = || precision.text(words.next()?);
         let (Some(x), Some(y), Some(z)) = (next(), next(), next()) else {
@@ -77,7 +77,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
         }
     }
     for number in 0..faces {
-        let line = lines.next().ok_or_else(|| format!("face {number} (from 0): cut short"))?;
+        let line = lines.next().ok_or_else(|| format!("face {number} (from 0): truncated"))?;
         let about = |problem: &str| line.about(&format!("face {number} (from 0)"), problem);
         let (corners, own) =
             face(line, content.positions.len()).map_err(|problem| about(&problem))?;
@@ -89,7 +89,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
 /// Reads a binary file from behind its first line: numbers of 32 bits, big-endian.
 fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
     let mut next = || -> Result<[u8; 4], &'static str> {
-        let (number, behind) = rest.split_first_chunk().ok_or("cut short")?;
+        let (number, behind) = rest.split_first_chunk().ok_or("truncated")?;
         rest = behind;
         Ok(*number)
     };
@@ -118,7 +118,7 @@ fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
         for _ in 0..u32::from_be_bytes(next().map_err(about)?) {
             let corner = u32::from_be_bytes(next().map_err(about)?) as usize;
             if corner >= vertices as usize {
-                return Err(about(&format!("{corner} is not one of {vertices} vertices")));
+                return Err(about(&format!("index {corner} is out of range: {vertices} vertices")));
             }
             corners.push(corner);
         }
@@ -160,7 +160,7 @@ impl Content {
 fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>), String> {
     let mut words = line.words();
     let count: Option<usize> = words.next().and_then(|word| word.parse().ok());
-    let count = count.ok_or("expected the number of its corners")?;
+    let count = count.ok_or("expected the number of corners")?;
     let mut corners = Vec::new();
     for number in 0..count {
         let word = words
@@ -168,7 +168,7 @@ fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>),
             .ok_or_else(|| format!("truncated: {count} corners declared, {number} found"))?;
         match word.parse() {
             Ok(corner) if corner < vertices => corners.push(corner),
-            _ => return Err(format!("{word:.20} is not one of {vertices} vertices")),
+            _ => return Err(format!("index {word:.20} is out of range: {vertices} vertices")),
         }
     }
     Ok((corners, colour(&words.collect::<Vec<_>>())))

@@ -295,8 +295,8 @@ fn what_is_wrong_is_named() {
             stl("vertex 0.1", "vertex nan"),
             "line 4, facet 0 (from 0): expected `vertex`",
         ),
-        (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): cut short"),
-        (MeshKind::Stl, stl("outer loop", "inner loop"), "unexpected here"),
+        (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): truncated"),
+        (MeshKind::Stl, stl("outer loop", "inner loop"), "inner is out of place in an STL file"),
         (MeshKind::BinaryStl, lying(5), "truncated: 5 triangles declared, 4 found"),
         (MeshKind::BinaryStl, lying(u32::MAX), "truncated: 4294967295 triangles declared, 4 found"),
         (
@@ -304,13 +304,13 @@ fn what_is_wrong_is_named() {
             with_nan(),
             "triangle 1 (from 0): a coordinate is not a finite number",
         ),
-        (MeshKind::BinaryStl, vec![0; 20], "its header is cut short"),
+        (MeshKind::BinaryStl, vec![0; 20], "truncated header"),
         (
             MeshKind::Ply,
             ply_of("vertex 4", "vertex 99999999999"),
             "truncated: 99999999999 of `vertex` declared, at most ",
         ),
-        (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): cut short"),
+        (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): truncated"),
         (
             MeshKind::Ply,
             ply_of("0.1 0.2", "inf 0.2"),
@@ -319,27 +319,27 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Ply,
             ply_of("3 0 2 1", "3 0 2 9"),
-            "face 0 (from 0): 9 is not one of 4 vertices",
+            "face 0 (from 0): index 9 is out of range: 4 vertices",
         ),
         (
             MeshKind::Ply,
             ply_of("3 0 2 1", "3 0 2 -1"),
-            "face 0 (from 0): -1 is not one of 4 vertices",
+            "face 0 (from 0): index -1 is out of range: 4 vertices",
         ),
-        (MeshKind::Ply, ply_of("3 0 2 1", "99999999999 0 2 1"), "face 0 (from 0): its property"),
+        (MeshKind::Ply, ply_of("3 0 2 1", "99999999999 0 2 1"), "face 0 (from 0): the property"),
         (
             MeshKind::Ply,
             ply_of("property float z\n", ""),
-            "vertex 0 (from 0): it has no x, y and z",
+            "vertex 0 (from 0): x, y or z is missing",
         ),
-        (MeshKind::Ply, ply_of("end_header", "end_headache"), "in its header: Line"),
+        (MeshKind::Ply, ply_of("end_header", "end_headache"), "in the header: Line"),
         (
             MeshKind::Ply,
             cut(ply("binary_little_endian"), 3),
             "truncated: 4 of `vertex` declared, at most 3 found",
         ),
-        (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than fit into it"),
-        (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): cut short"),
+        (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than the file can hold"),
+        (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): truncated"),
         (
             MeshKind::Off,
             off_of("0.1 0.2", "0.1 nan"),
@@ -348,13 +348,13 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Off,
             off_of("3 0 2 1", "3 0 2 4"),
-            "face 0 (from 0): 4 is not one of 4 vertices",
+            "face 0 (from 0): index 4 is out of range: 4 vertices",
         ),
         (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "truncated: 9 corners declared, "),
         (MeshKind::Gltf, cut(glb(), 1), "truncated: "),
-        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "it is glTF 1.0; glTF 2.0 is read"),
-        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "it is glTF 1.0"),
-        (MeshKind::Gltf, glb()[..10].to_vec(), "its header is cut short"),
+        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "this is glTF 1.0; binspace reads glTF 2.0"),
+        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "this is glTF 1.0"),
+        (MeshKind::Gltf, glb()[..10].to_vec(), "truncated header"),
         (
             MeshKind::Gltf,
             gltf_of("\"mesh\":0", "\"mesh\":7"),
@@ -368,28 +368,28 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Gltf,
             gltf_of("\"children\":[2]", "\"children\":[1]"),
-            "node 1 (from 0): it is in two places",
+            "node 1 (from 0): it occurs twice in the scene",
         ),
         (
             MeshKind::Gltf,
             gltf_of("\"byteLength\":72", "\"byteLength\":73"),
             "buffer 0 (from 0): truncated: 73 bytes declared, 72 found",
         ),
-        (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "in its JSON: "),
+        (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "invalid JSON: "),
         (
             MeshKind::Gltf,
             gltf_of(
                 "\"asset\"",
                 "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"",
             ),
-            "needs the extension KHR_draco_mesh_compression",
+            "requires the extension KHR_draco_mesh_compression",
         ),
         (
             MeshKind::Gltf,
             gltf_of("\"asset\"", "\"extensionsRequired\":[\"ACME_new\\nthing\"],\"asset\""),
-            "needs the extension ACME_new\\nthing,",
+            "requires the extension ACME_new\\nthing,",
         ),
-        (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: it is outside"),
+        (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: not read, because it is outside"),
         (
             MeshKind::Gltf,
             gltf_parts("\"uri\":\"b.bin\",").0.into(),
@@ -423,7 +423,7 @@ fn ply_files_have_strips_of_triangles() {
         assert_eq!(scene.material(number).color, [1.0, 2.0, 3.0].map(|c| c / 255.0));
     }
     let message = read(MeshKind::Ply, file.replace("2 1 3 3", "2 1 9 3").as_bytes()).unwrap_err();
-    assert!(message.contains("9 is not one of 4 vertices"), "{message}");
+    assert!(message.contains("index 9 is out of range: 4 vertices"), "{message}");
 }
 
 /// Vertices with normals, colours and texture coordinates.
@@ -444,10 +444,10 @@ fn binary_off_files_have_colours_of_vertices() {
     let colour = [material.color[0], material.color[1], material.color[2], material.opacity];
     assert_eq!(colour.map(|channel| (channel * 255.0).round()), [85.0, 85.0, 153.0, 128.0]);
     for (at, number, problem) in [
-        (bytes.len() - 8, 3, "face 0 (from 0): 3 is not one of 3 vertices"),
+        (bytes.len() - 8, 3, "face 0 (from 0): index 3 is out of range: 3 vertices"),
         (bytes.len() - 20, u32::MAX, "face 0 (from 0): "),
-        (bytes.len() - 4, 7, "face 0 (from 0): cut short"),
-        (15, 4, "vertex 3 (from 0): cut short"),
+        (bytes.len() - 4, 7, "face 0 (from 0): truncated"),
+        (15, 4, "vertex 3 (from 0): truncated"),
         (27, 0x7fc0_0000, "vertex 0 (from 0): a coordinate is not a finite number"),
     ] {
         let mut wrong = bytes.clone();

@@ -20,7 +20,7 @@ fn every_command_refuses_a_bad_file_with_its_name_line_and_face() {
         ("empty.obj", Vec::new(), "an empty file"),
         ("word.obj", format!("{good}f 1 2 x\n").into(), "line 4, face 0 (from 0): \"x\""),
         ("utf16.obj", utf16, "wrong encoding"),
-        ("binary.obj", vec![0, 159, 146, 150, 0, 7], "this binary file is of no known kind"),
+        ("binary.obj", vec![0, 159, 146, 150, 0, 7], "unknown kind of binary file"),
     ];
     fs::create_dir(folder.path("folder.obj")).unwrap();
     for (name, content, _) in &files {

@@ -201,9 +201,9 @@ fn a_dxf_has_lines_alone() {
         assert!(fs::read(folder.path("b.dxf")).unwrap() == kept, "{options}");
     }
     let message = folder.run("draw s.obj -o a.dxf --ids").refused();
-    assert!(message.contains("only SVG has a place for names"), "{message}");
+    assert!(message.contains("--ids works only in an SVG"), "{message}");
     let message = folder.run("draw s.obj -o a.dxf --edges none").refused();
-    assert!(message.contains("a DXF have nothing to draw"), "{message}");
+    assert!(message.contains("DXF need edges to draw"), "{message}");
     assert!(fs::read(folder.path("a.dxf")).unwrap() == kept);
 }
 

@@ -49,7 +49,7 @@ fn material_libraries_beside_standard_input_are_not_read_and_that_is_said() {
     let text = format!("mtllib m.mtl\nmtllib ../n.mtl\nusemtl red\n{CROSSING}");
     let output = folder.pipe("render - -o - --size 40x30 --notes", &text);
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("name the file to have the colours of m.mtl, ../n.mtl"), "{said}");
+    assert!(said.contains("name the file to use m.mtl, ../n.mtl"), "{said}");
     assert_eq!(said.matches("m.mtl").count(), 1, "{said}");
     let rgb = Picture::parse(&output.stdout).rgb;
     assert!(rgb.chunks_exact(3).all(|p| p[0] == p[1] && p[1] == p[2]));
