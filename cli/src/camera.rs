@@ -104,8 +104,9 @@ pub(crate) fn whole(
     camera.map_err(|error| about(scene, &error))
 }
 
-/// The camera that the options describe.
-pub(crate) fn asked(args: &ViewArgs, scene: &Scene) -> Result<Camera, Failure> {
+/// The camera that the options describe. With a number of pixels for each unit of the scene, the picture of a
+/// parallel view is as large as that takes.
+pub(crate) fn asked(args: &ViewArgs, scene: &Scene, scale: Option<f64>) -> Result<Camera, Failure> {
     let (fov, size, margin) = (args.fov, args.size, args.margin);
     let (direction, up) = directed(args, scene);
     let [low, high] = bounds(scene);
@@ -114,7 +115,11 @@ pub(crate) fn asked(args: &ViewArgs, scene: &Scene) -> Result<Camera, Failure> {
         (None, None, None) => return whole(scene, up, fov, size, margin),
         (Some(eye), ..) => upright(scene, up, |up| Camera::perspective(eye, target, up, fov, size)),
         (None, Some(direction), target) => upright(scene, up, |up| {
-            let whole = framing::parallel(direction, up, scene, size, margin)?;
+            let whole = match scale {
+                Some(scale) => framing::to_scale(direction, up, scene, scale, margin)?,
+                None => framing::parallel(direction, up, scene, size, margin)?,
+            };
+            let size = whole.size();
             let height = whole.pixel_size()[1] * f64::from(size[1]);
             target.map_or(Ok(whole), |target| Camera::parallel(direction, up, target, height, size))
         }),
@@ -133,24 +138,6 @@ fn directed(args: &ViewArgs, scene: &Scene) -> (Option<DVec3>, Option<DVec3>) {
     let Some(view) = args.view else { return (args.direction, up) };
     let [direction, up] = view.axes(up.unwrap_or_else(|| up_of(scene)));
     (Some(direction), Some(up))
-}
-
-/// A parallel camera that shows a scene with a number of pixels for each of its units. The picture is as large as
-/// that takes.
-pub(crate) fn to_scale(args: &ViewArgs, scene: &Scene, scale: f64) -> Result<Camera, Failure> {
-    // The command line takes a scale only with a direction.
-    let (Some(direction), up) = directed(args, scene) else { return asked(args, scene) };
-    let camera =
-        upright(scene, up, |up| framing::to_scale(direction, up, scene, scale, args.margin));
-    let camera = camera.map_err(|error| about(scene, &error))?;
-    match args.target {
-        None => Ok(camera),
-        Some(target) => {
-            let height = f64::from(camera.size()[1]) / scale;
-            let moved = Camera::parallel(direction, camera.up(), target, height, camera.size());
-            moved.map_err(|error| about(scene, &error))
-        }
-    }
 }
 
 /// Cameras alternately around the scene and inside it.
@@ -232,10 +219,7 @@ mod tests {
         let Command::Draw(args) = Cli::try_parse_from(line.split(' ')).unwrap().command else {
             panic!("another command")
         };
-        match args.scale {
-            Some(scale) => to_scale(&args.view, &block(), scale),
-            None => asked(&args.view, &block()),
-        }
+        asked(&args.view, &block(), args.scale)
     }
 
     /// Checks where a camera shows points, in pixels from the upper left corner.

@@ -10,6 +10,7 @@ use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, IntoInnerError, IsTerminal, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
+use binspace::internals::open_regular;
 use tempfile::NamedTempFile;
 
 use crate::failure::Failure;
@@ -56,12 +57,18 @@ impl Output {
         }
     }
 
-    /// Whether the output goes to a terminal.
-    pub(crate) fn is_terminal(&self) -> bool {
-        match self {
+    /// The same for something that a terminal cannot show.
+    pub(crate) fn open_binary(path: &Path, what: &str) -> Result<Self, Failure> {
+        let output = Self::open(Some(path))?;
+        let is_terminal = match &output {
             Self::Standard(out) => out.get_ref().is_terminal(),
             Self::File(file) => file.writer.get_ref().is_terminal(),
+        };
+        if is_terminal {
+            let problem = format!("{what} is not for a terminal: redirect it, or name a file");
+            return Err(about_output(path, &problem));
         }
+        Ok(output)
     }
 
     /// Writes with `write`, and completes the output.
@@ -254,6 +261,20 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
         }
     }
     Err(io::Error::other("too many symbolic links"))
+}
+
+/// A failure to write to a file or to standard output.
+pub(crate) fn about_output(output: &Path, problem: &str) -> Failure {
+    if output == Path::new(STANDARD) {
+        return Failure::about("standard output", problem);
+    }
+    Failure::about(output.display(), problem)
+}
+
+/// Opens a regular file to read it.
+pub(crate) fn open_existing(path: &Path) -> Result<File, Failure> {
+    open_regular(path)
+        .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))
 }
 
 fn unwritable(path: &Path, error: io::Error) -> Failure {

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 
 use crate::failure::Failure;
-use crate::files::STANDARD;
+use crate::files::{STANDARD, about_output};
 
 /// The format of the option, or of the file's name. Without either, the first of all formats goes to standard
 /// output.
@@ -36,14 +36,6 @@ fn formats<F: ValueEnum + 'static>() -> impl Iterator<Item = (String, F)> {
     let named =
         |format: &F| Some((format.to_possible_value()?.get_name().to_owned(), format.clone()));
     F::value_variants().iter().filter_map(named)
-}
-
-/// A failure to write to a file or to standard output.
-pub(crate) fn about_output(output: &Path, problem: &str) -> Failure {
-    if output == Path::new(STANDARD) {
-        return Failure::about("standard output", problem);
-    }
-    Failure::about(output.display(), problem)
 }
 
 #[cfg(test)]

@@ -3,11 +3,11 @@
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-use binspace::internals::open_regular;
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
+use crate::files::open_existing;
 use crate::progress::Progress;
 
 /// The magic bytes of such a file.
@@ -23,9 +23,7 @@ pub(crate) fn write(mut out: &mut dyn Write, scene: &Scene, tree: &BspTree) -> i
 pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     let name = path.display().to_string();
     let _progress = Progress::spinner(format!("reading {name}"));
-    let file = open_regular(path)
-        .map_err(|error| Failure::about(&name, format!("cannot be read: {error}")))?;
-    read(&name, io::BufReader::new(file))
+    read(&name, io::BufReader::new(open_existing(path)?))
 }
 
 /// Reads a file; `name` is its name in messages.

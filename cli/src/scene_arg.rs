@@ -5,12 +5,11 @@ use std::fs;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use binspace::internals::open_regular;
 use binspace::scene::{Builtin, ObjReport, Scene};
 use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
-use crate::files::STANDARD;
+use crate::files::{STANDARD, open_existing};
 use crate::formats::{self, Kind, MeshKind};
 use crate::memory;
 use crate::progress::Progress;
@@ -105,7 +104,7 @@ pub(crate) fn kind(path: &Path) -> (Kind, Vec<u8>) {
 fn mesh(kind: MeshKind, path: &Path) -> Result<Scene, Failure> {
     let name = path.display().to_string();
     let unreadable = |error| Failure::about(&name, format!("cannot be read: {error}"));
-    let mut file = open_regular(path).map_err(unreadable)?;
+    let mut file = open_existing(path)?;
     memory::check_file(&name, file.metadata().map_err(unreadable)?.len())?;
     let _progress = Progress::spinner(format!("reading {name}"));
     let mut bytes = Vec::new();

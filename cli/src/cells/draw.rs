@@ -29,7 +29,7 @@ pub(crate) fn render(args: &RenderArgs, path: &Path, output: Output) -> Result<(
         return Err(Failure::about(path.display(), problem));
     }
     let folder = Folder::open(path)?;
-    let camera = camera::asked(&args.view, &boxed(&folder.bounds))?;
+    let camera = camera::asked(&args.view, &boxed(&folder.bounds), None)?;
     let order = folder.partition.back_to_front(camera.viewpoint());
     let pixels = paint(args, &folder, &camera, &order)?;
     output.write(|out| png_file::write(out, camera.size(), &pixels))

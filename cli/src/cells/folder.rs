@@ -4,14 +4,13 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use binspace::internals::open_regular;
 use binspace::partition::Partition;
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
 use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;
-use crate::files::{self, STANDARD};
+use crate::files::{self, STANDARD, open_existing};
 use crate::{job, saved_file};
 
 /// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
@@ -172,7 +171,7 @@ pub(crate) fn asked<'a>(
 
 impl Folder {
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        let mut input = open(&path.join(PARTITION))?;
+        let mut input = BufReader::new(open_existing(&path.join(PARTITION))?);
         let name = path.join(PARTITION).display().to_string();
         let about = |error: Error| Failure::about(&name, error);
         let partition = Partition::read(&mut input).map_err(about)?;
@@ -188,7 +187,7 @@ impl Folder {
     pub(crate) fn cell(&self, number: usize) -> Result<Cell, Failure> {
         let path = self.path.join(cell_name(number));
         let name = path.display().to_string();
-        let mut input = open(&path)?;
+        let mut input = BufReader::new(open_existing(&path)?);
         let (scene, tree) = saved_file::read_pair(&name, &mut input)?;
         let mut numbers = Vec::with_capacity(scene.len());
         for _ in 0..scene.len() {
@@ -206,12 +205,6 @@ impl Folder {
         }
         Ok(Cell { tree, scene, numbers })
     }
-}
-
-fn open(path: &Path) -> Result<BufReader<File>, Failure> {
-    let file = open_regular(path)
-        .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))?;
-    Ok(BufReader::new(file))
 }
 
 fn has_more(input: &mut impl Read) -> bool {

@@ -18,8 +18,8 @@ use crate::colours::{BACKGROUND, Colours};
 use crate::cull::Cull;
 use crate::drawn::{Seams, Style, add_drawing, add_regions, add_strokes};
 use crate::failure::Failure;
-use crate::files::{Output, STANDARD};
-use crate::format::{about_output, format};
+use crate::files::{Output, STANDARD, about_output};
+use crate::format::format;
 use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
@@ -47,16 +47,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if args.scale.is_none() {
         check_page(format, args.view.size).map_err(|problem| about_output(&problem))?;
     }
-    let output = Output::open(Some(&args.output))?;
-    if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
-        return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
-    }
+    let output = match format {
+        DrawFormat::Pdf | DrawFormat::Png => Output::open_binary(&args.output, "a PDF or PNG")?,
+        _ => Output::open(Some(&args.output))?,
+    };
     let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);
-    let camera = match args.scale {
-        Some(scale) => camera::to_scale(&args.view, &scene, scale * pixels_in_inch(format) / INCH)?,
-        None => camera::asked(&args.view, &scene)?,
-    };
+    let scale = args.scale.map(|scale| scale * pixels_in_inch(format) / INCH);
+    let camera = camera::asked(&args.view, &scene, scale)?;
     let size = camera.size();
     check_page(format, size).map_err(|problem| about_output(&problem))?;
     if args.look.cull.cull == Cull::None {

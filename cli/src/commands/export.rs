@@ -1,7 +1,6 @@
 //! `binspace export`: the fragments as a file of triangles for other programs.
 
 use std::ffi::OsStr;
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
@@ -258,16 +257,14 @@ impl Export<'_> {
 
 /// The file around JSON and a buffer.
 fn write_glb(out: &mut dyn Write, json: &str, buffer: &[u8]) -> io::Result<()> {
-    let mut text = json.to_owned();
-    while !text.len().is_multiple_of(4) {
-        let _ = text.write_char(' ');
-    }
+    let mut text = json.as_bytes().to_vec();
+    text.resize(text.len().next_multiple_of(4), b' ');
     let too_long = |_| io::Error::other("a .glb file has at most 4 GiB: write .ply");
     let length = u32::try_from(28 + text.len() + buffer.len()).map_err(too_long)?;
     out.write_all(b"glTF")?;
     out.write_all(&2u32.to_le_bytes())?;
     out.write_all(&length.to_le_bytes())?;
-    for (kind, chunk) in [(b"JSON", text.as_bytes()), (b"BIN\0", buffer)] {
+    for (kind, chunk) in [(b"JSON", &text[..]), (b"BIN\0", buffer)] {
         out.write_all(&(chunk.len() as u32).to_le_bytes())?;
         out.write_all(kind)?;
         out.write_all(chunk)?;

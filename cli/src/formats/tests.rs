@@ -352,7 +352,11 @@ fn what_is_wrong_is_named() {
         ),
         (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "truncated: 9 corners declared, "),
         (MeshKind::Gltf, cut(glb(), 1), "truncated: "),
-        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "this is glTF 1.0; binspace reads glTF 2.0"),
+        (
+            MeshKind::Gltf,
+            b"glTF\x01\0\0\0\xff\0\0\0".to_vec(),
+            "this is glTF 1.0; binspace reads glTF 2.0",
+        ),
         (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "this is glTF 1.0"),
         (MeshKind::Gltf, glb()[..10].to_vec(), "truncated header"),
         (
@@ -389,7 +393,11 @@ fn what_is_wrong_is_named() {
             gltf_of("\"asset\"", "\"extensionsRequired\":[\"ACME_new\\nthing\"],\"asset\""),
             "requires the extension ACME_new\\nthing,",
         ),
-        (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: not read, because it is outside"),
+        (
+            MeshKind::Gltf,
+            gltf_parts("\"uri\":\"../b.bin\",").0.into(),
+            "../b.bin: not read, because it is outside",
+        ),
         (
             MeshKind::Gltf,
             gltf_parts("\"uri\":\"b.bin\",").0.into(),

@@ -123,7 +123,8 @@ fn quads_that_a_coarse_rounding_bends_are_noted_with_a_tolerance_that_helps() {
         let (bent, bent_by) = (line["bent"].as_u64().unwrap(), line["bent_by"].as_f64().unwrap());
         let unit = 10f64.powi(-(places as i32));
         assert!(bent >= 6 && bent_by < 2.0 * unit, "{places}: {line}");
-        let said = format!("{bent} of 10 faces with four or more corners are non-planar by at most");
+        let said =
+            format!("{bent} of 10 faces with four or more corners are non-planar by at most");
         assert!(notes.contains(&said), "{places}: {notes}");
         let tolerance = notes.split('`').find(|part| part.starts_with("--tolerance")).unwrap();
         let run = folder.run(&format!("stats s.obj --json {tolerance}"));
