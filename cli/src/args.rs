@@ -151,7 +151,7 @@ pub(crate) struct StatsArgs {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) is_given: IsGiven,
-    /// Heuristic that chooses the tree's splitting planes: a name listed below, or all
+    /// Heuristic to choose splitting planes: a name from below, or all
     #[arg(long, value_name = "H", default_value = "auto", value_parser = values::heuristics)]
     #[arg(help_heading = "Tree")]
     pub(crate) heuristic: Heuristics,

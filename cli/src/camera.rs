@@ -115,10 +115,7 @@ pub(crate) fn asked(args: &ViewArgs, scene: &Scene, scale: Option<f64>) -> Resul
         (None, None, None) => return whole(scene, up, fov, size, margin),
         (Some(eye), ..) => upright(scene, up, |up| Camera::perspective(eye, target, up, fov, size)),
         (None, Some(direction), target) => upright(scene, up, |up| {
-            let whole = match scale {
-                Some(scale) => framing::to_scale(direction, up, scene, scale, margin)?,
-                None => framing::parallel(direction, up, scene, size, margin)?,
-            };
+            let whole = framing::parallel(direction, up, scene, size, scale, margin)?;
             let size = whole.size();
             let height = whole.pixel_size()[1] * f64::from(size[1]);
             target.map_or(Ok(whole), |target| Camera::parallel(direction, up, target, height, size))

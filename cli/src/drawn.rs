@@ -24,8 +24,8 @@ pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
     lengths.map(|length: f64| length * width)
 }
 
-/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that both cover half of a
-/// pixel, a quarter of the background shows.
+/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that
+/// both cover half of a pixel, a quarter of the background shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Seams {
     /// Extend opaque polygons a little under opaque neighbours that are painted later; translucent

@@ -57,10 +57,9 @@ mod unix {
     }
 }
 
+#[cfg(unix)]
 #[cfg(test)]
 mod tests {
-    #![cfg(unix)]
-
     use std::os::unix::process::ExitStatusExt;
     use std::process::Command;
 

@@ -23,7 +23,7 @@ pub(crate) struct SceneArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct UpArgs {
-    /// Direction that points up: auto (by the file), x, y, z, -x or X,Y,Z
+    /// Direction that points up: auto, x, y, z, -x or X,Y,Z
     #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
     #[arg(default_value = "auto")]
     up: Up,
@@ -41,7 +41,7 @@ impl UpArgs {
 pub(crate) struct BuildArgs {
     #[command(flatten)]
     pub(crate) is_given: IsGiven,
-    /// Heuristic that chooses the tree's splitting planes; `binspace stats -h` lists all
+    /// Heuristic to choose splitting planes: see `binspace stats -h`
     #[arg(long, value_name = "H", default_value_t)]
     pub(crate) heuristic: Heuristic,
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub(crate) struct BuildArgs {
 #[derive(Args, Clone, Copy, Debug)]
 #[command(next_help_heading = "Tree")]
 pub(crate) struct LimitArgs {
-    /// Points this close to a plane count as on it [default: by the precision of the input]
+    /// Points this close to a plane lie on it [default: by the input's precision]
     #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
     /// Stop with an error if the tree needs more fragments

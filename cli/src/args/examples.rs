@@ -51,7 +51,7 @@ Heuristics. Each splits a set of polygons by
                  perpendicular to an axis (Thibault and Naylor 1987)
   sampled:K      the plane of least cost by weighted, of K polygons (Fuchs, Abram and Grant 1983)
   free-planes    a plane perpendicular to an axis, as in a k-d tree (Bentley 1975; Wald 2007)
-  auto           a plane of either kind, by one estimate of the fragments; polygons' planes are
+  auto           a plane of either kind, with the least estimated work; polygons' planes are
                  compared by successive halving (Karnin, Koren and Somekh 2013)";
 
 pub(crate) const RENDER: &str = "\

@@ -92,7 +92,7 @@ pub(crate) struct LineArgs {
     /// --hidden or a DXF]
     #[arg(long, value_name = "KIND", value_parser = EdgeChoice::parse)]
     pub(crate) edges: Option<EdgeChoice>,
-    /// Hidden parts of edges: none, dashed, or layers (sparser dashes behind more polygons)
+    /// Hidden edges: none, dashed or layers (dashed by depth)
     #[arg(long, value_name = "STYLE", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) hidden: Hidden,
     /// Width of lines in pixels

@@ -25,7 +25,8 @@ use crate::samples::averaged;
 /// `binspace render`.
 pub(crate) fn render(args: &RenderArgs, path: &Path, output: Output) -> Result<(), Failure> {
     if Kind::asked(&args.kind) != Kind::Painter {
-        let problem = "cells can only be painted: for a depth buffer, name the scene from which they were built";
+        let problem = "cells can only be painted: for a depth buffer, name the scene from which they were \
+             built";
         return Err(Failure::about(path.display(), problem));
     }
     let folder = Folder::open(path)?;

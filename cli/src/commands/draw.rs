@@ -137,8 +137,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The pixels of a picture in an inch of paper: points in PDF and TeX, millimetres in DXF, and the pixels of CSS
-/// elsewhere.
+/// The pixels of a picture in an inch of paper: points in PDF and TeX, millimetres in DXF, and otherwise the pixels
+/// of CSS.
 fn pixels_in_inch(format: DrawFormat) -> f64 {
     match format {
         DrawFormat::Pdf | DrawFormat::Tex => 72.0,

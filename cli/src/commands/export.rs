@@ -80,7 +80,8 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
         // A text that is not UTF-8 is not ours either.
         let _ = file.and_then(|mut file| file.read_to_string(&mut begin));
         if begin != MATERIALS {
-            let problem = "`binspace export` did not write this file and does not replace it: rename the .obj";
+            let problem = "`binspace export` did not write this file and does not replace it: give the \
+                           .obj another name";
             return Err(Failure::about(library.display(), problem));
         }
     }

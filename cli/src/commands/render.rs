@@ -47,7 +47,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let extension = args.output.extension().map(|extension| extension.to_ascii_lowercase());
     let extension = extension.as_ref().map(|extension| extension.to_string_lossy());
     match extension.as_deref() {
-        Some("svg" | "pdf") => {
+        Some("svg" | "pdf" | "tex" | "dxf") => {
             return Err("`binspace render` writes only .png: use `binspace draw`".to_owned());
         }
         Some("png") | None => {}

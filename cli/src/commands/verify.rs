@@ -176,7 +176,7 @@ mod tests {
         seen.front_to_back.holes = 2;
         seen.miscounted = 1;
         let told = [
-            "2 wrong pixels, painted front to back",
+            "2 wrong pixels if painted front to back",
             "a polygon is painted more than once or not at all in 1 pixel",
         ];
         assert_eq!(unseen_faults(&seen), told);

@@ -116,7 +116,7 @@ fn off() -> Vec<u8> {
 fn off_binary() -> Vec<u8> {
     let mut bytes = b"OFF BINARY\n".to_vec();
     let mut push = |number: [u8; 4]| bytes.extend(number);
-    [4u32, 4, 6].map(|count| push(count.to_be_bytes()));
+    [4u32, 4, 6].into_iter().for_each(|count| push(count.to_be_bytes()));
     VERTICES.iter().flatten().for_each(|number| push(number.to_be_bytes()));
     for (face, colour) in FACES.iter().zip(COLOURS) {
         push(3u32.to_be_bytes());
@@ -439,12 +439,12 @@ fn ply_files_have_strips_of_triangles() {
 fn binary_off_files_have_colours_of_vertices() {
     let mut bytes = b"STCNOFF BINARY\n".to_vec();
     let mut push = |number: [u8; 4]| bytes.extend(number);
-    [3u32, 1, 0].map(|count| push(count.to_be_bytes()));
+    [3u32, 1, 0].into_iter().for_each(|count| push(count.to_be_bytes()));
     for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
         let vertex: [f32; 12] = [x, y, 5.0, 9.0, 9.0, 9.0, x, y, 0.6, 0.5, 9.0, 9.0];
         vertex.iter().for_each(|number| push(number.to_be_bytes()));
     }
-    [3u32, 0, 1, 2, 0].map(|number| push(number.to_be_bytes()));
+    [3u32, 0, 1, 2, 0].into_iter().for_each(|number| push(number.to_be_bytes()));
     let scene = read(MeshKind::Off, &bytes).unwrap();
     let corners = [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]].map(DVec3::from);
     assert_eq!(scene.polygon(0), corners);

@@ -52,7 +52,7 @@ impl Arrays {
     pub(super) fn of(tree: &BspTree, polygon_materials: &[u32]) -> (Self, usize) {
         let mut planes = Planes::default();
         let nodes = Nodes::of(tree, &mut planes);
-        let node_planes = planes.planes.list().len();
+        let node_planes = planes.planes.len();
         let fragments = Fragments::of(tree, &mut planes);
         // The grid's numbers are below 2⁵³, so they are exact as f64.
         let points: Vec<f64> = planes.points.iter().flatten().map(|&c| c as f64).collect();

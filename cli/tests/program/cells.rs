@@ -116,11 +116,11 @@ fn a_folder_is_written_completely_or_not_at_all() {
     let files = ["bad.obj", "flat.obj", "s.obj"];
     for (command, problem) in [
         ("build bad.obj --cells 3 -o d", "vertex 7 does not exist"),
-        ("build flat.obj --cells 3 -o d", "nothing is left"),
+        ("build flat.obj --cells 3 -o d", "nothing to draw"),
         ("build missing.obj --cells 3 -o d", "missing.obj"),
         ("build random --cells 3 -o d --max-fragments 10", "--max-fragments"),
         ("build s.obj --cells 0 -o d", "0"),
-        ("build s.obj --cells 2 -o -", "name it"),
+        ("build s.obj --cells 2 -o -", "name a new one"),
         ("build s.obj --cells 2 -o s.obj", "cannot become a folder"),
         ("build - --cells 2 -o d", "name a file"),
     ] {

@@ -15,7 +15,6 @@ struct Dxf {
     lines: Vec<Line>,
 }
 
-#[derive(Debug, PartialEq)]
 struct Line {
     layer: String,
     is_closed: bool,
@@ -221,15 +220,27 @@ fn lines_have_their_places_layers_and_dashes() {
         dxf.layers.iter().map(|(name, dashes)| (name.clone(), dashes.clone())).collect()
     };
     let named = |name: &str, dashes: &[f64]| (name.to_owned(), dashes.to_vec());
-    let line = |layer: &str, points: &[[f64; 2]]| Line {
-        layer: layer.to_owned(),
-        is_closed: true,
-        points: points.to_vec(),
+    // Corners to the right of each other from the lower left one on, wherever the pen begins.
+    let lines = |dxf: &Dxf| -> Vec<(String, Vec<[f64; 2]>)> {
+        let lines = dxf.lines.iter().map(|line| {
+            assert!(line.is_closed);
+            let (mut points, order) =
+                (line.points.clone(), |a: &[f64; 2], b: &[f64; 2]| a.partial_cmp(b).unwrap());
+            let first = (0..points.len()).min_by(|&a, &b| order(&points[a], &points[b])).unwrap();
+            points.rotate_left(first);
+            let [second, last] = [points[1], points[points.len() - 1]];
+            if (second[1] - points[0][1]).abs() > (last[1] - points[0][1]).abs() {
+                points[1..].reverse();
+            }
+            (line.layer.clone(), points)
+        });
+        lines.collect()
     };
-    let small = [[81.0, 15.0], [84.0, 15.0], [84.0, 20.0]];
-    let large = [[75.0, 12.5], [87.5, 12.5], [87.5, 37.5]];
-    let plate = [[0.0, 0.0], [100.0, 0.0], [100.0, 50.0], [0.0, 50.0]];
-    let card = [[25.0, 12.5], [50.0, 12.5], [50.0, 37.5], [25.0, 37.5]];
+    let line = |layer: &str, points: &[[f64; 2]]| (layer.to_owned(), points.to_vec());
+    let small = [[74.8, 17.0], [77.2, 17.0], [77.2, 21.0]];
+    let large = [[70.0, 15.0], [80.0, 15.0], [80.0, 35.0]];
+    let plate = [[10.0, 5.0], [90.0, 5.0], [90.0, 45.0], [10.0, 45.0]];
+    let card = [[30.0, 15.0], [50.0, 15.0], [50.0, 35.0], [30.0, 35.0]];
     let visible = [line("BORDER", &plate), line("BORDER", &card)];
     // Dashes are of lines a pixel wide, whatever the width of lines in pictures.
     for width in ["1", "2"] {
@@ -242,15 +253,15 @@ fn lines_have_their_places_layers_and_dashes() {
             named("HIDDEN_BORDER", &[3.0, -2.0]),
         ];
         assert_eq!(layers(&dxf), expected);
-        assert_eq!(dxf.lines[..2], [line("HIDDEN2_BORDER", &small), line("HIDDEN_BORDER", &large)]);
-        assert_eq!(dxf.lines[2..], visible);
+        let hidden = [line("HIDDEN2_BORDER", &small), line("HIDDEN_BORDER", &large)];
+        assert_eq!(lines(&dxf), [&hidden[..], &visible].concat());
     }
     let dxf = drawn("--hidden dashed");
     assert_eq!(layers(&dxf)[1..], [named("BORDER", &[]), named("HIDDEN_BORDER", &[3.0, -2.0])]);
     assert!(dxf.lines[..2].iter().all(|line| line.layer == "HIDDEN_BORDER"));
     let dxf = drawn("");
     assert_eq!(layers(&dxf)[1..], [named("BORDER", &[])]);
-    assert_eq!(dxf.lines, visible);
+    assert_eq!(lines(&dxf), visible);
 }
 
 /// A square of 3 units is 30 mm at 10 mm for each unit.

@@ -160,21 +160,27 @@ fn paths_have_their_places_colours_and_lines() {
     folder.run(&format!("draw {CARDS_VIEW} {look} -o a.tex")).good();
     let text = fs::read_to_string(folder.path("a.tex")).unwrap();
     let (_, rest) = text.split_once(BEGIN).unwrap();
-    let black = "draw={rgb,255:red,0;green,0;blue,0}";
-    let triangles =
-        ["(75,37.5)--(87.5,37.5)--(87.5,12.5)--cycle", "(81,35)--(84,35)--(84,30)--cycle"];
+    let line = "draw={rgb,255:red,0;green,0;blue,0},line width=";
     let expected = format!(
-        "\\clip (0,0) rectangle (100,50);
-\\fill[fill={{rgb,255:red,255;green,238;blue,204}},binspace/background/.try] (0,0) rectangle (100,50);
-\\fill[fill={{rgb,255:red,255;green,0;blue,0}}] {1}
-{0};
-\\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (0,50)--(100,50)--(100,0)--(0,0)--cycle;
-\\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (25,37.5)--(50,37.5)--(50,12.5)--(25,12.5)--cycle;
-\\draw[{black},line width=1.2bp,dash pattern=on 4bp off 6bp,binspace/hidden/.try,binspace/layers-2/.try] {1};
-\\draw[{black},line width=1.2bp,dash pattern=on 6bp off 4bp,binspace/hidden/.try] {0};
-\\draw[{black},line width=2bp,line cap=round,binspace/visible/.try] (0,50)
-",
-        triangles[0], triangles[1]
+        r"\clip (0,0) rectangle (100,50);
+\fill[fill={{rgb,255:red,255;green,238;blue,204}},binspace/background/.try] (0,0) rectangle (100,50);
+\begin{{scope}}[fill={{rgb,255:red,255;green,0;blue,0}}]
+\fill (77.2,29)--(77.2,33)--(74.8,33)--cycle;
+\fill (80,15)--(80,35)--(70,35)--cycle;
+\end{{scope}}
+\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (10,5)--(90,5)--(90,45)--(10,45)--cycle;
+\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (30,15)--(50,15)--(50,35)--(30,35)--cycle;
+\begin{{scope}}[{line}1.2bp,dash pattern=on 4bp off 6bp,binspace/hidden/.try,binspace/layers-2/.try]
+\draw[binspace/border/.try] (74.8,33)--(77.2,33)--(77.2,29)--cycle;
+\end{{scope}}
+\begin{{scope}}[{line}1.2bp,dash pattern=on 6bp off 4bp,binspace/hidden/.try]
+\draw[binspace/border/.try] (70,35)--(80,15)--(80,35)--cycle;
+\end{{scope}}
+\begin{{scope}}[{line}2bp,line cap=round,binspace/visible/.try]
+\draw[binspace/border/.try] (10,5)--(10,45)--(90,45)--(90,5)--cycle
+(30,15)--(30,35)--(50,35)--(50,15)--cycle;
+\end{{scope}}
+"
     );
     assert_eq!(rest.strip_suffix(END).unwrap(), expected);
     // The page is as large as the drawing to scale, in big points.

@@ -130,7 +130,7 @@ fn polygons_are_numbered_by_their_line_in_the_file() {
         "`p` lines skipped: 1",
         "`l` lines skipped: 1",
         "2 faces without area dropped: face 0 (line 6), face 1 (line 8), counted from 0",
-        "its coordinates are precise to 1, so the tolerance is 2e-5",
+        "s.obj: coordinates are precise to 1, so the tolerance is 2e-5, the largest default",
     ] {
         assert!(run.err.contains(part), "{part}: {}", run.err);
     }

@@ -63,7 +63,7 @@ fn bad_scenes_on_standard_input_are_refused() {
         ("order - --eye=0,0,1", "v 0 0 nan\nf 1 1 1\n", "standard input, line 1"),
         ("render - -o p.png", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "standard input: nothing"),
         ("stats -", "f 1 2 3\n", "standard input, line 1, face 0"),
-        ("demo -o -", "", "standard output: it cannot hold several files"),
+        ("demo -o -", "", "standard output: several files cannot go there"),
     ] {
         let message = Run::new(&folder.pipe(command, text)).refused();
         assert!(message.contains(problem), "{command}: {message}");

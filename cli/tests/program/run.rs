@@ -22,8 +22,8 @@ usemtl red\nv 3 0.5 -1\nv 3.5 0.5 -1\nv 3.5 1.5 -1\nf 9 10 11\n\
 v 3.24 0.6 -2\nv 3.36 0.6 -2\nv 3.36 0.8 -2\nf 12 13 14\n";
 pub(crate) const CARDS_MATERIALS: &str =
     "newmtl blue\nKd 0 0 1\nnewmtl glass\nKd 0 1 0\nd 0.4\nnewmtl red\nKd 1 0 0\n";
-/// A view of these from in front: 25 pixels are a unit.
-pub(crate) const CARDS_VIEW: &str = "cards.obj --direction=0,0,-1 --up y --margin 0 --size 100x50";
+/// A view of these from in front: a unit is 20 pixels, and the plate is 10 pixels from the left, and 5 from below.
+pub(crate) const CARDS_VIEW: &str = "cards.obj --direction=0,0,-1 --up y --margin 10 --size 100x50";
 
 /// An empty folder, named after the test.
 pub(crate) struct Folder(PathBuf);

@@ -96,7 +96,7 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
         (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
     };
     let (line, notes) = run("");
-    let said = "its coordinates are precise to 1e-6, so the tolerance is 4e-6, unless";
+    let said = "s.obj: coordinates are precise to 1e-6, so the tolerance is 4e-6; `--tolerance`";
     assert!(notes.contains(said), "{notes}");
     let tolerance = line["tolerance"].as_f64().unwrap();
     assert!((tolerance - 4e-6).abs() < 1e-15, "{line}");
