@@ -54,7 +54,7 @@ complete -c binspace -n "__fish_binspace_using_subcommand order" -l eye -d 'Posi
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l direction -d 'Direction of view, for an eye infinitely far away' -r
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l cull -d 'Sides of polygons to omit: none or back' -r -f -a "none\t'None: polygons are visible from both sides'
 back\t'Back faces: polygons are visible only where their corners run counter-clockwise'"
-complete -c binspace -n "__fish_binspace_using_subcommand order" -s o -l output -d 'File to write [default: -, standard output]' -r -F
+complete -c binspace -n "__fish_binspace_using_subcommand order" -s o -l output -d 'File to write; - for standard output' -r -F
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l heuristic -d 'Heuristic to choose splitting planes: see `binspace stats -h`' -r
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l tolerance -d 'Points this close to a plane lie on it [default: by the input\'s precision]' -r
 complete -c binspace -n "__fish_binspace_using_subcommand order" -l max-fragments -d 'Stop with an error if the tree needs more fragments' -r

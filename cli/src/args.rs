@@ -109,9 +109,9 @@ pub(crate) struct OrderArgs {
     pub(crate) weights: bool,
     #[command(flatten)]
     pub(crate) cull: CullArgs,
-    /// File to write [default: -, standard output]
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
+    /// File to write; - for standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
 }

@@ -76,7 +76,7 @@ impl<'a> Style<'a> {
     }
 }
 
-/// Adds regions, which viewers add up. Regions that look alike are added together.
+/// Adds regions, which viewers add up. Regions of the same look are added together.
 pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style: &Style<'_>) {
     let front = |region: &Region| region.polygons().first().copied().unwrap_or_default();
     let filled = regions.iter().map(|region| {
@@ -107,7 +107,7 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
     });
 }
 
-/// Adds the paths of a drawing. Paths that look alike are added together if nothing lies between them.
+/// Adds the paths of a drawing. Paths of the same look are added together if nothing lies between them.
 pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
     let opacity = |polygon| style.opacity(polygon);
     // Opacities from 0 to 1 are in the order of their bits.

@@ -49,17 +49,17 @@ enum Place {
 pub const STANDARD: &str = "-";
 
 impl Output {
-    /// Output to a file, or to standard output without a name or for the name `-`.
-    pub(crate) fn open(path: Option<&Path>) -> Result<Self, Failure> {
-        match path {
-            Some(path) if path != Path::new(STANDARD) => NewFile::create(path).map(Self::File),
-            _ => Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock()))),
+    /// Output to a file, or to standard output for the name `-`.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new(STANDARD) {
+            return Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock())));
         }
+        NewFile::create(path).map(Self::File)
     }
 
     /// The same for something that a terminal cannot show.
     pub(crate) fn open_binary(path: &Path, what: &str) -> Result<Self, Failure> {
-        let output = Self::open(Some(path))?;
+        let output = Self::open(path)?;
         let is_terminal = match &output {
             Self::Standard(out) => out.get_ref().is_terminal(),
             Self::File(file) => file.writer.get_ref().is_terminal(),

@@ -42,11 +42,11 @@ impl From<Hidden> for drawing::Hidden {
     }
 }
 
-/// Lines that are drawn alike.
+/// Lines of one style.
 #[derive(Debug)]
 pub(crate) struct Strokes {
     /// The number of polygons in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are
-    /// hidden and all drawn alike.
+    /// hidden and all have one style.
     pub(crate) depth: u32,
     /// The kind of the edges.
     pub(crate) class: &'static str,

@@ -49,7 +49,7 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     }
     let output = match format {
         DrawFormat::Pdf | DrawFormat::Png => Output::open_binary(&args.output, "a PDF or PNG")?,
-        _ => Output::open(Some(&args.output))?,
+        _ => Output::open(&args.output)?,
     };
     let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);

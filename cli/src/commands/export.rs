@@ -24,7 +24,7 @@ use crate::samples::linear;
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
-    let output = Output::open(Some(&args.output))?;
+    let output = Output::open(&args.output)?;
     // Colours of OBJ files are in a file beside it.
     let library = match format {
         ExportFormat::Obj => library(&args.output)?,
