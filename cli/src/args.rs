@@ -17,7 +17,7 @@ pub(crate) use common::{BuildArgs, GeneralArgs, IsGiven, LimitArgs, SceneArgs, U
 pub(crate) use generated::generate;
 pub(crate) use pictures::{DrawArgs, DrawFormat, KindArgs, RenderArgs};
 
-/// Exact back-to-front orders of polygons from one BSP tree
+/// Order, check and draw polygons exactly, with one BSP tree for all views
 #[derive(Debug, Parser)]
 #[command(name = "binspace", version, max_term_width = 100, after_help = examples::PROGRAM)]
 pub(crate) struct Cli {
@@ -40,78 +40,78 @@ pub(crate) enum Command {
     Build(BuildFileArgs),
     /// List the built-in scenes
     Scenes,
-    /// Write completions of shells and manual pages into DIR
+    /// Write shell completions and manual pages into DIR
     #[command(hide = true)]
     Generate {
-        /// Folder to write the folders completions and man into
+        /// Folder for the folders completions and man
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
 }
 
-/// Draw built-in scenes, and compare every pixel with a depth buffer
+/// Draw built-in scenes and compare every pixel with a depth buffer
 #[derive(Args, Debug)]
 #[command(after_help = examples::DEMO)]
 pub(crate) struct DemoArgs {
-    /// Folder to write the pictures into; created if it does not exist
+    /// Folder for the pictures; created if it is missing
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     pub(crate) output: PathBuf,
-    /// Views of each scene to compare, around it and inside it
+    /// Number of views to compare, around each scene and inside it
     #[arg(long, value_name = "N", default_value_t = 6)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) views: u32,
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Seed of the random views
+    /// Seed of random scenes and views
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
 }
 
-/// Build a scene's tree and write it to a file that every command takes as a scene
+/// Build a scene's tree and store both in a file that every command accepts as SCENE
 #[derive(Args, Debug)]
 #[command(after_help = examples::BUILD)]
 pub(crate) struct BuildFileArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// File to write, such as scene.bsp, or - for standard output; with --cells, a new folder
+    /// File to write, such as scene.bsp; - for standard output; with --cells, a new folder
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Divide a scene too large for memory into N cells, for order, stats and render
+    /// Divide a scene larger than memory into N cells; order, stats and render accept the folder
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=500))]
     pub(crate) cells: Option<u32>,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
 }
 
-/// Write a scene's fragments in paint order, one JSON object a line
+/// Write a scene's fragments in painting order, one JSON object per line
 #[derive(Args, Debug)]
 #[command(after_help = examples::ORDER)]
 #[command(group(clap::ArgGroup::new("viewpoint").required(true).args(["eye", "direction"])))]
 pub(crate) struct OrderArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// Position of the eye; repeat it for one order for each eye
+    /// Position of the eye; repeat the option for more eyes
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) eye: Vec<DVec3>,
-    /// Direction of view, from infinitely far away
+    /// Direction of view, for an eye infinitely far away
     #[arg(long, value_name = "X,Y,Z", value_parser = values::direction)]
     #[arg(allow_hyphen_values = true)]
     pub(crate) direction: Option<DVec3>,
     /// List the nearest fragment first
     #[arg(long)]
     pub(crate) front_to_back: bool,
-    /// Add for each edge the number of the polygon's edge that it lies on
+    /// Add the number of the polygon's edge on which each edge lies
     #[arg(long)]
     pub(crate) edges: bool,
-    /// Add for each vertex the corners that it lies between, with weights
+    /// Add weights of the polygon's corners for each vertex, to interpolate attributes
     #[arg(long)]
     pub(crate) weights: bool,
     #[command(flatten)]
     pub(crate) cull: CullArgs,
-    /// File to write [default: standard output, as for -]
-    #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
+    /// File to write; - for standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) build: BuildArgs,
 }
@@ -122,14 +122,14 @@ pub(crate) struct OrderArgs {
 pub(crate) struct VerifyArgs {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// Views to compare, alternately around the scene and inside it
+    /// Number of views to compare, alternately around the scene and inside it
     #[arg(long, value_name = "N", default_value_t = 8)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) views: u32,
     /// Size of the pictures in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]
     pub(crate) size: [u32; 2],
-    /// Print a JSON object for each view and for the total
+    /// Print a JSON object for each view and one for the total
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
@@ -140,7 +140,7 @@ pub(crate) struct VerifyArgs {
     pub(crate) build: BuildArgs,
 }
 
-/// Build trees of a scene and print their figures
+/// Build trees of a scene and print their sizes and times
 #[derive(Args, Debug)]
 #[command(after_help = examples::STATS)]
 pub(crate) struct StatsArgs {
@@ -151,7 +151,7 @@ pub(crate) struct StatsArgs {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) is_given: IsGiven,
-    /// Heuristic to choose the planes: one of those below, or all
+    /// Heuristic to choose splitting planes: a name from below, or all
     #[arg(long, value_name = "H", default_value = "auto", value_parser = values::heuristics)]
     #[arg(help_heading = "Tree")]
     pub(crate) heuristic: Heuristics,
@@ -159,7 +159,7 @@ pub(crate) struct StatsArgs {
     pub(crate) limits: LimitArgs,
 }
 
-/// Write a self-contained page in which people turn the scene, for a browser
+/// Write a page for a browser, in which readers turn the scene
 #[derive(Args, Debug)]
 #[command(after_help = examples::PAGE)]
 pub(crate) struct PageArgs {
@@ -185,13 +185,13 @@ pub(crate) struct ExportArgs {
     /// File to write: .obj (and .mtl), .ply or .glb; - for standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Format of the file [default: by its name; obj for standard output]
+    /// File format [default: by the file's name; obj for standard output]
     #[arg(long, value_enum, hide_short_help = true)]
     pub(crate) format: Option<ExportFormat>,
     /// Sort the triangles back to front for this eye
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
     pub(crate) order: Option<DVec3>,
-    /// Leave out the vertices that keep closed bodies closed
+    /// Leave T-junctions between fragments open: fewer triangles, but cracks
     #[arg(long)]
     pub(crate) unwelded: bool,
     #[command(flatten)]

@@ -23,12 +23,12 @@ pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
     }
     let Some([backs, all]) = count(tree, camera) else { return };
     if backs * MOSTLY[0] > all * MOSTLY[1] {
-        let share = format!("{} % of the picture is backs of faces", 100 * backs / all);
+        let share = format!("{} % of the picture shows back faces", 100 * backs / all);
         let full = format!(
-            "{share}, as of rooms seen from outside (`--cull back` leaves them out) or of faces with \
-             clockwise corners"
+            "{share}: the scene is a room seen from outside, or its corners run clockwise; `--cull \
+             back` omits back faces"
         );
-        remark(scene.name(), format!("{share} (`--cull back` leaves them out)"), full);
+        remark(scene.name(), format!("{share} (`--cull back` omits them)"), full);
     }
 }
 

@@ -10,10 +10,10 @@ pub const BACKGROUND: [u8; 3] = [255, 255, 255];
 /// The source of the colours of polygons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Colouring {
-    /// From their materials; grey without one
+    /// The colour of the material; grey without a material
     #[default]
     Material,
-    /// A different one for each polygon
+    /// A different colour for each polygon
     Polygon,
 }
 

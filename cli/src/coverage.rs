@@ -150,7 +150,7 @@ impl Band {
         rows
     }
 
-    /// Adds the changes that a part of a side makes, which is in one row and as high as said.
+    /// Adds the changes of a part of a side in one row, with a height.
     fn add_part(&mut self, row: usize, [a, b]: [f64; 2], height: f64) {
         let (left, right) = (a.min(b), a.max(b));
         let columns = left as usize..right as usize + 1;

@@ -7,10 +7,10 @@ use clap::{Args, ValueEnum};
 /// Which sides of polygons are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Cull {
-    /// Neither: polygons are seen from both sides
+    /// None: polygons are visible from both sides
     #[default]
     None,
-    /// Backs: polygons are seen only where their corners run counter-clockwise
+    /// Back faces: polygons are visible only where their corners run counter-clockwise
     Back,
 }
 
@@ -28,7 +28,7 @@ impl Cull {
 
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct CullArgs {
-    /// Sides of polygons to leave out: none or back
+    /// Sides of polygons to omit: none or back
     #[arg(long, value_name = "SIDE", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) cull: Cull,
 }

@@ -24,17 +24,18 @@ pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
     lengths.map(|length: f64| length * width)
 }
 
-/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that both cover half of a
-/// pixel, a quarter of the background shows.
+/// The treatment of seams. Viewers blend each path with the paint below it. Along an edge of two polygons that
+/// both cover half of a pixel, a quarter of the background shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Seams {
-    /// Opaque polygons reach a little under later opaque neighbours; translucent ones have seams
+    /// Extend opaque polygons a little under opaque neighbours that are painted later; translucent
+    /// polygons keep their seams
     #[default]
     Trap,
-    /// SVG only: a path for each region where the same polygons show, with their blended colour; viewers
-    /// add the paths up (`mix-blend-mode: plus-lighter`), which leaves no seam, translucent or not
+    /// SVG only: write a path for each region in which the same polygons are visible, in their blended
+    /// colour; viewers add the paths up (`mix-blend-mode: plus-lighter`), and no seam remains
     PlusLighter,
-    /// Nothing: paths are the polygons alone
+    /// Leave the seams: each path is exactly its polygon
     None,
 }
 
@@ -75,7 +76,7 @@ impl<'a> Style<'a> {
     }
 }
 
-/// Adds regions, which viewers add up. Regions that look alike are added together.
+/// Adds regions, which viewers add up. Regions of the same look are added together.
 pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style: &Style<'_>) {
     let front = |region: &Region| region.polygons().first().copied().unwrap_or_default();
     let filled = regions.iter().map(|region| {
@@ -106,7 +107,7 @@ pub(crate) fn add_regions(picture: &mut VectorPicture, regions: &[Region], style
     });
 }
 
-/// Adds the paths of a drawing. Paths that look alike are added together if nothing lies between them.
+/// Adds the paths of a drawing. Paths of the same look are added together if nothing lies between them.
 pub(crate) fn add_drawing(picture: &mut VectorPicture, drawing: &Drawing, style: &Style<'_>) {
     let opacity = |polygon| style.opacity(polygon);
     // Opacities from 0 to 1 are in the order of their bits.

@@ -23,18 +23,16 @@ fn write(out: &mut String, [width, height]: [u32; 2], all: &[Strokes]) -> fmt::R
     for strokes in all {
         let layer = layer(strokes);
         for line in &strokes.lines {
-            let (mut points, mut is_closed) = (&line.points[..], 0);
-            if let [rest @ .., last] = points
-                && rest.len() > 2
-                && rest.first() == Some(last)
-            {
-                (points, is_closed) = (rest, 1);
-            }
+            let upwards =
+                |&[x, y]: &[f64; 2]| [x, f64::from(height) - y].map(|c| format!("{c:.6}"));
+            let mut points: Vec<[String; 2]> = line.points.iter().map(upwards).collect();
+            // The ends of a closed line may differ by rounding.
+            let is_closed = points.len() > 3 && points.first() == points.last();
+            points.truncate(points.len() - usize::from(is_closed));
             write!(out, "0\nPOLYLINE\n8\n{layer}\n66\n1\n10\n0.0\n20\n0.0\n30\n0.0\n")?;
-            write!(out, "70\n{is_closed}\n")?;
+            write!(out, "70\n{}\n", u8::from(is_closed))?;
             for [x, y] in points {
-                let y = f64::from(height) - y;
-                write!(out, "0\nVERTEX\n8\n{layer}\n10\n{x:.6}\n20\n{y:.6}\n30\n0.0\n")?;
+                write!(out, "0\nVERTEX\n8\n{layer}\n10\n{x}\n20\n{y}\n30\n0.0\n")?;
             }
             write!(out, "0\nSEQEND\n8\n{layer}\n")?;
         }

@@ -10,6 +10,7 @@ use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, IntoInnerError, IsTerminal, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
+use binspace::internals::open_regular;
 use tempfile::NamedTempFile;
 
 use crate::failure::Failure;
@@ -48,20 +49,26 @@ enum Place {
 pub const STANDARD: &str = "-";
 
 impl Output {
-    /// Output to a file, or to standard output without a name or for the name `-`.
-    pub(crate) fn open(path: Option<&Path>) -> Result<Self, Failure> {
-        match path {
-            Some(path) if path != Path::new(STANDARD) => NewFile::create(path).map(Self::File),
-            _ => Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock()))),
+    /// Output to a file, or to standard output for the name `-`.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new(STANDARD) {
+            return Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock())));
         }
+        NewFile::create(path).map(Self::File)
     }
 
-    /// Whether the output goes to a terminal.
-    pub(crate) fn is_terminal(&self) -> bool {
-        match self {
+    /// The same for something that a terminal cannot show.
+    pub(crate) fn open_binary(path: &Path, what: &str) -> Result<Self, Failure> {
+        let output = Self::open(path)?;
+        let is_terminal = match &output {
             Self::Standard(out) => out.get_ref().is_terminal(),
             Self::File(file) => file.writer.get_ref().is_terminal(),
+        };
+        if is_terminal {
+            let problem = format!("{what} is not for a terminal: redirect it, or name a file");
+            return Err(about_output(path, &problem));
         }
+        Ok(output)
     }
 
     /// Writes with `write`, and completes the output.
@@ -253,7 +260,21 @@ pub(crate) fn behind_links(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(target),
         }
     }
-    Err(io::Error::other("too many links"))
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// A failure to write to a file or to standard output.
+pub(crate) fn about_output(output: &Path, problem: &str) -> Failure {
+    if output == Path::new(STANDARD) {
+        return Failure::about("standard output", problem);
+    }
+    Failure::about(output.display(), problem)
+}
+
+/// Opens a regular file to read it.
+pub(crate) fn open_existing(path: &Path) -> Result<File, Failure> {
+    open_regular(path)
+        .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))
 }
 
 fn unwritable(path: &Path, error: io::Error) -> Failure {
@@ -263,7 +284,7 @@ fn unwritable(path: &Path, error: io::Error) -> Failure {
 /// Makes a folder and its parents, unless they exist.
 pub fn make_folder(path: &Path) -> Result<(), Failure> {
     if path == Path::new(STANDARD) {
-        let problem = "it cannot hold several files: name a folder (./- if it is called so)";
+        let problem = "several files cannot go there: name a folder (./- for a folder named -)";
         return Err(Failure::about("standard output", problem));
     }
     let made = fs::create_dir_all(path);

@@ -1,48 +1,37 @@
 //! Which format a file is written in.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use clap::ValueEnum;
 
 use crate::failure::Failure;
-use crate::files::STANDARD;
+use crate::files::{STANDARD, about_output};
 
 /// The format of the option, or of the file's name. Without either, the first of all formats goes to standard
 /// output.
-pub(crate) fn format<F: ValueEnum + PartialEq + 'static>(
+pub(crate) fn format<F: ValueEnum + PartialEq>(
     output: &Path,
     asked: Option<F>,
 ) -> Result<F, Failure> {
-    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let named = formats().find(|(name, _)| Some(name) == extension.as_ref());
-    match (named, asked) {
-        (Some((_, named)), Some(asked)) if named != asked => {
-            Err(about_output(output, "its name and --format are of different formats"))
-        }
-        (Some((_, format)), _) | (None, Some(format)) => Ok(format),
-        (None, None) => {
-            let names: Vec<String> = formats::<F>().map(|(name, _)| format!(".{name}")).collect();
-            let first = formats().next().filter(|_| output == Path::new(STANDARD));
+    let extension = output.extension().map(OsStr::to_string_lossy);
+    let named = extension.and_then(|extension| F::from_str(&extension, true).ok());
+    let formats = F::value_variants();
+    match (named, asked, formats) {
+        (Some(named), Some(asked), _) if named != asked => Err(about_output(
+            output,
+            "the file's name and --format disagree: omit --format, or name a file of that format",
+        )),
+        (Some(format), ..) | (None, Some(format), _) => Ok(format),
+        (None, None, [first, ..]) if output == Path::new(STANDARD) => Ok(first.clone()),
+        (None, None, _) => {
+            let names = formats.iter().filter_map(F::to_possible_value);
+            let names: Vec<String> = names.map(|name| format!(".{}", name.get_name())).collect();
             let endings = names.join(", ");
             let problem = format!("name a file that ends in one of {endings}, or give --format");
-            first.map(|(_, format)| format).ok_or_else(|| about_output(output, &problem))
+            Err(about_output(output, &problem))
         }
     }
-}
-
-/// All formats, each with its name, which is also the file extension.
-fn formats<F: ValueEnum + 'static>() -> impl Iterator<Item = (String, F)> {
-    let named =
-        |format: &F| Some((format.to_possible_value()?.get_name().to_owned(), format.clone()));
-    F::value_variants().iter().filter_map(named)
-}
-
-/// A failure to write to a file or to standard output.
-pub(crate) fn about_output(output: &Path, problem: &str) -> Failure {
-    if output == Path::new(STANDARD) {
-        return Failure::about("standard output", problem);
-    }
-    Failure::about(output.display(), problem)
 }
 
 #[cfg(test)]

@@ -47,47 +47,35 @@ fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f
     place
 }
 
-/// A parallel camera along `direction` that just holds the scene.
+/// A parallel camera along `direction` that just holds the scene. The picture has a size or, with a number of
+/// pixels for each unit, is as large as that takes.
 pub(crate) fn parallel(
     direction: DVec3,
     up: DVec3,
     scene: &Scene,
     size: [u32; 2],
+    scale: Option<f64>,
     margin: f64,
 ) -> Result<Camera, Error> {
-    let (axes, centre) = axes_and_centre(direction, up, scene)?;
-    let [width, height] = size.map(f64::from);
-    let fill = 1.0 - 2.0 * margin;
-    let shown = extent(scene, axes.up()).max(extent(scene, axes.right()) * height / width) / fill;
-    // A scene seen edge-on, or a point, has no extent: show its surroundings.
-    let fallback = extent(scene, axes.forward()).max(centre.length() * 1e-3);
-    let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
-    Camera::parallel(direction, up, centre, shown, size)
-}
-
-/// The same with a number of pixels for each unit, in a picture as large as that takes.
-pub(crate) fn to_scale(
-    direction: DVec3,
-    up: DVec3,
-    scene: &Scene,
-    scale: f64,
-    margin: f64,
-) -> Result<Camera, Error> {
-    let (axes, centre) = axes_and_centre(direction, up, scene)?;
-    // Numbers too large for an integer become the largest, which is an error of the camera.
-    let side = |axis| (extent(scene, axis) * scale / (1.0 - 2.0 * margin)).ceil().max(1.0) as u32;
-    let size = [side(axes.right()), side(axes.up())];
-    Camera::parallel(direction, up, centre, f64::from(size[1]) / scale, size)
-}
-
-/// A camera along `direction`, for its axes, and the middle of the scene between its limits along them.
-fn axes_and_centre(direction: DVec3, up: DVec3, scene: &Scene) -> Result<(Camera, DVec3), Error> {
+    // For its axes.
     let axes = Camera::parallel(direction, up, DVec3::ZERO, 1.0, [1, 1])?;
     let mut centre = DVec3::ZERO;
     for axis in [axes.right(), axes.up(), axes.forward()] {
         centre += axis * (0.5 * reach(scene, axis) - 0.5 * reach(scene, -axis));
     }
-    Ok((axes, centre))
+    let fill = 1.0 - 2.0 * margin;
+    let sides = [axes.right(), axes.up()].map(|axis| extent(scene, axis));
+    if let Some(scale) = scale {
+        // Numbers too large for an integer become the largest, which is an error of the camera.
+        let size = sides.map(|side| (side * scale / fill).ceil().max(1.0) as u32);
+        return Camera::parallel(direction, up, centre, f64::from(size[1]) / scale, size);
+    }
+    let [width, height] = size.map(f64::from);
+    let shown = sides[1].max(sides[0] * height / width) / fill;
+    // A scene seen edge-on, or a point, has no extent: show its surroundings.
+    let fallback = extent(scene, axes.forward()).max(centre.length() * 1e-3);
+    let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
+    Camera::parallel(direction, up, centre, shown, size)
 }
 
 /// The extent of the scene along an axis.

@@ -17,7 +17,7 @@ use crate::units::count;
 /// The largest number of faces that a note names.
 const NAMED: usize = 3;
 /// The message for a scene of which no face is left.
-pub const NOTHING_LEFT: &str = "nothing is left to draw: no face has an area";
+pub const NOTHING_LEFT: &str = "nothing to draw: no face has an area";
 
 /// A scene and its tree.
 pub(crate) struct Made {
@@ -68,8 +68,8 @@ pub(crate) fn refuse_options(
     if !is_given {
         return Ok(());
     }
-    let problem = "its tree is built already: leave out --heuristic, --tolerance and \
-                   --max-fragments, or give the scene that it was built of";
+    let problem = "it contains a finished tree: omit --heuristic, --tolerance and --max-fragments, \
+                   or name the scene from which it was built";
     Err(Failure::about(name, problem))
 }
 
@@ -84,8 +84,8 @@ pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
     note_found(scene, prepared.dropped(found.polygons), found);
     let duplicates = prepared.duplicates();
     if duplicates > 0 {
-        let faces = format!("{} given more than once", count(duplicates, "face"));
-        remark(scene.name(), &faces, format!("{faces}: the last one is visible"));
+        let faces = count(duplicates, "duplicate face");
+        remark(scene.name(), &faces, format!("{faces}: the last copy is visible"));
     }
 }
 
@@ -93,12 +93,12 @@ pub fn note_preparation(scene: &Scene, prepared: &Faces, found: &Preparation) {
 pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, found: &Preparation) {
     if found.triangulated > 0 {
         let faces = count(found.triangulated, "face");
-        let full = format!("{faces} not convex or not planar, triangulated");
+        let full = format!("{faces} triangulated: not convex or not planar");
         remark(scene.name(), format!("{faces} triangulated"), full);
     }
     if found.crossing > 0 {
-        let brief = format!("{} with crossing edges", count(found.crossing, "face"));
-        let full = format!("of these, {brief}: the area covered is unspecified");
+        let brief = count(found.crossing, "self-intersecting face");
+        let full = format!("{brief}: the filled area is unspecified");
         remark(scene.name(), brief, full);
     }
     if found.dropped > 0 {
@@ -128,20 +128,21 @@ pub(crate) fn note_length(
     if 2 * found.bent > quads {
         let advice = format!("--tolerance {}", short(raised(found.bent_by)));
         let full = format!(
-            "{} of {} with four corners or more are bent by at most {}, as by a rounding: \
-             `{advice}` would keep them whole (it is {taken})",
+            "{} of {} with four or more corners are non-planar by at most {}, probably because \
+             coordinates are rounded: `{advice}` keeps these faces whole (now {taken})",
             found.bent,
             count(quads, "face"),
             short(found.bent_by),
         );
-        let brief = format!("tolerance {taken}, `{advice}` would keep {} whole", found.bent);
+        let brief =
+            format!("tolerance {taken} (`{advice}` keeps {} whole)", count(found.bent, "face"));
         remark(scene.name(), brief, full);
     } else if tolerance < 1.001 * scene.precision() && limits.tolerance.is_none() {
         let is_bound = tolerance < 0.999 * scene.precision();
-        let bound = if is_bound { ", 1e-5 of the extent and the largest by default" } else { "" };
+        let bound = if is_bound { ", the largest default (1e-5 of the extent)" } else { "" };
         let full = format!(
-            "its coordinates are precise to {}, so the tolerance is {taken}{bound}, unless you give \
-             `--tolerance`",
+            "coordinates are precise to {}, so the tolerance is {taken}{bound}; `--tolerance` \
+             overrides it",
             // The precision is four units in the last decimal.
             short(0.25 * scene.precision()),
         );

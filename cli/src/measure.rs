@@ -49,7 +49,7 @@ fn median(seconds: &mut [f64]) -> f64 {
 /// The nanoseconds per fragment that an order takes, as a list of indices in a reused buffer: the
 /// median over rounds of several viewpoints. 0 without fragments.
 pub(crate) fn order_nanoseconds(tree: &BspTree, scene: &Scene) -> f64 {
-    let _progress = Progress::spinner("timing orders");
+    let _progress = Progress::spinner("measuring the time of orders");
     let viewpoints = viewpoints(scene);
     let mut order = Vec::new();
     // A round has at least this many fragments, so that the clock's resolution does not matter.

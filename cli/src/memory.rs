@@ -53,5 +53,5 @@ fn find_room(needed: usize) -> Option<()> {
 }
 
 fn lacking(scene: &str, what: &str, needed: usize) -> Failure {
-    Failure::about(scene, format!("too little memory for {what}: it needs about {}", bytes(needed)))
+    Failure::about(scene, format!("too little memory for {what}: about {} needed", bytes(needed)))
 }

@@ -33,9 +33,9 @@ pub(crate) enum Kind {
 /// The bright end of a picture of depths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Bright {
-    /// The nearer, the brighter
+    /// Near is bright
     Near,
-    /// The further, the brighter
+    /// Far is bright
     Far,
 }
 

@@ -3,11 +3,11 @@
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-use binspace::internals::open_regular;
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
+use crate::files::open_existing;
 use crate::progress::Progress;
 
 /// The magic bytes of such a file.
@@ -23,9 +23,7 @@ pub(crate) fn write(mut out: &mut dyn Write, scene: &Scene, tree: &BspTree) -> i
 pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     let name = path.display().to_string();
     let _progress = Progress::spinner(format!("reading {name}"));
-    let file = open_regular(path)
-        .map_err(|error| Failure::about(&name, format!("cannot be read: {error}")))?;
-    read(&name, io::BufReader::new(file))
+    read(&name, io::BufReader::new(open_existing(path)?))
 }
 
 /// Reads a file; `name` is its name in messages.
@@ -34,9 +32,9 @@ pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree),
     let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;
     if more > 0 {
         let problem = if tree.is_of_cell() {
-            "it is a cell of a scene: name the folder that it is in"
+            "this is one cell of a divided scene: name the folder"
         } else {
-            "more follows behind its scene: write it again"
+            "data after the end of the scene: build the file again"
         };
         return Err(Failure::about(name, problem));
     }
@@ -47,11 +45,13 @@ pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree),
 pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let about = |error: Error| Failure::about(name, error);
     let tree = BspTree::read(&mut input).map_err(about)?;
-    let scene = Scene::read(&mut input).map_err(|error| {
-        Failure::about(name, format!("behind the tree, where its scene must be: {error}"))
-    })?;
+    let scene = Scene::read(&mut input)
+        .map_err(|error| Failure::about(name, format!("in the scene after the tree: {error}")))?;
     if !belong_together(&tree, &scene) {
-        return Err(Failure::about(name, "its tree is not one of its scene: write it again"));
+        return Err(Failure::about(
+            name,
+            "its tree belongs to another scene: build the file again",
+        ));
     }
     Ok((scene, tree))
 }

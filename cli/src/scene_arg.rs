@@ -5,12 +5,11 @@ use std::fs;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use binspace::internals::open_regular;
 use binspace::scene::{Builtin, ObjReport, Scene};
 use binspace::{BspTree, Error};
 
 use crate::failure::Failure;
-use crate::files::STANDARD;
+use crate::files::{STANDARD, open_existing};
 use crate::formats::{self, Kind, MeshKind};
 use crate::memory;
 use crate::progress::Progress;
@@ -72,8 +71,8 @@ pub fn load(asked: &OsStr, seed: u64) -> Result<Loaded, Failure> {
             Ok(scene.build(size, seed).into())
         }
         Source::File(path) if path.is_dir() => {
-            let problem = "cannot be read: it is a folder; `render`, `order` and `stats` take those \
-                           of `binspace build --cells`, all else the scene that it was built of";
+            let problem = "this is a folder: only `render`, `order` and `stats` accept folders of \
+                           `binspace build --cells`; name the scene from which it was built";
             Err(Failure::about(name, problem))
         }
         Source::File(path) => match kind(&path) {
@@ -105,7 +104,7 @@ pub(crate) fn kind(path: &Path) -> (Kind, Vec<u8>) {
 fn mesh(kind: MeshKind, path: &Path) -> Result<Scene, Failure> {
     let name = path.display().to_string();
     let unreadable = |error| Failure::about(&name, format!("cannot be read: {error}"));
-    let mut file = open_regular(path).map_err(unreadable)?;
+    let mut file = open_existing(path)?;
     memory::check_file(&name, file.metadata().map_err(unreadable)?.len())?;
     let _progress = Progress::spinner(format!("reading {name}"));
     let mut bytes = Vec::new();
@@ -147,7 +146,7 @@ fn checked(scene: Scene) -> Result<Scene, Failure> {
 /// Reads a file of any kind from standard input, and notes the omitted data.
 fn standard_input() -> Result<Loaded, Failure> {
     if io::stdin().is_terminal() {
-        note("reading a scene from the terminal, up to an end of file (Ctrl-D)");
+        note("reading a scene from the terminal; Ctrl-D ends it");
     }
     let name = "standard input";
     let _progress = Progress::spinner(format!("reading {name}"));
@@ -174,11 +173,11 @@ fn note_libraries(name: &str, report: &mut ObjReport) {
     if !libraries.is_empty() {
         report.missing_materials.clear();
         let full = format!(
-            "it has no folder to find material libraries in, so all is grey; name the file to have \
-             the colours of {}",
+            "all polygons are grey, because standard input has no folder with material libraries: \
+             name the file to use {}",
             libraries.join(", ")
         );
-        remark(name, "grey without its material libraries", full);
+        remark(name, "grey, without material libraries", full);
     }
 }
 
@@ -188,7 +187,7 @@ fn standard_input_bytes(name: &str) -> Result<Vec<u8>, Failure> {
     let mut bytes: Vec<u8> = Vec::new();
     let mut input = io::stdin().lock();
     loop {
-        let problem = |_| Failure::about(name, "too little memory to read it");
+        let problem = |_| Failure::about(name, "too little memory to read the scene");
         bytes.try_reserve(CHUNK).map_err(problem)?;
         // Fits the existing buffer, so that reading itself allocates nothing.
         let read = input.by_ref().take(CHUNK as u64).read_to_end(&mut bytes);

@@ -15,8 +15,8 @@ pub(crate) fn shaded(colour: [u8; 3], polygon: &[DVec3], camera: &Camera) -> [u8
 }
 
 /// The brightness of a plane, given the unit normal on the side that the viewer sees. From an eye it is
-/// 0.5 + 0.5 · (1 + n·l) / (1 + m·l), at most 1: n is the normal, l points to the lamp, and m to the viewer, whom a
-/// plane of full brightness faces (half-Lambert shading).
+/// 0.5 + 0.5 · (1 + n·l) / (1 + m·l), at most 1 (half-Lambert shading): n is the normal, l points to the lamp, and
+/// m to the viewer. A plane that faces the viewer has full brightness.
 fn brightness(normal: DVec3, camera: &Camera) -> f64 {
     if camera.eye().is_none() {
         return raster::brightness(normal, camera.forward());

@@ -23,11 +23,11 @@ pub(crate) enum EdgeChoice {
 /// How hidden parts of edges are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Hidden {
-    /// Dashed, and thinner
+    /// Dashed and thinner
     Dashed,
-    /// Dashed the more sparsely the more polygons lie in front: one, two, three, or more
+    /// Dashed, with sparser dashes behind two, three, or more polygons
     Layers,
-    /// Not at all
+    /// Not drawn
     #[default]
     None,
 }
@@ -42,11 +42,11 @@ impl From<Hidden> for drawing::Hidden {
     }
 }
 
-/// Lines that are drawn alike.
+/// Lines of one style.
 #[derive(Debug)]
 pub(crate) struct Strokes {
     /// The number of polygons in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are
-    /// hidden and all drawn alike.
+    /// hidden and all have one style.
     pub(crate) depth: u32,
     /// The kind of the edges.
     pub(crate) class: &'static str,

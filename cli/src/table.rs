@@ -2,15 +2,15 @@
 
 /// A table: a column of names, and columns of figures to the right of it.
 ///
-/// Its widths are fixed before the first row, since rows appear as they are measured, over seconds
-/// or minutes. Crates for tables lay out a table when it is whole; the report's are, by `tabled`.
+/// Its widths are fixed before the first row, since rows appear as they are measured, over seconds or minutes.
+/// Crates for tables need all rows first.
 #[derive(Debug)]
 pub(crate) struct Table {
     columns: Vec<(&'static str, usize)>,
 }
 
 impl Table {
-    /// A table with these columns, each as wide as its title and at least as wide as said.
+    /// A table with these columns. Each is as wide as its title, and at least as wide as its number.
     pub(crate) fn new(columns: &[(&'static str, usize)]) -> Self {
         let width = |&(title, width): &(&'static str, usize)| (title, width.max(title.len()));
         Self { columns: columns.iter().map(width).collect() }
@@ -22,7 +22,7 @@ impl Table {
         self.row(&titles)
     }
 
-    /// A row: the first cell to the left of its column, the others to the right of theirs.
+    /// A row: the first cell is aligned to the left, the others to the right.
     pub(crate) fn row(&self, cells: &[impl AsRef<str>]) -> String {
         let mut line = String::new();
         for (i, (cell, &(_, width))) in cells.iter().zip(&self.columns).enumerate() {

@@ -73,7 +73,7 @@ fn sign_of_z_up(scene: &Scene) -> Option<&'static str> {
     if !flat && stands(2, 1) {
         Some("it stands on z = 0")
     } else if flat && found.seen.z >= SEEN_FROM_ABOVE * found.seen.max_element() && inwards {
-        Some("it is flat in z, with floors")
+        Some("it is flat along z and has floors")
     } else {
         None
     }

@@ -74,26 +74,20 @@ pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
 
 /// A colour as in SVG and CSS, by its name if it is a usual one, or `none`.
 pub(crate) fn background(text: &str) -> Result<Background, String> {
-    let wrong = "expected a colour such as #ffeecc, white or black, or none";
-    let colour = match text {
+    let digits = match text {
         "none" => return Ok(Background(None)),
-        "white" => [255; 3],
-        "black" => [0; 3],
-        _ => {
-            let digits = text.strip_prefix('#').unwrap_or(text);
-            let is_hex = digits.chars().all(|digit| digit.is_ascii_hexdigit());
-            let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_hex).ok_or(wrong)?;
-            let channels = |bits: u32, scale: u32| {
-                [2, 1, 0].map(|i| (scale * (number >> (bits * i) & ((1 << bits) - 1))) as u8)
-            };
-            match digits.len() {
-                3 => channels(4, 17),
-                6 => channels(8, 1),
-                _ => return Err(wrong.to_owned()),
-            }
-        }
+        "white" => "fff",
+        "black" => "000",
+        _ => text.strip_prefix('#').unwrap_or(text),
     };
-    Ok(Background(Some(colour)))
+    let each = if digits.len() == 3 { 2 } else { 1 };
+    let digits: String =
+        digits.chars().flat_map(|digit| std::iter::repeat_n(digit, each)).collect();
+    let is_hex = digits.len() == 6 && digits.chars().all(|digit| digit.is_ascii_hexdigit());
+    let number = u32::from_str_radix(&digits, 16).ok().filter(|_| is_hex);
+    let number = number.ok_or("expected a colour such as #ffeecc, white or black, or none")?;
+    let [_, r, g, b] = number.to_be_bytes();
+    Ok(Background(Some([r, g, b])))
 }
 
 /// A picture's size: `640x480`.
@@ -106,7 +100,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
     let pixels = u64::from(width) * u64::from(height);
     if width.max(height) > Camera::MAX_SIDE || pixels > Camera::MAX_PIXELS {
         return Err(format!(
-            "at most {} pixels each way and {} in all",
+            "at most {} pixels wide or high, and {} in total",
             Camera::MAX_SIDE,
             Camera::MAX_PIXELS
         ));
@@ -133,7 +127,7 @@ pub(crate) fn margin(text: &str) -> Result<f64, String> {
 
 /// A length of more than 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
-    Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected more than 0".to_owned())
+    Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 /// A length of 0 or more.

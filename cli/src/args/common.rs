@@ -41,7 +41,7 @@ impl UpArgs {
 pub(crate) struct BuildArgs {
     #[command(flatten)]
     pub(crate) is_given: IsGiven,
-    /// How to choose the planes; `binspace stats -h` lists the ways
+    /// Heuristic to choose splitting planes: see `binspace stats -h`
     #[arg(long, value_name = "H", default_value_t)]
     pub(crate) heuristic: Heuristic,
     #[command(flatten)]
@@ -51,10 +51,10 @@ pub(crate) struct BuildArgs {
 #[derive(Args, Clone, Copy, Debug)]
 #[command(next_help_heading = "Tree")]
 pub(crate) struct LimitArgs {
-    /// Distance within which points lie on a plane [default: by the input's digits]
+    /// Points this close to a plane lie on it [default: by the input's precision]
     #[arg(long, value_name = "T", value_parser = values::length, allow_hyphen_values = true)]
     pub(crate) tolerance: Option<f64>,
-    /// Largest number of fragments
+    /// Stop with an error if the tree needs more fragments
     #[arg(long, value_name = "N", default_value_t = BuildOptions::DEFAULT.max_fragments)]
     #[arg(hide_short_help = true)]
     pub(crate) max_fragments: usize,
@@ -102,14 +102,14 @@ const MOST_THREADS: i64 = 1024;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "General")]
 pub(crate) struct GeneralArgs {
-    /// Number of threads [default: one for each processor]
+    /// Number of threads [default: one per processor]
     #[arg(long, value_name = "N", global = true, hide_short_help = true)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
-    /// Print only errors: neither notes nor progress
+    /// Print errors only: no notes, no progress
     #[arg(long, global = true, conflicts_with = "notes", hide_short_help = true)]
     quiet: bool,
-    /// Print each note in full, in a line of its own
+    /// Print each note in full, on its own line
     #[arg(long, global = true, hide_short_help = true)]
     notes: bool,
 }

@@ -2,15 +2,15 @@
 
 pub(crate) const PROGRAM: &str = "\
 Examples:
-  binspace demo                              the built-in scenes, judged; pictures in out/
-  binspace order scene.obj --eye=0,2,10      fragments in paint order, as JSON lines
+  binspace demo                              compare pictures of built-in scenes; write out/
+  binspace order scene.obj --eye=0,2,10      fragments in painting order, as JSON lines
   binspace render scene.obj -o scene.png     a picture of the whole scene
-  binspace draw part.obj -o part.pdf --lines its visible edges, as a PDF
-  binspace page scene.obj -o scene.html      a page to turn it in a browser
+  binspace draw part.obj -o part.pdf --lines visible edges, as a PDF
+  binspace page scene.obj -o scene.html      a page for a browser, in which the scene turns
 
-Every command also takes --threads N, --quiet, and --notes for each note in full.
-Exit status: 0 success; 1 an image differs from the depth buffer's; 2 an error: bad usage
-or input, output that cannot be written, too little memory.";
+Every command also accepts --threads N, --quiet (errors only) and --notes (notes in full).
+Exit status: 0 success; 1 a picture differs from the depth buffer's; 2 an error in the usage
+or the input, an output that cannot be written, or too little memory.";
 
 pub(crate) const DEMO: &str = "\
 Examples:
@@ -40,17 +40,19 @@ Examples:
   binspace stats terrain:100000 --heuristic all --json
   binspace stats scene.obj --heuristic weighted:8,1,0
 
-Heuristics, by the plane that divides a set of polygons:
+Heuristics. Each splits a set of polygons by
   first          the plane of the first polygon (Fuchs, Kedem and Naylor 1980)
   random:SEED    the plane of a random polygon (Paterson and Yao 1990)
-  fewest-splits  the plane of a polygon that cuts the fewest (Fuchs, Abram and Grant 1983)
-  balanced       the plane of a polygon with the most equal sides (Naylor 1993: rarely good)
+  fewest-splits  the polygon's plane that splits the fewest polygons (Fuchs, Abram and Grant 1983)
+  balanced       the polygon's plane with the most equal sides (Naylor 1993: rarely good)
   weighted:SPLITS,BALANCE,AXIAL
-                 the plane of the lowest weighted sum of both (Thibault and Naylor 1987)
-  sampled:K      the same plane, among those of K polygons (Fuchs, Abram and Grant 1983)
-  free-planes    a plane across an axis, as in a k-d tree (Bentley 1975), by bins (Wald 2007)
-  auto           a free plane or a polygon's, by one cost; polygons are compared
-                 by successive halving (Karnin, Koren and Somekh 2013)";
+                 the polygon's plane of least cost: SPLITS for each split polygon, BALANCE for
+                 each polygon more on one side; AXIAL per polygon is subtracted if the plane is
+                 perpendicular to an axis (Thibault and Naylor 1987)
+  sampled:K      the plane of least cost by weighted, of K polygons (Fuchs, Abram and Grant 1983)
+  free-planes    a plane perpendicular to an axis, as in a k-d tree (Bentley 1975; Wald 2007)
+  auto           a plane of either kind, with the least estimated work; polygons' planes are
+                 compared by successive halving (Karnin, Koren and Somekh 2013)";
 
 pub(crate) const RENDER: &str = "\
 Examples:

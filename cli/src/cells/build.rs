@@ -139,7 +139,7 @@ fn build(
     let mut scene = empty.clone();
     let read = read_polygons(&mut scene, part);
     let numbers = read.map_err(|error| {
-        Failure::about("a file beside the output", format!("cannot be read: {error}"))
+        Failure::about("a temporary file beside the output", format!("cannot be read: {error}"))
     })?;
     let mut reached = Vec::new();
     let counted = scene.polygons().filter(|polygon| {

@@ -25,12 +25,12 @@ use crate::samples::averaged;
 /// `binspace render`.
 pub(crate) fn render(args: &RenderArgs, path: &Path, output: Output) -> Result<(), Failure> {
     if Kind::asked(&args.kind) != Kind::Painter {
-        let problem =
-            "a folder of cells is painted: a depth buffer needs the scene that it was built of";
+        let problem = "cells can only be painted: for a depth buffer, name the scene from which they were \
+             built";
         return Err(Failure::about(path.display(), problem));
     }
     let folder = Folder::open(path)?;
-    let camera = camera::asked(&args.view, &boxed(&folder.bounds))?;
+    let camera = camera::asked(&args.view, &boxed(&folder.bounds), None)?;
     let order = folder.partition.back_to_front(camera.viewpoint());
     let pixels = paint(args, &folder, &camera, &order)?;
     output.write(|out| png_file::write(out, camera.size(), &pixels))

@@ -4,14 +4,13 @@ use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use binspace::internals::open_regular;
 use binspace::partition::Partition;
 use binspace::scene::Scene;
 use binspace::{BspTree, Error};
 
 use crate::args::{BuildArgs, SceneArgs};
 use crate::failure::Failure;
-use crate::files::{self, STANDARD};
+use crate::files::{self, STANDARD, open_existing};
 use crate::{job, saved_file};
 
 /// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
@@ -45,17 +44,19 @@ impl NewFolder {
     pub(crate) fn create(target: &Path) -> Result<Self, Failure> {
         let about = |problem: String| Failure::about(target.display(), problem);
         if target == Path::new(STANDARD) {
-            return Err(about("with `--cells` a folder is written: name it".to_owned()));
+            return Err(about("`--cells` writes a folder: name a new one".to_owned()));
         }
         // Without a dot at the end, by which no folder can be replaced.
         let target: &Path = &target.components().collect::<PathBuf>();
         if target.symlink_metadata().is_ok_and(|found| found.is_symlink()) {
-            return Err(about("it is a link: name the folder itself".to_owned()));
+            return Err(about("this is a symbolic link: name the folder itself".to_owned()));
         }
         match std::fs::read_dir(target).map(Iterator::count) {
             Ok(0) => {}
             Ok(_) => {
-                return Err(about("it is there already: remove it, or name another".to_owned()));
+                return Err(about(
+                    "this folder is not empty: remove it, or name another".to_owned(),
+                ));
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(about(format!("it cannot become a folder: {error}"))),
@@ -65,7 +66,7 @@ impl NewFolder {
         }
         let folder = Self { target: target.to_owned(), files: Vec::new() };
         if is_mounted(target, folder.beside()) {
-            return Err(about("it is a mount point: name a folder in it".to_owned()));
+            return Err(about("this is a mount point: name a folder inside it".to_owned()));
         }
         match files::unnamed(folder.beside()) {
             Ok(_) => Ok(folder),
@@ -170,14 +171,14 @@ pub(crate) fn asked<'a>(
 
 impl Folder {
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        let mut input = open(&path.join(PARTITION))?;
+        let mut input = BufReader::new(open_existing(&path.join(PARTITION))?);
         let name = path.join(PARTITION).display().to_string();
         let about = |error: Error| Failure::about(&name, error);
         let partition = Partition::read(&mut input).map_err(about)?;
         let bounds = Scene::read(&mut input).map_err(about)?;
         let is_box = bounds.len() == 1 && bounds.polygon(0).len() == 2;
         if !is_box || has_more(&mut input) {
-            return Err(Failure::about(name, "it was not written by binspace"));
+            return Err(Failure::about(name, "not written by `binspace build --cells`"));
         }
         Ok(Self { path: path.to_owned(), partition, bounds })
     }
@@ -186,30 +187,24 @@ impl Folder {
     pub(crate) fn cell(&self, number: usize) -> Result<Cell, Failure> {
         let path = self.path.join(cell_name(number));
         let name = path.display().to_string();
-        let mut input = open(&path)?;
+        let mut input = BufReader::new(open_existing(&path)?);
         let (scene, tree) = saved_file::read_pair(&name, &mut input)?;
         let mut numbers = Vec::with_capacity(scene.len());
         for _ in 0..scene.len() {
             let mut bytes = [0; 8];
             let read = input.read_exact(&mut bytes);
-            read.map_err(|_| Failure::about(&name, "it ends within its numbers: it is cut short"))?;
+            read.map_err(|_| Failure::about(&name, "truncated: numbers of polygons are missing"))?;
             numbers.push(u64::from_le_bytes(bytes) as usize);
         }
         let is_own = self.partition.is_tree_of(number, &tree);
         if !is_own || !numbers.is_sorted_by(|a, b| a < b) || has_more(&mut input) {
             return Err(Failure::about(
                 name,
-                "it is not this cell of the folder: build the folder again",
+                "it does not belong to this folder: build the folder again",
             ));
         }
         Ok(Cell { tree, scene, numbers })
     }
-}
-
-fn open(path: &Path) -> Result<BufReader<File>, Failure> {
-    let file = open_regular(path)
-        .map_err(|error| Failure::about(path.display(), format!("cannot be read: {error}")))?;
-    Ok(BufReader::new(file))
 }
 
 fn has_more(input: &mut impl Read) -> bool {

@@ -12,11 +12,9 @@ use crate::args::SceneArgs;
 use crate::failure::Failure;
 use crate::formats::{self, Kind};
 use crate::progress::Progress;
-use crate::scene_arg::{self, Source};
+use crate::scene_arg::{self, Loaded, Source};
 use crate::terminal::remark;
 
-/// The problem with a tree in place of a scene.
-const BUILT: &str = "its tree is built already: give the scene that it was built of";
 /// The most corners that are sampled to choose the planes between cells. Too large: memory. Too small: cells
 /// differ in size.
 const SAMPLES: usize = 1 << 20;
@@ -34,30 +32,27 @@ impl Polygons {
         let name = args.name.to_string_lossy();
         match scene_arg::source(&args.name)? {
             Source::StandardInput => {
-                let problem = "it is read twice with `--cells`: name a file";
-                Err(Failure::about("standard input", problem))
+                let problem = "`--cells` reads a scene twice: name a file";
+                return Err(Failure::about("standard input", problem));
             }
-            Source::Builtin(..) => {
-                Ok(Self::Whole(Box::new(scene_arg::load(&args.name, args.seed)?.scene)))
-            }
-            Source::File(path) if path.is_dir() => Err(Failure::about(name, BUILT)),
-            Source::File(path) => {
-                let (kind, beginning) = scene_arg::kind(&path);
-                match kind {
-                    Kind::Obj => {}
-                    Kind::Saved => return Err(Failure::about(name, BUILT)),
-                    _ => {
-                        let scene = scene_arg::load(&args.name, args.seed)?.scene;
-                        return Ok(Self::Whole(Box::new(scene)));
+            Source::File(path) if !path.is_dir() => {
+                if let (Kind::Obj, beginning) = scene_arg::kind(&path) {
+                    let _progress = Progress::spinner(format!("reading {name}"));
+                    let file = ObjStream::open(&path)
+                        .map_err(|error| formats::not_obj(&name, &beginning, error.to_string()))?;
+                    if !file.report().is_clean() {
+                        remark(&name, file.report(), file.report());
                     }
+                    return Ok(Self::File(Box::new(file)));
                 }
-                let _progress = Progress::spinner(format!("reading {name}"));
-                let file = ObjStream::open(&path)
-                    .map_err(|error| formats::not_obj(&name, &beginning, error.to_string()))?;
-                if !file.report().is_clean() {
-                    remark(&name, file.report(), file.report());
-                }
-                Ok(Self::File(Box::new(file)))
+            }
+            _ => {}
+        }
+        match scene_arg::load(&args.name, args.seed)? {
+            Loaded { scene, tree: None, .. } => Ok(Self::Whole(Box::new(scene))),
+            _ => {
+                let problem = "it contains a finished tree: name the scene from which it was built";
+                Err(Failure::about(name, problem))
             }
         }
     }
@@ -103,7 +98,10 @@ impl Polygons {
         mut visit: impl FnMut(usize, &[DVec3], u32) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let unwritable = |error: io::Error| {
-            Failure::about("a file beside the output", format!("cannot be written: {error}"))
+            Failure::about(
+                "a temporary file beside the output",
+                format!("cannot be written: {error}"),
+            )
         };
         match self {
             Self::File(file) => {

@@ -14,11 +14,7 @@ pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
         cells::build::run(args, cells as usize)?;
         return Ok(Outcome::Done);
     }
-    let output = Output::open(Some(&args.output))?;
-    if output.is_terminal() {
-        let problem = "a tree is not for a terminal: pipe it, or name a file";
-        return Err(Failure::about("standard output", problem));
-    }
+    let output = Output::open_binary(&args.output, "a tree")?;
     let Made { scene, tree, stored_name, .. } = job::make(&args.scene, &args.build)?;
     let scene = scene.with_name(stored_name);
     let _progress = Progress::spinner("writing");

@@ -10,7 +10,7 @@ use binspace::verify::verify;
 use binspace::view::Camera;
 use binspace::{BspTree, BuildOptions, Heuristic};
 
-use super::verify::add;
+use super::verify::{add, unseen_faults};
 use crate::Outcome;
 use crate::args::DemoArgs;
 use crate::colours::{BACKGROUND, Colouring, Colours};
@@ -22,7 +22,7 @@ use crate::measure;
 use crate::pictures::{Drawing, Kind};
 use crate::progress::Progress;
 use crate::table::Table;
-use crate::terminal::{BAD, GOOD, HEAD, say, styled};
+use crate::terminal::{BAD, GOOD, HEAD, note, say, styled};
 use crate::units::{count, time};
 use crate::{camera, job, png_file};
 
@@ -35,56 +35,47 @@ const SCENES: [(Builtin, Option<u32>); 4] = [
     (Builtin::Random, Some(200)),
 ];
 
-/// Totals over all pictures compared.
-#[derive(Clone, Debug, Default)]
-struct Sum {
-    pixels: Comparison,
-    /// Views with all pixels right, whose orders are not the same in all their forms.
-    faulty_orders: usize,
-}
-
 /// Runs the command.
 pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
     make_folder(&args.output)?;
-    let mut total = Sum::default();
+    let mut total = Comparison::default();
+    let mut all_right = true;
     for (builtin, size) in SCENES {
         let scene = builtin.build(size, args.seed);
-        show(args, builtin, &scene, &mut total)?;
+        all_right &= show(args, builtin, &scene, &mut total)?;
     }
-    say("build: time to build the tree; order: time of an order, per fragment")?;
+    say("build: time to build the tree; order: time per fragment to list an order")?;
     say(format!("Wrote pictures of each scene into {}:", args.output.display()))?;
     let names = Kind::ALL.map(|kind| format!("…-{}.png", kind.name())).join(", ");
     say(format!("  {names}, ….svg"))?;
     say("  (a difference is dark where the painter is right; wrong pixels are bright)")?;
     say(format!(
-        "Compared {} from {} of each scene with a depth buffer:",
-        count(total.pixels.covered, "pixel"),
+        "Compared {} in {} of each scene with a depth buffer:",
+        count(total.covered, "pixel"),
         count(args.views as usize, "view"),
     ))?;
-    say(verdict(&total))?;
-    Ok(if total.pixels.wrong() + total.faulty_orders == 0 {
-        Outcome::Done
-    } else {
-        Outcome::Differs
-    })
+    say(verdict(&total, all_right))?;
+    Ok(if all_right { Outcome::Done } else { Outcome::Differs })
 }
 
-fn verdict(total: &Sum) -> String {
-    let (style, found) = match total.pixels.wrong() {
-        0 => (GOOD, "no pixel is wrong".to_owned()),
-        1 => (BAD, "1 pixel is wrong".to_owned()),
-        wrong => (BAD, format!("{wrong} pixels are wrong")),
+fn verdict(total: &Comparison, all_right: bool) -> String {
+    let found = match total.wrong() {
+        0 => "no pixel is wrong".to_owned(),
+        1 => "1 pixel is wrong".to_owned(),
+        wrong => format!("{wrong} pixels are wrong"),
     };
-    let mut verdict = format!("  {}, {} contested", styled(style, found), total.pixels.contested);
-    if total.faulty_orders > 0 {
-        let faults = format!("the orders of {} are faulty", count(total.faulty_orders, "view"));
-        verdict += &format!("; {}", styled(BAD, faults));
-    }
-    verdict
+    let style = if all_right { GOOD } else { BAD };
+    format!("  {}, {} contested", styled(style, found), total.contested)
 }
 
-/// Prints a scene's table, and writes its pictures.
-fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene, total: &mut Sum) -> Result<(), Failure> {
+/// Prints a scene's table, and writes its pictures. Returns whether all pixels and orders are right.
+fn show(
+    args: &DemoArgs,
+    builtin: Builtin,
+    scene: &Scene,
+    total: &mut Comparison,
+) -> Result<bool, Failure> {
+    let mut all_right = true;
     say(format!("{}: {}", styled(HEAD, builtin), builtin.description()))?;
     let table = Table::new(&[
         ("heuristic", 15),
@@ -104,7 +95,18 @@ fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene, total: &mut Sum) -> Re
         let options = BuildOptions::DEFAULT.with_heuristic(heuristic);
         let (tree, seconds) =
             measure::timed_build(scene, &options).map_err(|error| job::about(scene, &error))?;
-        let found = judge(&tree, scene, &views, heuristic)?;
+        let progress = Progress::steps(format!("{heuristic}: view"), views.len() as u64);
+        let mut found = Comparison::default();
+        for view in &views {
+            let seen = verify(&tree, view).map_err(|error| camera::about(scene, &error))?;
+            add(&mut found, &seen.comparison);
+            for fault in unseen_faults(&seen) {
+                progress.suspend(|| note(&format!("{heuristic}: {fault}")));
+            }
+            all_right &= seen.is_right();
+            progress.step();
+        }
+        drop(progress);
         let (stats, order) = (tree.stats(), measure::order_nanoseconds(&tree, scene) * 1e-9);
         say(table.row(&[
             heuristic.to_string(),
@@ -113,32 +115,15 @@ fn show(args: &DemoArgs, builtin: Builtin, scene: &Scene, total: &mut Sum) -> Re
             stats.depth_max.to_string(),
             time(seconds),
             time(order),
-            found.pixels.wrong().to_string(),
+            found.wrong().to_string(),
         ]))?;
-        add(&mut total.pixels, &found.pixels);
-        total.faulty_orders += found.faulty_orders;
+        add(total, &found);
         if heuristic == Heuristic::Auto {
             write_pictures(&args.output, builtin, scene, &tree, &views[0])?;
         }
     }
-    say("")
-}
-
-fn judge(
-    tree: &BspTree,
-    scene: &Scene,
-    views: &[Camera],
-    heuristic: Heuristic,
-) -> Result<Sum, Failure> {
-    let progress = Progress::steps(format!("{heuristic}: view"), views.len() as u64);
-    let mut sum = Sum::default();
-    for view in views {
-        let seen = verify(tree, view).map_err(|error| camera::about(scene, &error))?;
-        add(&mut sum.pixels, &seen.comparison);
-        sum.faulty_orders += usize::from(!seen.is_right() && seen.comparison.wrong() == 0);
-        progress.step();
-    }
-    Ok(sum)
+    say("")?;
+    Ok(all_right)
 }
 
 fn write_pictures(
@@ -169,18 +154,15 @@ fn write_pictures(
 mod tests {
     use anstream::adapter::strip_str;
 
-    use super::{Sum, verdict};
+    use super::*;
 
     #[test]
-    fn whatever_is_wrong_is_told() {
-        let mut sum = Sum::default();
-        (sum.pixels.covered, sum.pixels.contested) = (9, 1);
-        let verdict = |sum: &Sum| strip_str(&verdict(sum)).to_string();
-        assert_eq!(verdict(&sum), "  no pixel is wrong, 1 contested");
-        sum.pixels.holes = 2;
-        assert_eq!(verdict(&sum), "  2 pixels are wrong, 1 contested");
-        sum = Sum { faulty_orders: 1, ..Sum::default() };
-        let expected = "  no pixel is wrong, 0 contested; the orders of 1 view are faulty";
-        assert_eq!(verdict(&sum), expected);
+    fn wrong_pixels_are_counted() {
+        let mut total = Comparison::default();
+        (total.covered, total.contested) = (9, 1);
+        let verdict = |total: &Comparison, right| strip_str(&verdict(total, right)).to_string();
+        assert_eq!(verdict(&total, true), "  no pixel is wrong, 1 contested");
+        total.holes = 2;
+        assert_eq!(verdict(&total, false), "  2 pixels are wrong, 1 contested");
     }
 }

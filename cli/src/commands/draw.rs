@@ -18,8 +18,8 @@ use crate::colours::{BACKGROUND, Colours};
 use crate::cull::Cull;
 use crate::drawn::{Seams, Style, add_drawing, add_regions, add_strokes};
 use crate::failure::Failure;
-use crate::files::{Output, STANDARD};
-use crate::format::{about_output, format};
+use crate::files::{Output, STANDARD, about_output};
+use crate::format::format;
 use crate::job::{self, Made};
 use crate::progress::Progress;
 use crate::strokes::{EdgeChoice, Hidden, Strokes, strokes};
@@ -47,16 +47,14 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     if args.scale.is_none() {
         check_page(format, args.view.size).map_err(|problem| about_output(&problem))?;
     }
-    let output = Output::open(Some(&args.output))?;
-    if matches!(format, DrawFormat::Pdf | DrawFormat::Png) && output.is_terminal() {
-        return Err(about_output("a PDF or PNG is not for a terminal: pipe it, or name a file"));
-    }
+    let output = match format {
+        DrawFormat::Pdf | DrawFormat::Png => Output::open_binary(&args.output, "a PDF or PNG")?,
+        _ => Output::open(&args.output)?,
+    };
     let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);
-    let camera = match args.scale {
-        Some(scale) => camera::to_scale(&args.view, &scene, scale * pixels_in_inch(format) / INCH)?,
-        None => camera::asked(&args.view, &scene)?,
-    };
+    let scale = args.scale.map(|scale| scale * pixels_in_inch(format) / INCH);
+    let camera = camera::asked(&args.view, &scene, scale)?;
     let size = camera.size();
     check_page(format, size).map_err(|problem| about_output(&problem))?;
     if args.look.cull.cull == Cull::None {
@@ -139,8 +137,8 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// The pixels of a picture in an inch of paper: points in PDF and TeX, millimetres in DXF, and the pixels of CSS
-/// elsewhere.
+/// The pixels of a picture in an inch of paper: points in PDF and TeX, millimetres in DXF, and otherwise the pixels
+/// of CSS.
 fn pixels_in_inch(format: DrawFormat) -> f64 {
     match format {
         DrawFormat::Pdf | DrawFormat::Tex => 72.0,
@@ -291,18 +289,25 @@ impl Figures {
 fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'static str> {
     let is_png = format == DrawFormat::Png;
     if args.json && args.output == Path::new(STANDARD) {
-        Err("the drawing and the figures of --json cannot both go there: name a file")
+        Err("the drawing and the object of --json cannot both go there: name a file")
     } else if lines && args.lines.edges == Some(EdgeChoice::None) {
-        Err("with `--edges none`, --lines and a DXF have nothing to draw: choose other edges")
+        Err("--lines and DXF need edges to draw: choose other --edges than none")
     } else if args.fill.seams == Seams::PlusLighter
         && !lines
         && matches!(format, DrawFormat::Pdf | DrawFormat::Tex)
     {
-        Err("only an SVG can add colours up: give `--seams trap` or none, or write .svg")
+        Err("`--seams plus-lighter` works only in an SVG: use `--seams trap`, or write .svg")
+    } else if args.fill.seams == Seams::PlusLighter
+        && !lines
+        && format == DrawFormat::Svg
+        && args.fill.translucent
+    {
+        Err("`--seams plus-lighter` draws translucent polygons, but no hidden ones: omit \
+             --translucent, or use `--seams trap`")
     } else if format != DrawFormat::Svg && args.ids {
-        Err("only SVG has a place for names: write .svg, or leave out --ids")
+        Err("--ids works only in an SVG: omit --ids, or write .svg")
     } else if is_png && args.fill.background.0.is_none() {
-        Err("a PNG has a background: give a colour, or write .svg or .pdf")
+        Err("a PNG needs a background: choose a colour, or write .svg or .pdf")
     } else {
         Ok(())
     }
@@ -312,8 +317,8 @@ fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'stati
 fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), String> {
     if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && width.max(height) > LONGEST {
         return Err(format!(
-            "a page of a PDF or of TeX has at most {LONGEST} points each way, and this one would have \
-             {width} x {height}: give a smaller --size or --scale"
+            "pages of PDF and TeX are at most {LONGEST} points wide and high, not {width} x {height}: \
+             use a smaller --size or --scale"
         ));
     }
     Ok(())
@@ -323,10 +328,10 @@ fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), Strin
 fn check_opacities(scene: &Scene, colours: &Colours<'_>) -> Result<(), Failure> {
     let is_wrong = |&polygon: &usize| !(0.0..=1.0).contains(&colours.opacity(polygon));
     let Some(polygon) = (0..scene.len()).find(is_wrong) else { return Ok(()) };
-    let line = scene.line(polygon).map_or(String::new(), |line| format!(" (line {line})"));
+    let line = scene.line(polygon).map_or(String::new(), |line| format!(", line {line}"));
     let problem = format!(
-        "face {polygon}{line}, counted from 0, has opacity {}: expected a number from 0 to 1; \
-         `--opaque` draws all faces as if they were opaque",
+        "face {polygon} (from 0{line}) has opacity {}, which is not from 0 to 1; `--opaque` ignores \
+         opacities",
         colours.opacity(polygon),
     );
     Err(Failure::about(scene.name(), problem))

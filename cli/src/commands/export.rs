@@ -1,7 +1,6 @@
 //! `binspace export`: the fragments as a file of triangles for other programs.
 
 use std::ffi::OsStr;
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +24,7 @@ use crate::samples::linear;
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
-    let output = Output::open(Some(&args.output))?;
+    let output = Output::open(&args.output)?;
     // Colours of OBJ files are in a file beside it.
     let library = match format {
         ExportFormat::Obj => library(&args.output)?,
@@ -72,7 +71,7 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
     let target = behind_links(output).map_err(|error| Failure::about(output.display(), error))?;
     let library = target.with_extension("mtl");
     if library == target {
-        let problem = "the materials go into this file: name the triangles' file .obj";
+        let problem = "this name is for the materials: name the output .obj";
         return Err(Failure::about(output.display(), problem));
     }
     if library.metadata().is_ok_and(|data| data.is_file()) {
@@ -81,8 +80,8 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
         // A text that is not UTF-8 is not ours either.
         let _ = file.and_then(|mut file| file.read_to_string(&mut begin));
         if begin != MATERIALS {
-            let problem =
-                "it exists, and `binspace export` did not write it: give the .obj another name";
+            let problem = "`binspace export` did not write this file and does not replace it: give the \
+                           .obj another name";
             return Err(Failure::about(library.display(), problem));
         }
     }
@@ -159,8 +158,8 @@ impl Export<'_> {
         let points = self.mesh.positions();
         write!(
             out,
-            "ply\nformat binary_little_endian 1.0\ncomment polygon: the number of the polygon that a \
-             triangle is of, from 0\nelement vertex {}\nproperty double x\nproperty double y\n\
+            "ply\nformat binary_little_endian 1.0\ncomment polygon: the number of the \
+             triangle's polygon, from 0\nelement vertex {}\nproperty double x\nproperty double y\n\
              property double z\nelement face {}\nproperty list uchar uint vertex_indices\n\
              property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n\
              property uint polygon\nend_header\n",
@@ -259,16 +258,14 @@ impl Export<'_> {
 
 /// The file around JSON and a buffer.
 fn write_glb(out: &mut dyn Write, json: &str, buffer: &[u8]) -> io::Result<()> {
-    let mut text = json.to_owned();
-    while !text.len().is_multiple_of(4) {
-        let _ = text.write_char(' ');
-    }
-    let too_long = |_| io::Error::other("a .glb file ends at 4 GiB: write .ply");
+    let mut text = json.as_bytes().to_vec();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let too_long = |_| io::Error::other("a .glb file has at most 4 GiB: write .ply");
     let length = u32::try_from(28 + text.len() + buffer.len()).map_err(too_long)?;
     out.write_all(b"glTF")?;
     out.write_all(&2u32.to_le_bytes())?;
     out.write_all(&length.to_le_bytes())?;
-    for (kind, chunk) in [(b"JSON", text.as_bytes()), (b"BIN\0", buffer)] {
+    for (kind, chunk) in [(b"JSON", &text[..]), (b"BIN\0", buffer)] {
         out.write_all(&(chunk.len() as u32).to_le_bytes())?;
         out.write_all(kind)?;
         out.write_all(chunk)?;

@@ -3,6 +3,7 @@
 use crate::Outcome;
 use crate::args::PageArgs;
 use crate::backs::note_backs;
+use crate::camera;
 use crate::cull::Cull;
 use crate::failure::Failure;
 use crate::files::Output;
@@ -12,7 +13,6 @@ use crate::progress::Progress;
 use crate::terminal::remark;
 use crate::units::{count, three_digits, time};
 use crate::upright::{note_up, up_of};
-use crate::{camera, format};
 
 /// The shape of the picture for which the first view is chosen.
 const SIZE: [u32; 2] = [1280, 720];
@@ -22,11 +22,7 @@ const MANY: usize = 200_000;
 
 /// Runs the command.
 pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
-    let output = Output::open(Some(&args.output))?;
-    if output.is_terminal() {
-        let problem = "a page is not for a terminal: pipe it, or name a file";
-        return Err(format::about_output(&args.output, problem));
-    }
+    let output = Output::open_binary(&args.output, "a page")?;
     let made = job::make(&args.scene, &args.build)?;
     let Made { scene, tree, .. } = &made;
     note_up(scene, &args.up);
@@ -38,7 +34,7 @@ pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
     }
     if tree.len() > MANY {
         let fragments = count(tree.len(), "fragment");
-        let slow = format!("{fragments}, so the page turns slowly without a graphics card");
+        let slow = format!("{fragments}: without a graphics card, the page turns slowly");
         remark(scene.name(), &slow, &slow);
     }
     let up = args.up.given().unwrap_or_else(|| up_of(scene));

@@ -10,8 +10,7 @@ use crate::backs::note_backs;
 use crate::colours::Colours;
 use crate::cull::Cull;
 use crate::failure::Failure;
-use crate::files::Output;
-use crate::format::about_output;
+use crate::files::{Output, about_output};
 use crate::job::{self, Made};
 use crate::pictures::{Drawing, Kind};
 use crate::terminal::note;
@@ -23,18 +22,14 @@ use crate::{camera, cells, png_file};
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let kind = Kind::asked(&args.kind);
     check(args, kind).map_err(|problem| about_output(&args.output, &problem))?;
-    let output = Output::open(Some(&args.output))?;
-    if output.is_terminal() {
-        let problem = "a PNG is not for a terminal: pipe it, or name a file";
-        return Err(about_output(&args.output, problem));
-    }
+    let output = Output::open_binary(&args.output, "a PNG")?;
     if let Some(path) = cells::folder::asked(&args.scene, &args.build)? {
         cells::draw::render(args, path, output)?;
         return Ok(Outcome::Done);
     }
     let Made { scene, tree, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);
-    let camera = camera::asked(&args.view, &scene)?;
+    let camera = camera::asked(&args.view, &scene, None)?;
     let colours = Colours::new(&scene, args.look.colours);
     let (cull, samples) = (args.look.cull.cull, args.samples);
     if cull == Cull::None {
@@ -52,8 +47,8 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let extension = args.output.extension().map(|extension| extension.to_ascii_lowercase());
     let extension = extension.as_ref().map(|extension| extension.to_string_lossy());
     match extension.as_deref() {
-        Some("svg" | "pdf") => {
-            return Err("`binspace render` makes pixels, a .png: use `binspace draw`".to_owned());
+        Some("svg" | "pdf" | "tex" | "dxf") => {
+            return Err("`binspace render` writes only .png: use `binspace draw`".to_owned());
         }
         Some("png") | None => {}
         Some(_) => return Err("name a file that ends in .png".to_owned()),
@@ -61,7 +56,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let is_plain = matches!(kind, Kind::Painter | Kind::ZBuffer);
     if !is_plain && args.samples > 1 {
         let name = kind.name();
-        return Err(format!("--{name} takes one sample a pixel: leave out --samples"));
+        return Err(format!("--{name} uses one sample per pixel: omit --samples"));
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ pub(crate) fn run() -> Result<Outcome, Failure> {
             say(format!("{:10}{scene}:SIZE: {meaning} [default: {size}]", ""))?;
         }
     }
-    say("\nSizes go up to about 20 million polygons, if there is memory for them.")?;
-    say("The option --seed changes the scenes that are marked as seeded.")?;
+    say("\nThe largest sizes are about 20 million polygons.")?;
+    say("--seed changes the scenes that are marked as seeded.")?;
     Ok(Outcome::Done)
 }

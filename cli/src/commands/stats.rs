@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use binspace::scene::Scene;
 use binspace::{BspTree, ErrorKind, Heuristic};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::Outcome;
 use crate::args::StatsArgs;
@@ -22,67 +22,55 @@ use crate::{cells, job, scene_arg};
 /// The width of the table's column of heuristics, in characters.
 const NAME: usize = 13;
 
-/// The figures of one tree, as they are printed as JSON.
-#[derive(Serialize)]
-struct Figures {
+/// The figures of one tree.
+struct Figures<'a> {
+    tree: &'a BspTree,
     /// `None` for a tree from a file.
-    heuristic: Option<String>,
+    heuristic: Option<Heuristic>,
     /// The number of its cell.
-    #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<usize>,
-    polygons: usize,
-    faces: usize,
-    fragments: usize,
-    nodes: usize,
-    depth_max: usize,
-    depth_mean: f64,
-    splits: usize,
     /// The time to build the tree, or to read it.
     build_seconds: f64,
     order_ns_per_fragment: f64,
-    bytes: usize,
-    dropped: usize,
-    triangulated: usize,
-    duplicates: usize,
-    crossing: usize,
-    tolerance: f64,
-    flattened: usize,
-    flattened_by: f64,
-    bent: usize,
-    bent_by: f64,
-    nearly_coplanar: usize,
-    nearly_coplanar_by: f64,
 }
 
-impl Figures {
+impl<'a> Figures<'a> {
     /// The figures of a tree from a file.
-    fn of(tree: &BspTree, scene: &Scene, build_seconds: f64) -> Self {
-        let (prepared, stats) = (tree.preparation(), tree.stats());
-        Self {
-            heuristic: None,
-            cell: None,
-            polygons: prepared.polygons,
-            faces: stats.faces,
-            fragments: stats.fragments,
-            nodes: stats.nodes,
-            depth_max: stats.depth_max,
-            depth_mean: stats.depth_mean,
-            splits: stats.splits,
-            build_seconds,
-            order_ns_per_fragment: order_nanoseconds(tree, scene),
-            bytes: stats.bytes,
-            dropped: prepared.dropped,
-            triangulated: prepared.triangulated,
-            duplicates: tree.duplicates(),
-            crossing: prepared.crossing,
-            tolerance: stats.tolerance,
-            flattened: prepared.flattened,
-            flattened_by: prepared.flattened_by,
-            bent: prepared.bent,
-            bent_by: prepared.bent_by,
-            nearly_coplanar: stats.nearly_coplanar,
-            nearly_coplanar_by: stats.nearly_coplanar_by,
+    fn of(tree: &'a BspTree, scene: &Scene, build_seconds: f64) -> Self {
+        let order_ns_per_fragment = order_nanoseconds(tree, scene);
+        Self { tree, heuristic: None, cell: None, build_seconds, order_ns_per_fragment }
+    }
+
+    fn json(&self) -> Value {
+        let (prepared, stats) = (self.tree.preparation(), self.tree.stats());
+        let mut figures = json!({
+            "heuristic": self.heuristic.map(|heuristic| heuristic.to_string()),
+            "polygons": prepared.polygons,
+            "faces": stats.faces,
+            "fragments": stats.fragments,
+            "nodes": stats.nodes,
+            "depth_max": stats.depth_max,
+            "depth_mean": stats.depth_mean,
+            "splits": stats.splits,
+            "build_seconds": self.build_seconds,
+            "order_ns_per_fragment": self.order_ns_per_fragment,
+            "bytes": stats.bytes,
+            "dropped": prepared.dropped,
+            "triangulated": prepared.triangulated,
+            "duplicates": self.tree.duplicates(),
+            "crossing": prepared.crossing,
+            "tolerance": stats.tolerance,
+            "flattened": prepared.flattened,
+            "flattened_by": prepared.flattened_by,
+            "bent": prepared.bent,
+            "bent_by": prepared.bent_by,
+            "nearly_coplanar": stats.nearly_coplanar,
+            "nearly_coplanar_by": stats.nearly_coplanar_by,
+        });
+        if let Some(cell) = self.cell {
+            figures["cell"] = cell.into();
         }
+        figures
     }
 }
 
@@ -120,7 +108,7 @@ pub(crate) fn run(args: &StatsArgs) -> Result<Outcome, Failure> {
             }
         }
         let mut figures = Figures::of(&tree, &scene, seconds);
-        figures.heuristic = Some(heuristic.to_string());
+        figures.heuristic = Some(heuristic);
         show(args, &title(&scene, &tree), &figures, is_first)?;
         is_first = false;
     }
@@ -163,11 +151,11 @@ fn title(scene: &Scene, tree: &BspTree) -> String {
 fn show(
     args: &StatsArgs,
     title: &str,
-    figures: &Figures,
+    figures: &Figures<'_>,
     is_first: bool,
 ) -> Result<Outcome, Failure> {
     if args.json {
-        say(serde_json::to_string(figures).map_err(|error| Failure::of_output(&error.into()))?)?;
+        say(figures.json())?;
         return Ok(Outcome::Done);
     }
     let table = table();
@@ -194,22 +182,23 @@ fn table() -> Table {
     ])
 }
 
-fn row(table: &Table, figures: &Figures) -> String {
-    let per_face = figures.fragments as f64 / figures.faces.max(1) as f64;
+fn row(table: &Table, figures: &Figures<'_>) -> String {
+    let stats = figures.tree.stats();
+    let per_face = stats.fragments as f64 / stats.faces.max(1) as f64;
     table.row(&[
-        match (figures.cell, &figures.heuristic) {
+        match (figures.cell, figures.heuristic) {
             (Some(cell), _) => format!("cell {cell}"),
-            (None, Some(heuristic)) => name(heuristic),
+            (None, Some(heuristic)) => name(&heuristic.to_string()),
             (None, None) => "from a file".to_owned(),
         },
-        figures.fragments.to_string(),
+        stats.fragments.to_string(),
         format!("{per_face:.2}"),
-        figures.nodes.to_string(),
-        figures.depth_max.to_string(),
-        three_digits(figures.depth_mean),
+        stats.nodes.to_string(),
+        stats.depth_max.to_string(),
+        three_digits(stats.depth_mean),
         time(figures.build_seconds),
         time(figures.order_ns_per_fragment * 1e-9),
-        bytes(figures.bytes),
+        bytes(stats.bytes),
     ])
 }
 

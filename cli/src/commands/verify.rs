@@ -3,7 +3,7 @@
 use binspace::raster::Comparison;
 use binspace::verify::{Verification, verify, verify_fronts};
 use binspace::view::{Camera, Projection};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::Outcome;
 use crate::args::VerifyArgs;
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     }
     let show = |view: Option<usize>, place, found: &Comparison, is_right| {
         if args.json {
-            return say(json(view, place, found, is_right)?);
+            return say(json(view, place, found, is_right));
         }
         let name = view.map_or("total".to_owned(), |view| view.to_string());
         say(row(&table, [&name, place], found, is_right))
@@ -56,9 +56,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         }
         if seen.comparison.wrong() > 0 {
             let view = reproduce(args, camera);
-            let advice = "add these options and yours to `binspace render --difference`";
-            let note_view = || note(&format!("to see view {number}, {advice}:\n  {view}"));
-            progress.suspend(note_view);
+            let advice = "run `binspace render --difference` with your options and these";
+            progress.suspend(|| note(&format!("to see view {number}, {advice}:\n  {view}")));
         }
         add(&mut total, &seen.comparison);
         all_right &= is_right;
@@ -69,13 +68,8 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
 }
 
 /// The figures of a view, or of all of them, as a JSON object.
-fn json(
-    view: Option<usize>,
-    from: &str,
-    found: &Comparison,
-    is_right: bool,
-) -> Result<String, Failure> {
-    let object = json!({
+fn json(view: Option<usize>, from: &str, found: &Comparison, is_right: bool) -> Value {
+    json!({
         "view": view,
         "from": view.map(|_| from),
         "covered": found.covered,
@@ -84,8 +78,7 @@ fn json(
         "holes": found.holes,
         "spills": found.spills,
         "is_right": is_right,
-    });
-    serde_json::to_string(&object).map_err(|error| Failure::of_output(&error.into()))
+    })
 }
 
 /// The faults of a view, without faults of the picture painted back to front, as phrases.
@@ -93,7 +86,7 @@ pub(crate) fn unseen_faults(seen: &Verification) -> Vec<String> {
     let mut faults = Vec::new();
     let wrong = seen.front_to_back.wrong();
     if wrong > 0 && seen.front_to_back != seen.comparison {
-        faults.push(format!("{}, painted front to back", count(wrong, "wrong pixel")));
+        faults.push(format!("{} if painted front to back", count(wrong, "wrong pixel")));
     }
     if seen.miscounted > 0 {
         let pixels = count(seen.miscounted, "pixel");
@@ -183,7 +176,7 @@ mod tests {
         seen.front_to_back.holes = 2;
         seen.miscounted = 1;
         let told = [
-            "2 wrong pixels, painted front to back",
+            "2 wrong pixels if painted front to back",
             "a polygon is painted more than once or not at all in 1 pixel",
         ];
         assert_eq!(unseen_faults(&seen), told);
@@ -203,7 +196,7 @@ mod tests {
             else {
                 panic!("another command")
             };
-            let camera = camera::asked(&again.view, &scene).unwrap();
+            let camera = camera::asked(&again.view, &scene, None).unwrap();
             assert_eq!((camera.viewpoint(), camera.size()), (view.viewpoint(), view.size()));
             assert!((camera.forward() - view.forward()).length() < 1e-12);
             assert!((camera.up() - view.up()).length() < 1e-12);

@@ -11,7 +11,7 @@ use binspace::glam::{DMat4, DQuat, DVec3, Vec4};
 use binspace::internals::open_regular;
 use binspace::scene::Scene;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::Source;
+use gltf::buffer::{Source, View};
 use gltf::json::validation::{Checked, Error as Invalid, Validate};
 use gltf::material::AlphaMode;
 use gltf::mesh::Mode;
@@ -26,7 +26,7 @@ use crate::units::count;
 /// The bytes before the chunks of a binary file.
 const HEADER: usize = 12;
 /// The problem with files of the first version.
-const FIRST: &str = "it is glTF 1.0; glTF 2.0 is read";
+const FIRST: &str = "this is glTF 1.0; binspace reads glTF 2.0";
 /// How the names of extensions begin that a file may require: they change looks alone, except for
 /// quantized positions, which are read.
 const KNOWN: [&str; 10] = [
@@ -107,7 +107,7 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
     // The crate subtracts the length of the header from this.
     let length = bytes.get(8..HEADER).map(|n| u32::from_le_bytes([n[0], n[1], n[2], n[3]]));
     if is_binary && length.is_none_or(|length| (length as usize) < HEADER) {
-        return Err("its header is cut short".into());
+        return Err("truncated header".into());
     }
     if is_binary && is_first_version(bytes) {
         return Err(FIRST.into());
@@ -118,21 +118,23 @@ fn parsed(bytes: &[u8]) -> Result<Gltf, String> {
     let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let gltf = Gltf::from_slice_without_validation(json).map_err(|error| match error {
         _ if is_first_version(bytes) => FIRST.into(),
-        gltf::Error::Deserialize(error) => format!("in its JSON: {error}"),
+        gltf::Error::Deserialize(error) => format!("invalid JSON: {error}"),
         error => error.to_string(),
     })?;
     let root = gltf.as_json();
     let is_known = |name: &String| KNOWN.iter().any(|known| name.starts_with(known));
     if let Some(name) = root.extensions_required.iter().find(|name| !is_known(name)) {
         let name: String = name.escape_debug().take(60).collect();
-        return Err(format!("it needs the extension {name}, which is not supported"));
+        return Err(format!("it requires the extension {name}, which binspace does not support"));
     }
     // The crate takes for granted that these lead somewhere.
     let positions = Checked::Valid(Semantic::Positions);
     for (number, mesh) in root.meshes.iter().enumerate() {
         let mut accessors = mesh.primitives.iter().filter_map(|p| p.attributes.get(&positions));
         if accessors.any(|accessor| accessor.value() >= root.accessors.len()) {
-            return Err(format!("mesh {number} (from 0): it has positions in no accessor"));
+            return Err(format!(
+                "mesh {number} (from 0): the accessor of its positions is missing"
+            ));
         }
     }
     let mut invalid = None;
@@ -172,13 +174,13 @@ fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Rc<Vec<
             // Only the first buffer is in a binary file.
             Source::Bin => match &gltf.blob {
                 Some(blob) if buffer.index() == 0 => Rc::new(blob.clone()),
-                _ => return Err(about("it has no bytes".into())),
+                _ => return Err(about("its bytes are missing".into())),
             },
             Source::Uri(uri) => match (uri.strip_prefix("data:"), files.get(uri)) {
                 (Some(data), _) => {
                     let text = data.split_once(";base64,").map(|(_, text)| text);
                     let bytes = text.and_then(|text| STANDARD.decode(text).ok());
-                    Rc::new(bytes.ok_or_else(|| about("its data are not in base64".into()))?)
+                    Rc::new(bytes.ok_or_else(|| about("its data are not valid base64".into()))?)
                 }
                 (_, Some(bytes)) => Rc::clone(bytes),
                 _ => {
@@ -202,7 +204,7 @@ fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     let path = urlencoding::decode(uri).map_err(|error| error.to_string())?;
     let path = Path::new(&*path);
     if !path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-        return Err("it is outside of the file's folder, and is not read".into());
+        return Err("not read, because it is outside the file's folder".into());
     }
     let folder = folder.ok_or("standard input has no folder: name the file")?;
     let read = || {
@@ -234,7 +236,7 @@ fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String
     stack.extend(roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY)));
     while let Some((node, parent)) = stack.pop() {
         if std::mem::replace(&mut is_placed[node.index()], true) {
-            return Err(format!("node {} (from 0): it is in two places", node.index()));
+            return Err(format!("node {} (from 0): it occurs twice in the scene", node.index()));
         }
         let matrix = parent * local(&node.transform());
         if !matrix.is_finite() {
@@ -318,7 +320,9 @@ impl<'a> Part<'a> {
         }
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions")?;
         if positions.data_type() == DataType::U32 || positions.dimensions() != Dimensions::Vec3 {
-            return Err("its positions are not three floats, or integers of 8 or 16 bits".into());
+            return Err(
+                "its positions are not triples of floats or of integers of 8 or 16 bits".into()
+            );
         }
         let values = |accessor: Accessor<'_>, is_share| Values::of(&accessor, is_share, buffers);
         let are_shares = positions.normalized();
@@ -374,7 +378,10 @@ impl<'a> Part<'a> {
                     None => corner,
                 };
                 let position = self.positions.get(vertex).ok_or_else(|| {
-                    about(format!("{vertex} is not one of {} vertices", self.positions.count))
+                    about(format!(
+                        "index {vertex} is out of range: {} vertices",
+                        self.positions.count
+                    ))
                 })?;
                 *point = matrix.transform_point3(DVec3::from_slice(&position[..3]));
                 if !point.to_array().iter().all(|&c| seen.single(c as f32).is_some()) {
@@ -426,6 +433,8 @@ struct Values<'a> {
     data_type: DataType,
     /// The integer that stands for 1.
     full: f64,
+    /// The values that a sparse accessor replaces, by number.
+    replaced: HashMap<usize, &'a [u8]>,
 }
 
 impl<'a> Values<'a> {
@@ -436,16 +445,27 @@ impl<'a> Values<'a> {
         buffers: &'a [Rc<Vec<u8>>],
     ) -> Result<Self, String> {
         let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
-        if accessor.sparse().is_some() {
-            return Err(about("it is sparse, which is not supported".into()));
-        }
         let view = accessor.view().ok_or_else(|| about("it has no buffer view".into()))?;
         let (count, size) = (accessor.count(), accessor.size());
         let stride = view.stride().unwrap_or(size).max(size);
-        let start = view.offset().checked_add(accessor.offset());
-        let end = view.offset().checked_add(view.length());
-        let buffer = &buffers[view.buffer().index()];
-        let bytes = start.zip(end).and_then(|(start, end)| buffer.get(start..end));
+        let within = |view: View<'_>, offset: usize| {
+            let bytes = buffers[view.buffer().index()].get(view.offset()..)?;
+            bytes.get(..view.length())?.get(offset..)
+        };
+        let mut replaced = HashMap::new();
+        if let Some(sparse) = accessor.sparse() {
+            let (indices, values) = (sparse.indices(), sparse.values());
+            let bytes = within(indices.view(), indices.offset()).unwrap_or_default();
+            let indices = bytes.chunks_exact(indices.index_type().size()).take(sparse.count());
+            let bytes = within(values.view(), values.offset()).unwrap_or_default();
+            let values = bytes.chunks_exact(size).take(sparse.count());
+            if indices.len().min(values.len()) < sparse.count() {
+                return Err(about("its sparse values do not fit into their buffer".into()));
+            }
+            let index = |bytes: &[u8]| bytes.iter().rev().fold(0, |n, &b| n << 8 | usize::from(b));
+            replaced.extend(indices.map(index).zip(values));
+        }
+        let bytes = within(view, accessor.offset());
         let needed =
             count.checked_sub(1).map(|last| last.saturating_mul(stride).saturating_add(size));
         match bytes {
@@ -460,7 +480,7 @@ impl<'a> Values<'a> {
                     DataType::U16 => 65_535.0,
                     DataType::U32 | DataType::F32 => 1.0,
                 };
-                Ok(Self { bytes, stride, count, dimensions, data_type, full })
+                Ok(Self { bytes, stride, count, dimensions, data_type, full, replaced })
             }
             _ => Err(about(format!("its {count} values do not fit into its buffer"))),
         }
@@ -471,7 +491,8 @@ impl<'a> Values<'a> {
         if index >= self.count {
             return None;
         }
-        let value = &self.bytes[index * self.stride..];
+        let value =
+            self.replaced.get(&index).copied().unwrap_or(&self.bytes[index * self.stride..]);
         let mut numbers = [1.0; 4];
         let size = self.data_type.size();
         for (number, bytes) in
@@ -515,12 +536,12 @@ impl LeftOut {
     fn said(&self) -> Vec<String> {
         let parts = [
             (self.without_faces, "primitive", " of points or lines skipped"),
-            (self.textures, "primitive", " with a texture, drawn in its base colour"),
-            (self.rest_poses, "instance", " that skins or morph targets move, drawn at rest"),
+            (self.textures, "primitive", " drawn without textures"),
+            (self.rest_poses, "instance", " with skins or morph targets drawn at rest"),
         ];
         let found = parts.into_iter().filter(|part| part.0 > 0);
         let found = found.map(|(number, what, how)| format!("{}{how}", count(number, what)));
-        let copies = self.has_copies.then(|| format!("copies by {INSTANCING} skipped"));
+        let copies = self.has_copies.then(|| format!("copies of meshes by {INSTANCING} skipped"));
         found.chain(copies).collect()
     }
 }

@@ -24,7 +24,7 @@ use crate::terminal::remark;
 pub(crate) const BEGINNING: usize = 1 << 16;
 /// The supported formats.
 const READ: &str =
-    "binspace reads OBJ, STL, PLY, OFF and glTF 2.0 files, and those of `binspace build`";
+    "binspace reads OBJ, STL, PLY, OFF and glTF 2.0 files, and files of `binspace build`";
 
 /// The kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,7 +101,7 @@ impl MeshKind {
         };
         let scene = read.map_err(|problem| Failure::about(name, problem))?;
         if scene.is_empty() {
-            return Err(Failure::about(name, "no faces: it is empty"));
+            return Err(Failure::about(name, "no faces"));
         }
         Ok(scene)
     }
@@ -118,8 +118,8 @@ pub(crate) fn not_obj(name: &str, beginning: &[u8], problem: String) -> Failure 
     if beginning.is_empty() || other::is_like_obj(&text) {
         return Failure::Message(problem);
     }
-    let what = if text.is_empty() || text.contains(&0) { "binary file" } else { "text" };
-    Failure::about(name, format!("this {what} is of no known kind; {READ}"))
+    let what = if text.is_empty() || text.contains(&0) { "binary file" } else { "text file" };
+    Failure::about(name, format!("unknown kind of {what}; {READ}"))
 }
 
 /// The letters of a UTF-16 text, with ASCII letters as in UTF-8; other bytes are not changed.

@@ -1,4 +1,4 @@
-//! OFF files (Geomview): vertices and polygons as text, with colours in some. Up is z.
+//! OFF files (Geomview): vertices and polygons as text or binary, with colours in some. Up is z.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
@@ -6,17 +6,18 @@ use binspace::scene::Scene;
 use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
-/// The content of each vertex line, as the first word of a file gives it: `OFF` behind these letters.
+/// The content of each vertex, as the first word of a file gives it: `OFF` behind these letters.
 struct Kind {
     has_colours: bool,
     has_normals: bool,
+    has_textures: bool,
 }
 
 impl Kind {
     /// `None` if it is another word. Vertices of four or more coordinates do not occur in scenes.
     fn of(word: &[u8]) -> Option<Self> {
-        let rest = word.strip_suffix(b"OFF")?;
-        let rest = rest.strip_prefix(b"ST").unwrap_or(rest);
+        let word = word.strip_suffix(b"OFF")?;
+        let rest = word.strip_prefix(b"ST").unwrap_or(word);
         let (has_colours, has_normals) = match rest {
             b"" => (false, false),
             b"C" => (true, false),
@@ -24,7 +25,7 @@ impl Kind {
             b"CN" => (true, true),
             _ => return None,
         };
-        Some(Self { has_colours, has_normals })
+        Some(Self { has_colours, has_normals, has_textures: rest.len() < word.len() })
     }
 }
 
@@ -39,57 +40,127 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let mut lines = Lines::new(bytes);
     let first = lines.next().ok_or("it is empty")?;
     let mut words = first.words();
-    let kind = Kind::of(words.next().unwrap_or_default().as_bytes()).ok_or("it is no OFF file")?;
+    let kind = Kind::of(words.next().unwrap_or_default().as_bytes()).ok_or("not an OFF file")?;
     let mut counts: Vec<&str> = words.collect();
     if counts.first() == Some(&"BINARY") {
-        return Err("binary OFF files are not supported: write it as text".into());
+        return binary(name, &kind, lines.rest());
     }
     if counts.is_empty() {
-        counts = lines.next().ok_or("cut short before its counts")?.words().collect();
+        counts = lines.next().ok_or("truncated before the counts")?.words().collect();
     }
     let count = |i: usize| counts.get(i).and_then(|word| word.parse::<usize>().ok());
     let (Some(vertices), Some(faces)) = (count(0), count(1)) else {
-        return Err("expected the numbers of vertices and faces behind `OFF`".into());
+        return Err("expected the numbers of vertices and faces after `OFF`".into());
     };
     // Each line of a vertex or a face has two bytes at least. So the memory requested later is at most
     // proportional to the file's size.
     if vertices.saturating_add(faces) > bytes.len() / 2 {
         return Err(format!(
-            "truncated: {vertices} vertices and {faces} faces declared, more than fit into it"
+            "truncated: {vertices} vertices and {faces} faces declared, more than the file can hold"
         ));
     }
-    let (mut mesh, mut precision) = (Mesh::new(name, DVec3::Z), Precision::default());
-    let (mut positions, mut colours) = (Vec::new(), Vec::new());
+    let mut precision = Precision::default();
+    let mut content = Content::new(name);
     for number in 0..vertices {
-        let line = lines.next().ok_or_else(|| format!("vertex {number} (from 0): cut short"))?;
+        let line = lines.next().ok_or_else(|| format!("vertex {number} (from 0): truncated"))?;
         let mut words = line.words();
         let mut next = || precision.text(words.next()?);
         let (Some(x), Some(y), Some(z)) = (next(), next(), next()) else {
             let what = format!("vertex {number} (from 0)");
             return Err(line.about(&what, "expected three finite numbers"));
         };
-        positions.push(DVec3::new(x, y, z));
+        content.positions.push(DVec3::new(x, y, z));
         if kind.has_colours {
             let words: Vec<&str> = words.skip(if kind.has_normals { 3 } else { 0 }).collect();
             // Texture coordinates follow colours of four numbers.
-            colours.push(colour(words.get(..4).unwrap_or(&words)));
+            content.colours.push(colour(words.get(..4).unwrap_or(&words)));
         }
     }
     for number in 0..faces {
-        let line = lines.next().ok_or_else(|| format!("face {number} (from 0): cut short"))?;
+        let line = lines.next().ok_or_else(|| format!("face {number} (from 0): truncated"))?;
         let about = |problem: &str| line.about(&format!("face {number} (from 0)"), problem);
-        let (corners, own) = face(line, positions.len()).map_err(|problem| about(&problem))?;
-        let of_vertices = || mean(corners.iter().map(|&corner| *colours.get(corner)?));
-        mesh.face(corners.iter().map(|&corner| positions[corner]), own.or_else(of_vertices));
+        let (corners, own) =
+            face(line, content.positions.len()).map_err(|problem| about(&problem))?;
+        content.add_face(&corners, own);
     }
-    Ok(mesh.finish(precision.unit()))
+    Ok(content.mesh.finish(precision.unit()))
+}
+
+/// Reads a binary file from behind its first line: numbers of 32 bits, big-endian.
+fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
+    let mut next = || -> Result<[u8; 4], &'static str> {
+        let (number, behind) = rest.split_first_chunk().ok_or("truncated")?;
+        rest = behind;
+        Ok(*number)
+    };
+    let [vertices, faces, _] = [next()?, next()?, next()?].map(u32::from_be_bytes);
+    let mut precision = Precision::default();
+    let mut content = Content::new(name);
+    let first_colour = 3 + if kind.has_normals { 3 } else { 0 };
+    let behind_colours = first_colour + if kind.has_colours { 4 } else { 0 };
+    let count = behind_colours + if kind.has_textures { 2 } else { 0 };
+    for number in 0..vertices {
+        let about = |problem: &str| format!("vertex {number} (from 0): {problem}");
+        let numbers = (0..count).map(|_| next().map(f32::from_be_bytes));
+        let numbers = numbers.collect::<Result<Vec<f32>, _>>().map_err(about)?;
+        let mut coordinate = |axis: usize| precision.single(numbers[axis]);
+        let (Some(x), Some(y), Some(z)) = (coordinate(0), coordinate(1), coordinate(2)) else {
+            return Err(about("a coordinate is not a finite number"));
+        };
+        content.positions.push(DVec3::new(x, y, z));
+        if let &[r, g, b, opacity] = &numbers[first_colour..behind_colours] {
+            content.colours.push(Some([r, g, b, opacity]));
+        }
+    }
+    for number in 0..faces {
+        let about = |problem: &str| format!("face {number} (from 0): {problem}");
+        let mut corners = Vec::new();
+        for _ in 0..u32::from_be_bytes(next().map_err(about)?) {
+            let corner = u32::from_be_bytes(next().map_err(about)?) as usize;
+            if corner >= vertices as usize {
+                return Err(about(&format!("index {corner} is out of range: {vertices} vertices")));
+            }
+            corners.push(corner);
+        }
+        let count = u32::from_be_bytes(next().map_err(about)?);
+        let numbers = (0..count).map(|_| next().map(f32::from_be_bytes));
+        let numbers = numbers.collect::<Result<Vec<f32>, _>>().map_err(about)?;
+        // A single number is an index of a colour map.
+        let own = match numbers[..] {
+            [r, g, b] => Some([r, g, b, 1.0]),
+            [r, g, b, opacity] => Some([r, g, b, opacity]),
+            _ => None,
+        };
+        content.add_face(&corners, own);
+    }
+    Ok(content.mesh.finish(precision.unit()))
+}
+
+/// The content of a file: vertices, with their colours if they have any, and faces.
+struct Content {
+    mesh: Mesh,
+    positions: Vec<DVec3>,
+    colours: Vec<Option<Colour>>,
+}
+
+impl Content {
+    fn new(name: &str) -> Self {
+        Self { mesh: Mesh::new(name, DVec3::Z), positions: Vec::new(), colours: Vec::new() }
+    }
+
+    /// Adds a face with its own colour, or the mean of its vertices' colours.
+    fn add_face(&mut self, corners: &[usize], own: Option<Colour>) {
+        let of_vertices = || mean(corners.iter().map(|&corner| *self.colours.get(corner)?));
+        let colour = own.or_else(of_vertices);
+        self.mesh.face(corners.iter().map(|&corner| self.positions[corner]), colour);
+    }
 }
 
 /// The corners and the colour in a line.
 fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>), String> {
     let mut words = line.words();
     let count: Option<usize> = words.next().and_then(|word| word.parse().ok());
-    let count = count.ok_or("expected the number of its corners")?;
+    let count = count.ok_or("expected the number of corners")?;
     let mut corners = Vec::new();
     for number in 0..count {
         let word = words
@@ -97,7 +168,7 @@ fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>),
             .ok_or_else(|| format!("truncated: {count} corners declared, {number} found"))?;
         match word.parse() {
             Ok(corner) if corner < vertices => corners.push(corner),
-            _ => return Err(format!("{word:.20} is not one of {vertices} vertices")),
+            _ => return Err(format!("index {word:.20} is out of range: {vertices} vertices")),
         }
     }
     Ok((corners, colour(&words.collect::<Vec<_>>())))

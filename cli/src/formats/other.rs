@@ -24,15 +24,15 @@ const BEGINNINGS: [(&[u8], &str); 31] = [
     (b"*3DSMAX", "an ASE file, as 3ds Max writes"),
     (b"AC3D", "an AC3D file"),
     (b"DBRep_DrawableShape", "a BREP file"),
-    (b"LASF", "a LAS cloud of points"),
-    (b"# .PCD", "a PCD cloud of points"),
+    (b"LASF", "a LAS point cloud"),
+    (b"# .PCD", "a PCD point cloud"),
     (b"%PDF", "a PDF file"),
     (b"%!PS", "a PostScript file"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
     (b"\xd0\xcf\x11\xe0", "an OLE file, as SolidWorks and 3ds Max write"),
-    (b"\x7fELF", "a program"),
+    (b"\x7fELF", "an executable file"),
 ];
 
 /// The kind of XML files with such an element, in small letters. The first that is found counts.
@@ -41,7 +41,7 @@ const ELEMENTS: [(&[u8], &str); 5] = [
     (b"<x3d", "an X3D file"),
     (b"<svg", "an SVG picture"),
     (b"<amf", "an AMF file"),
-    (b"<html", "a page of HTML, perhaps in place of a download"),
+    (b"<html", "an HTML page, perhaps from a failed download"),
 ];
 
 /// The first words of lines of OBJ files.

@@ -15,7 +15,7 @@ pub(crate) fn is_ply(beginning: &[u8]) -> bool {
     beginning.strip_prefix(b"ply").is_some_and(|rest| rest.trim_ascii_start().len() < rest.len())
 }
 
-const NO_POSITION: &str = "it has no x, y and z";
+const NO_POSITION: &str = "x, y or z is missing";
 const NOT_FINITE: &str = "a coordinate is not a finite number";
 
 /// The known properties of a vertex or a face.
@@ -109,7 +109,7 @@ impl Element {
         let mut element = Self::default();
         let mut words = line.words();
         for (name, property) in &definition.properties {
-            let missing = || format!("its property `{name}` is missing");
+            let missing = || format!("the property `{name}` is missing");
             let word = words.next().ok_or_else(missing)?;
             let bad = |word: &str| format!("`{name}`: {word:.20} is not a finite number");
             let scalar = match &property.data_type {
@@ -209,10 +209,26 @@ impl Contents {
             let position = DVec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
             self.vertices.push(Vertex { position, colour });
         } else if kind == "face" {
-            self.corners.extend(element.corners.ok_or("it has no corners")?);
-            self.faces.push((self.corners.len(), colour));
+            self.add_face(element.corners.ok_or("its list of corners is missing")?, colour);
+        } else if kind == "tristrips" {
+            // A negative number ends a strip.
+            let corners = element.corners.ok_or("its list of corners is missing")?;
+            for strip in corners.split(|&corner| corner < 0.0) {
+                for (number, triangle) in strip.windows(3).enumerate() {
+                    let &[a, b, c] = triangle else { continue };
+                    // Repeated corners join two strips.
+                    if a != b && b != c && c != a {
+                        self.add_face(if number % 2 == 0 { [a, b, c] } else { [b, a, c] }, colour);
+                    }
+                }
+            }
         }
         Ok(())
+    }
+
+    fn add_face(&mut self, corners: impl IntoIterator<Item = f64>, colour: Option<Colour>) {
+        self.corners.extend(corners);
+        self.faces.push((self.corners.len(), colour));
     }
 
     fn into_mesh(self, name: &str) -> Result<Mesh, String> {
@@ -225,7 +241,9 @@ impl Contents {
                 let vertex = self.vertices.get(corner as usize).filter(|_| is_index);
                 face.push(vertex.ok_or_else(|| {
                     let count = self.vertices.len();
-                    format!("face {number} (from 0): {corner} is not one of {count} vertices")
+                    format!(
+                        "face {number} (from 0): index {corner} is out of range: {count} vertices"
+                    )
                 })?);
             }
             start = end;
@@ -241,7 +259,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     let parser = Parser::<Element>::new();
     let mut reader = Reader::new(bytes);
     let header = parser.read_header(&mut reader);
-    let header = header.map_err(|error| format!("in its header: {}", short(&error)))?;
+    let header = header.map_err(|error| format!("in the header: {}", short(&error)))?;
     let mut rest = reader.into_inner();
     let header_lines =
         bytes[..bytes.len() - rest.len()].iter().filter(|&&byte| byte == b'\n').count();
@@ -262,7 +280,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
             let about = |problem: &str| format!("{what}: {problem}");
             let element = match header.encoding {
                 Encoding::Ascii => {
-                    let line = lines.next().ok_or_else(|| about("cut short"))?;
+                    let line = lines.next().ok_or_else(|| about("truncated"))?;
                     Element::of_line(line, definition, &mut precision)
                         .map_err(|problem| line.about(&what, &problem))
                 }
@@ -278,8 +296,8 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     }
     if contents.faces.is_empty() {
         let has_points = !contents.vertices.is_empty();
-        let problem = if has_points { "it is a cloud of points" } else { "it is empty" };
-        return Err(format!("no faces: {problem}"));
+        let problem = if has_points { "no faces: this is a point cloud" } else { "no faces" };
+        return Err(problem.to_owned());
     }
     Ok(contents.into_mesh(name)?.finish(precision.unit()))
 }

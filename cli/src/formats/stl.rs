@@ -35,7 +35,7 @@ fn count(bytes: &[u8]) -> Option<u32> {
 
 /// Reads a binary file. Bytes behind the last triangle are passed over.
 pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
-    let count = count(bytes).ok_or("its header is cut short")?;
+    let count = count(bytes).ok_or("truncated header")?;
     let triangles = bytes[HEADER..].chunks_exact(TRIANGLE);
     if (count as usize) > triangles.len() {
         let has = triangles.len();
@@ -110,18 +110,18 @@ pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<Scene, String> {
                 }
             }
             ("endfacet", Some(corners)) if corners.len() < 3 => {
-                return Err(about("it has fewer than three corners"));
+                return Err(about("fewer than three corners"));
             }
             ("endfacet", Some(_)) => {
                 mesh.face(facet.take().unwrap_or_default(), None);
                 number += 1;
             }
             ("outer" | "endloop", Some(_)) | ("solid" | "endsolid", None) => {}
-            _ => return Err(about("unexpected here; expected a facet of STL")),
+            _ => return Err(about(&format!("{word:.20} is out of place in an STL file"))),
         }
     }
     match facet {
-        Some(_) => Err(format!("facet {number} (from 0): cut short")),
+        Some(_) => Err(format!("facet {number} (from 0): truncated")),
         None => Ok(mesh.finish(precision.unit())),
     }
 }

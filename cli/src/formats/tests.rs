@@ -112,6 +112,22 @@ fn off() -> Vec<u8> {
     text.into()
 }
 
+/// With a first line of text, and big-endian numbers.
+fn off_binary() -> Vec<u8> {
+    let mut bytes = b"OFF BINARY\n".to_vec();
+    let mut push = |number: [u8; 4]| bytes.extend(number);
+    [4u32, 4, 6].into_iter().for_each(|count| push(count.to_be_bytes()));
+    VERTICES.iter().flatten().for_each(|number| push(number.to_be_bytes()));
+    for (face, colour) in FACES.iter().zip(COLOURS) {
+        push(3u32.to_be_bytes());
+        face.iter().for_each(|&corner| push((corner as u32).to_be_bytes()));
+        let channels = if colour[3] == 255 { &colour[..3] } else { &colour[..] };
+        push((channels.len() as u32).to_be_bytes());
+        channels.iter().for_each(|&channel| push((f32::from(channel) / 255.0).to_be_bytes()));
+    }
+    bytes
+}
+
 /// Light of an sRGB byte, as the colours above need it.
 fn light(byte: u8) -> f64 {
     let value = f64::from(byte) / 255.0;
@@ -192,6 +208,7 @@ fn files() -> Vec<(&'static str, Vec<u8>, MeshKind, bool)> {
         ("PLY, big-endian", ply("binary_big_endian"), MeshKind::Ply, false),
         ("PLY, little-endian", ply("binary_little_endian"), MeshKind::Ply, false),
         ("OFF", off(), MeshKind::Off, true),
+        ("binary OFF", off_binary(), MeshKind::Off, false),
         ("glTF", gltf(), MeshKind::Gltf, false),
         ("GLB", glb(), MeshKind::Gltf, false),
     ]
@@ -278,8 +295,8 @@ fn what_is_wrong_is_named() {
             stl("vertex 0.1", "vertex nan"),
             "line 4, facet 0 (from 0): expected `vertex`",
         ),
-        (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): cut short"),
-        (MeshKind::Stl, stl("outer loop", "inner loop"), "unexpected here"),
+        (MeshKind::Stl, cut(stl_text(), 40), "facet 3 (from 0): truncated"),
+        (MeshKind::Stl, stl("outer loop", "inner loop"), "inner is out of place in an STL file"),
         (MeshKind::BinaryStl, lying(5), "truncated: 5 triangles declared, 4 found"),
         (MeshKind::BinaryStl, lying(u32::MAX), "truncated: 4294967295 triangles declared, 4 found"),
         (
@@ -287,13 +304,13 @@ fn what_is_wrong_is_named() {
             with_nan(),
             "triangle 1 (from 0): a coordinate is not a finite number",
         ),
-        (MeshKind::BinaryStl, vec![0; 20], "its header is cut short"),
+        (MeshKind::BinaryStl, vec![0; 20], "truncated header"),
         (
             MeshKind::Ply,
             ply_of("vertex 4", "vertex 99999999999"),
             "truncated: 99999999999 of `vertex` declared, at most ",
         ),
-        (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): cut short"),
+        (MeshKind::Ply, ply_of("vertex 4", "vertex 5"), "vertex 4 (from 0): truncated"),
         (
             MeshKind::Ply,
             ply_of("0.1 0.2", "inf 0.2"),
@@ -302,27 +319,27 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Ply,
             ply_of("3 0 2 1", "3 0 2 9"),
-            "face 0 (from 0): 9 is not one of 4 vertices",
+            "face 0 (from 0): index 9 is out of range: 4 vertices",
         ),
         (
             MeshKind::Ply,
             ply_of("3 0 2 1", "3 0 2 -1"),
-            "face 0 (from 0): -1 is not one of 4 vertices",
+            "face 0 (from 0): index -1 is out of range: 4 vertices",
         ),
-        (MeshKind::Ply, ply_of("3 0 2 1", "99999999999 0 2 1"), "face 0 (from 0): its property"),
+        (MeshKind::Ply, ply_of("3 0 2 1", "99999999999 0 2 1"), "face 0 (from 0): the property"),
         (
             MeshKind::Ply,
             ply_of("property float z\n", ""),
-            "vertex 0 (from 0): it has no x, y and z",
+            "vertex 0 (from 0): x, y or z is missing",
         ),
-        (MeshKind::Ply, ply_of("end_header", "end_headache"), "in its header: Line"),
+        (MeshKind::Ply, ply_of("end_header", "end_headache"), "in the header: Line"),
         (
             MeshKind::Ply,
             cut(ply("binary_little_endian"), 3),
             "truncated: 4 of `vertex` declared, at most 3 found",
         ),
-        (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than fit into it"),
-        (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): cut short"),
+        (MeshKind::Off, off_of("4 4 6", "99999999999 4 6"), "more than the file can hold"),
+        (MeshKind::Off, off_of("4 4 6", "4 5 6"), "face 4 (from 0): truncated"),
         (
             MeshKind::Off,
             off_of("0.1 0.2", "0.1 nan"),
@@ -331,13 +348,17 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Off,
             off_of("3 0 2 1", "3 0 2 4"),
-            "face 0 (from 0): 4 is not one of 4 vertices",
+            "face 0 (from 0): index 4 is out of range: 4 vertices",
         ),
         (MeshKind::Off, off_of("3 0 2 1", "9 0 2 1 #"), "truncated: 9 corners declared, "),
         (MeshKind::Gltf, cut(glb(), 1), "truncated: "),
-        (MeshKind::Gltf, b"glTF\x01\0\0\0\xff\0\0\0".to_vec(), "it is glTF 1.0; glTF 2.0 is read"),
-        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "it is glTF 1.0"),
-        (MeshKind::Gltf, glb()[..10].to_vec(), "its header is cut short"),
+        (
+            MeshKind::Gltf,
+            b"glTF\x01\0\0\0\xff\0\0\0".to_vec(),
+            "this is glTF 1.0; binspace reads glTF 2.0",
+        ),
+        (MeshKind::Gltf, br#"{"asset": {}, "accessors": {"a": {}}}"#.to_vec(), "this is glTF 1.0"),
+        (MeshKind::Gltf, glb()[..10].to_vec(), "truncated header"),
         (
             MeshKind::Gltf,
             gltf_of("\"mesh\":0", "\"mesh\":7"),
@@ -351,28 +372,32 @@ fn what_is_wrong_is_named() {
         (
             MeshKind::Gltf,
             gltf_of("\"children\":[2]", "\"children\":[1]"),
-            "node 1 (from 0): it is in two places",
+            "node 1 (from 0): it occurs twice in the scene",
         ),
         (
             MeshKind::Gltf,
             gltf_of("\"byteLength\":72", "\"byteLength\":73"),
             "buffer 0 (from 0): truncated: 73 bytes declared, 72 found",
         ),
-        (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "in its JSON: "),
+        (MeshKind::Gltf, gltf_of("[10,0,0]", "[1e39,0,0]"), "invalid JSON: "),
         (
             MeshKind::Gltf,
             gltf_of(
                 "\"asset\"",
                 "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\"",
             ),
-            "needs the extension KHR_draco_mesh_compression",
+            "requires the extension KHR_draco_mesh_compression",
         ),
         (
             MeshKind::Gltf,
             gltf_of("\"asset\"", "\"extensionsRequired\":[\"ACME_new\\nthing\"],\"asset\""),
-            "needs the extension ACME_new\\nthing,",
+            "requires the extension ACME_new\\nthing,",
         ),
-        (MeshKind::Gltf, gltf_parts("\"uri\":\"../b.bin\",").0.into(), "../b.bin: it is outside"),
+        (
+            MeshKind::Gltf,
+            gltf_parts("\"uri\":\"../b.bin\",").0.into(),
+            "../b.bin: not read, because it is outside",
+        ),
         (
             MeshKind::Gltf,
             gltf_parts("\"uri\":\"b.bin\",").0.into(),
@@ -386,6 +411,89 @@ fn what_is_wrong_is_named() {
             "{problem}: {message}"
         );
         assert!(message.len() < 300 && !message.contains('\n'), "{message}");
+    }
+}
+
+/// Every other triangle of a strip is turned over; a negative number ends it, and repeated corners continue it.
+#[test]
+fn ply_files_have_strips_of_triangles() {
+    let text = String::from_utf8(ply("ascii")).unwrap();
+    let start = text.find("3 0 2 1").unwrap();
+    let end = text.find("0.1 0.2").unwrap();
+    let strips = "14 0 2 1 3 3 -1 0 1 3 -1 2 0 3 -1 1 2 3 4\n";
+    let header = text[..start].replace("face 4", "tristrips 1");
+    let file = header + strips + &text[end..];
+    let scene = read(MeshKind::Ply, file.as_bytes()).unwrap();
+    let whole = read(MeshKind::Ply, text.as_bytes()).unwrap();
+    assert_eq!(scene.len(), 4);
+    for (number, face) in [0, 2, 1, 3].into_iter().enumerate() {
+        assert_eq!(scene.polygon(number), whole.polygon(face));
+        assert_eq!(scene.material(number).color, [1.0, 2.0, 3.0].map(|c| c / 255.0));
+    }
+    let message = read(MeshKind::Ply, file.replace("2 1 3 3", "2 1 9 3").as_bytes()).unwrap_err();
+    assert!(message.contains("index 9 is out of range: 4 vertices"), "{message}");
+}
+
+/// Vertices with normals, colours and texture coordinates.
+#[test]
+fn binary_off_files_have_colours_of_vertices() {
+    let mut bytes = b"STCNOFF BINARY\n".to_vec();
+    let mut push = |number: [u8; 4]| bytes.extend(number);
+    [3u32, 1, 0].into_iter().for_each(|count| push(count.to_be_bytes()));
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)] {
+        let vertex: [f32; 12] = [x, y, 5.0, 9.0, 9.0, 9.0, x, y, 0.6, 0.5, 9.0, 9.0];
+        vertex.iter().for_each(|number| push(number.to_be_bytes()));
+    }
+    [3u32, 0, 1, 2, 0].into_iter().for_each(|number| push(number.to_be_bytes()));
+    let scene = read(MeshKind::Off, &bytes).unwrap();
+    let corners = [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]].map(DVec3::from);
+    assert_eq!(scene.polygon(0), corners);
+    let material = scene.material(0);
+    let colour = [material.color[0], material.color[1], material.color[2], material.opacity];
+    assert_eq!(colour.map(|channel| (channel * 255.0).round()), [85.0, 85.0, 153.0, 128.0]);
+    for (at, number, problem) in [
+        (bytes.len() - 8, 3, "face 0 (from 0): index 3 is out of range: 3 vertices"),
+        (bytes.len() - 20, u32::MAX, "face 0 (from 0): "),
+        (bytes.len() - 4, 7, "face 0 (from 0): truncated"),
+        (15, 4, "vertex 3 (from 0): truncated"),
+        (27, 0x7fc0_0000, "vertex 0 (from 0): a coordinate is not a finite number"),
+    ] {
+        let mut wrong = bytes.clone();
+        wrong[at..at + 4].copy_from_slice(&number.to_be_bytes());
+        let message = read(MeshKind::Off, &wrong).unwrap_err();
+        assert!(message.contains(problem), "{problem}: {message}");
+    }
+}
+
+/// A sparse accessor replaces some of its values.
+#[test]
+fn sparse_values_replace_others() {
+    let corners = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.5], [7.0, 8.5, 9.0]];
+    let mut buffer = little([corners[0], [0.0; 3], corners[2]].concat());
+    // Its number in 16 bits, and itself.
+    buffer.extend([1, 0, 0, 0]);
+    buffer.extend(little(corners[1]));
+    let file = |count: usize, base: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{{{base}"componentType":5126,"count":3,"type":"VEC3","sparse":{{"count":{count},
+            "indices":{{"bufferView":1,"componentType":5123}},"values":{{"bufferView":2}}}}}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":2}},
+            {{"buffer":0,"byteOffset":40,"byteLength":12}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":52}}]}}"#,
+            STANDARD.encode(&buffer)
+        )
+    };
+    let base = "\"bufferView\":0,";
+    let scene = read(MeshKind::Gltf, file(1, base).as_bytes()).unwrap();
+    assert_eq!(scene.polygon(0), corners.map(|corner| DVec3::from(corner.map(f64::from))));
+    for (file, problem) in [
+        (file(2, base), "accessor 0 (from 0): its sparse values do not fit into their buffer"),
+        (file(1, ""), "accessor 0 (from 0): it has no buffer view"),
+    ] {
+        let message = read(MeshKind::Gltf, file.as_bytes()).unwrap_err();
+        assert!(message.contains(problem), "{message}");
     }
 }
 

@@ -23,6 +23,11 @@ impl<'a> Lines<'a> {
     pub(crate) fn after(number: usize, bytes: &'a [u8]) -> Self {
         Self { rest: bytes, number }
     }
+
+    /// The bytes behind the lines that were read.
+    pub(crate) fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
 }
 
 impl<'a> Iterator for Lines<'a> {

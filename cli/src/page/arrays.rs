@@ -1,12 +1,13 @@
 //! The arrays of a page: the tree, and the outlines of its fragments.
 
+use std::hash::Hash;
 use std::ops::Range;
 
 use binspace::internals::{EdgeLine, LATTICE_LIMIT};
 use binspace::{BspTree, Child, Fragment, Node};
+use indexmap::IndexSet;
 use serde::Serialize;
 
-use super::numbered::Numbered;
 use super::packed::Packed;
 
 /// Kinds of edges, as the script names them.
@@ -51,23 +52,22 @@ impl Arrays {
     pub(super) fn of(tree: &BspTree, polygon_materials: &[u32]) -> (Self, usize) {
         let mut planes = Planes::default();
         let nodes = Nodes::of(tree, &mut planes);
-        let node_planes = planes.planes.list().len();
+        let node_planes = planes.planes.len();
         let fragments = Fragments::of(tree, &mut planes);
         // The grid's numbers are below 2⁵³, so they are exact as f64.
-        let points: Vec<f64> =
-            planes.points.list().as_flattened().iter().map(|&c| c as f64).collect();
-        let vertices = fragments.vertices.list().as_flattened().iter();
+        let points: Vec<f64> = planes.points.iter().flatten().map(|&c| c as f64).collect();
+        let vertices = fragments.vertices.iter().flatten();
         let vertices: Vec<f32> = vertices.map(|&bits| f32::from_bits(bits)).collect();
         let arrays = Self {
             points: Packed::double(&points),
-            plane_points: Packed::whole(planes.planes.list().as_flattened()),
+            plane_points: Packed::whole(&flat(planes.planes)),
             node_planes: Packed::whole(&nodes.planes),
             own: Packed::whole(&nodes.own),
             front_leaf: Packed::whole(&nodes.front.leaves),
             back_leaf: Packed::whole(&nodes.back.leaves),
             front_node: Packed::whole(&nodes.front.nodes),
             back_node: Packed::whole(&nodes.back.nodes),
-            faces: Packed::whole(fragments.faces.list().as_flattened()),
+            faces: Packed::whole(&flat(fragments.faces)),
             fragment_faces: Packed::whole(&fragments.fragment_faces),
             corner_counts: Packed::whole(&fragments.counts),
             corners: Packed::whole(&fragments.corners),
@@ -79,17 +79,26 @@ impl Arrays {
     }
 }
 
+/// The number of a value in a set, to which it is added if it is new.
+pub(super) fn number<T: Eq + Hash>(set: &mut IndexSet<T>, value: T) -> u32 {
+    set.insert_full(value).0 as u32
+}
+
+fn flat<const N: usize>(set: IndexSet<[u32; N]>) -> Vec<u32> {
+    set.into_iter().flatten().collect()
+}
+
 /// The planes of a tree, and the grid points that they go through.
 #[derive(Default)]
 struct Planes {
-    points: Numbered<[i64; 3]>,
-    planes: Numbered<[u32; 3]>,
+    points: IndexSet<[i64; 3]>,
+    planes: IndexSet<[u32; 3]>,
 }
 
 impl Planes {
     fn through(&mut self, points: [[i64; 3]; 3]) -> u32 {
-        let points = points.map(|point| self.points.number(point));
-        self.planes.number(points)
+        let points = points.map(|point| number(&mut self.points, point));
+        number(&mut self.planes, points)
     }
 
     fn of_node(&mut self, node: &Node<'_>) -> u32 {
@@ -99,8 +108,8 @@ impl Planes {
         let Some(step) = (0..3).find(|&axis| is_free && next[axis] != point[axis]) else {
             return self.through(node.grid_points());
         };
-        let (point, axis) = (self.points.number(point), (step as u32 + 2) % 3);
-        self.planes.number([point, point, axis])
+        let (point, axis) = (number(&mut self.points, point), (step as u32 + 2) % 3);
+        number(&mut self.planes, [point, point, axis])
     }
 }
 
@@ -154,13 +163,13 @@ impl Nodes {
 /// all nodes before it: on its plane, in its front leaf, in its back leaf.
 #[derive(Default)]
 struct Fragments {
-    faces: Numbered<[u32; 2]>,
+    faces: IndexSet<[u32; 2]>,
     fragment_faces: Vec<u32>,
     counts: Vec<u32>,
     corners: Vec<u32>,
     edges: Vec<u32>,
     /// By the bits of their coordinates.
-    vertices: Numbered<[u32; 3]>,
+    vertices: IndexSet<[u32; 3]>,
 }
 
 impl Fragments {
@@ -168,13 +177,13 @@ impl Fragments {
         let mut all = Self::default();
         for fragment in tree.fragments() {
             let face = [fragment.polygon() as u32, planes.through(fragment.grid_points())];
-            all.fragment_faces.push(all.faces.number(face));
+            all.fragment_faces.push(number(&mut all.faces, face));
             all.counts.push(fragment.vertex_count() as u32);
             all.edges.extend(edge_kinds(&fragment));
             for vertex in fragment.lattice_vertices() {
                 let bits = vertex.map(|c| ((c / LATTICE_LIMIT) as f32).to_bits());
-                let first_new = all.vertices.list().len() as u32;
-                all.corners.push(first_new - all.vertices.number(bits));
+                let first_new = all.vertices.len() as u32;
+                all.corners.push(first_new - number(&mut all.vertices, bits));
             }
         }
         all

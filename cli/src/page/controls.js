@@ -69,7 +69,7 @@ function readPlace() {
 
 // Drawing.
 
-/** Draws one picture, with so many pixels to a pixel of the page each way. */
+/** Draws one picture, with `fineness` x `fineness` pixels for each pixel of the page. */
 function draw(fineness) {
   const { clientWidth, clientHeight } = CANVAS;
   const size = [clientWidth, clientHeight].map(side => Math.max(1, side * fineness));
@@ -158,7 +158,7 @@ function turn(right, down) {
   change();
 }
 
-/** Moves the view by so many pixels: what is at the target follows the pointer. */
+/** Moves the view by a number of pixels: the point at the target follows the pointer. */
 function pan(x, y) {
   const { right, up } = axesOf(camera);
   const scale = scaleOf(camera, { width: CANVAS.clientWidth, height: CANVAS.clientHeight });

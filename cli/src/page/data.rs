@@ -5,10 +5,10 @@ use binspace::glam::DVec3;
 use binspace::internals::LATTICE_LIMIT;
 use binspace::scene::Scene;
 use binspace::view::{Camera, Projection};
+use indexmap::IndexSet;
 use serde::Serialize;
 
-use super::arrays::Arrays;
-use super::numbered::Numbered;
+use super::arrays::{Arrays, number};
 use crate::colours::{Colouring, Colours};
 
 /// The data of a page. Positions count from the middle of the tree's grid, in units of [`LATTICE_LIMIT`]
@@ -89,10 +89,10 @@ impl View {
 /// The different looks of a scene's materials, and the look of each polygon.
 fn materials(scene: &Scene) -> (Vec<Colour>, Vec<u32>) {
     let colours = Colours::new(scene, Colouring::Material);
-    let mut looks = Numbered::default();
+    let mut looks = IndexSet::new();
     let look = |polygon| (colours.rgb(polygon), colours.opacity(polygon).to_bits());
-    let numbers = (0..scene.len()).map(|polygon| looks.number(look(polygon))).collect();
+    let numbers = (0..scene.len()).map(|polygon| number(&mut looks, look(polygon))).collect();
     let colour =
         |&(colour, bits): &([u8; 3], u32)| Colour { colour, opacity: f32::from_bits(bits) };
-    (looks.list().iter().map(colour).collect(), numbers)
+    (looks.iter().map(colour).collect(), numbers)
 }

@@ -6,7 +6,6 @@
 
 mod arrays;
 mod data;
-mod numbered;
 mod packed;
 
 use std::io::{self, Write};

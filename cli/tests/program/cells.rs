@@ -116,11 +116,11 @@ fn a_folder_is_written_completely_or_not_at_all() {
     let files = ["bad.obj", "flat.obj", "s.obj"];
     for (command, problem) in [
         ("build bad.obj --cells 3 -o d", "vertex 7 does not exist"),
-        ("build flat.obj --cells 3 -o d", "nothing is left"),
+        ("build flat.obj --cells 3 -o d", "nothing to draw"),
         ("build missing.obj --cells 3 -o d", "missing.obj"),
         ("build random --cells 3 -o d --max-fragments 10", "--max-fragments"),
         ("build s.obj --cells 0 -o d", "0"),
-        ("build s.obj --cells 2 -o -", "name it"),
+        ("build s.obj --cells 2 -o -", "name a new one"),
         ("build s.obj --cells 2 -o s.obj", "cannot become a folder"),
         ("build - --cells 2 -o d", "name a file"),
     ] {
@@ -130,7 +130,7 @@ fn a_folder_is_written_completely_or_not_at_all() {
     }
     folder.run("build s.obj --cells 2 -o d").good();
     let message = folder.run("build s.obj --cells 3 -o d").refused();
-    assert!(message.contains("it is there already"), "{message}");
+    assert!(message.contains("this folder is not empty"), "{message}");
     // An empty folder becomes one.
     fs::create_dir(folder.path("empty")).unwrap();
     folder.run("build s.obj --cells 2 -o empty").good();
@@ -142,7 +142,7 @@ fn a_folder_is_written_completely_or_not_at_all() {
 #[test]
 fn notes_on_cells_are_those_on_the_whole() {
     let folder = Folder::new("cells_notes");
-    // A bow tie and a star right across the scene, quads that are bent, some of each given twice, turned
+    // A bow tie and a star right across the scene, quads that are non-planar, some of each given twice, turned
     // and reversed, and faces without area.
     let mut text = String::new();
     let mut face = |corners: &[[f64; 3]]| {
@@ -183,7 +183,7 @@ fn notes_on_cells_are_those_on_the_whole() {
     let mut expected = notes("build s.obj -o s.bsp --notes");
     assert!(expected.len() >= 5, "{expected:?}");
     // Duplicates are counted within a tree, so cells do not report them.
-    expected.retain(|note| !note.contains("given more than once"));
+    expected.retain(|note| !note.contains("duplicate face"));
     for cells in [1, 2, 3, 5, 9, 16] {
         let found = notes(&format!("build s.obj --cells {cells} -o d{cells} --notes"));
         assert_eq!(found, expected, "{cells} cells");
@@ -283,7 +283,7 @@ fn what_a_folder_is_not_for_is_refused() {
     let kept = fs::read(&first).unwrap();
     fs::copy(&cell, &first).unwrap();
     let message = folder.run("render d -o a.png").refused();
-    assert!(message.contains("cell-0000.bsp: it is not this cell"), "{message}");
+    assert!(message.contains("cell-0000.bsp: it does not belong to this folder"), "{message}");
     fs::write(&first, kept).unwrap();
     let file = fs::read(&cell).unwrap();
     fs::write(&cell, &file[..file.len() - 3]).unwrap();

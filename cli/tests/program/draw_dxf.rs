@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use crate::draw::figures;
-use crate::run::{CROSSING, Folder};
+use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
 use crate::svg_picture::Svg;
 
-/// A file: the dashes of each layer, and its lines.
+/// A file: its extent, the dashes and gaps of each layer, and its lines.
 #[derive(Default)]
 struct Dxf {
+    extent: [f64; 2],
     layers: BTreeMap<String, Vec<f64>>,
     lines: Vec<Line>,
 }
@@ -43,11 +44,11 @@ fn parts(text: &str) -> Vec<Vec<(u32, &str)>> {
 }
 
 impl Dxf {
-    /// A file of release 12, in which all layers and types of lines that are used are defined.
+    /// A file of release 12, in which all layers and types of lines that are used are defined, and counted.
     fn parse(text: &str) -> Self {
         let mut dxf = Self::default();
         let mut types = BTreeMap::new();
-        let (mut open, mut line) = (Vec::new(), None);
+        let (mut open, mut line, mut entries) = (Vec::new(), None, [0.0; 2]);
         for part in parts(text) {
             let all = |code: u32| part.iter().filter(move |group| group.0 == code);
             let value =
@@ -55,21 +56,49 @@ impl Dxf {
             let number = |code: u32| value(code).parse::<f64>().unwrap();
             let layer = || dxf.layers.contains_key(value(8)).then(|| value(8).to_owned()).unwrap();
             match value(0) {
-                "SECTION" | "TABLE" => open.push(value(2)),
-                "ENDSEC" | "ENDTAB" => assert!(open.pop().is_some()),
+                "SECTION" => {
+                    open.push(value(2));
+                    if value(2) == "HEADER" {
+                        let corners: Vec<(u32, &str)> = part[4..].to_vec();
+                        let [low, high] = [&corners[..4], &corners[4..]];
+                        assert_eq!(low, [(9, "$EXTMIN"), (10, "0.0"), (20, "0.0"), (30, "0.0")]);
+                        let &[(9, "$EXTMAX"), (10, x), (20, y), (30, "0.0")] = high else {
+                            panic!("{high:?}")
+                        };
+                        dxf.extent = [x, y].map(|c| c.parse().unwrap());
+                    }
+                }
+                "TABLE" => {
+                    open.push(value(2));
+                    entries = [number(70), 0.0];
+                }
+                "ENDTAB" => {
+                    assert!(entries[0] == entries[1] && open.pop().is_some(), "{entries:?}");
+                }
+                "ENDSEC" => assert!(open.pop().is_some()),
                 "EOF" => assert!(open.is_empty()),
                 "LTYPE" => {
-                    let lengths = all(49).map(|group| group.1.parse::<f64>().unwrap().abs());
+                    assert_eq!(open, ["TABLES", "LTYPE"]);
+                    entries[1] += 1.0;
+                    let lengths = all(49).map(|group| group.1.parse::<f64>().unwrap());
                     let lengths: Vec<f64> = lengths.collect();
-                    assert_eq!(number(73), lengths.len() as f64);
-                    assert_eq!(number(40), lengths.iter().sum::<f64>());
-                    types.insert(value(2), lengths);
+                    assert_eq!([number(72), number(73)], [65.0, lengths.len() as f64]);
+                    assert_eq!(number(40), lengths.iter().map(|length| length.abs()).sum::<f64>());
+                    assert!(types.insert(value(2), lengths).is_none());
                 }
                 "LAYER" => {
+                    assert_eq!(open, ["TABLES", "LAYER"]);
+                    entries[1] += 1.0;
                     let name = value(2).to_owned();
+                    // Black on white, and neither frozen nor locked.
+                    assert_eq!([value(62), value(70)], ["7", "0"]);
                     assert!(dxf.layers.insert(name, types[value(6)].clone()).is_none());
                 }
                 "POLYLINE" => {
+                    assert_eq!(open, ["ENTITIES"]);
+                    // Vertices follow, up to the end of the sequence.
+                    assert_eq!(value(66), "1");
+                    assert!(value(70) == "0" || value(70) == "1");
                     let new = Line { layer: layer(), is_closed: value(70) == "1", points: vec![] };
                     assert!(line.replace(new).is_none());
                 }
@@ -78,7 +107,10 @@ impl Dxf {
                     assert_eq!(line.layer, layer());
                     line.points.push([number(10), number(20)]);
                 }
-                "SEQEND" => dxf.lines.extend(line.take()),
+                "SEQEND" => {
+                    assert_eq!(line.as_ref().unwrap().layer, layer());
+                    dxf.lines.extend(line.take());
+                }
                 other => panic!("{other}"),
             }
         }
@@ -96,7 +128,7 @@ impl Dxf {
         // The lines of a layer together, as in an SVG: where they cross, they are no darker.
         for lines in self.lines.chunk_by(|a, b| a.layer == b.layer) {
             let dashes: Vec<String> =
-                self.layers[&lines[0].layer].iter().map(f64::to_string).collect();
+                self.layers[&lines[0].layer].iter().map(|c| c.abs().to_string()).collect();
             let (cap, wide) = if dashes.is_empty() { ("round", 1.0) } else { ("butt", 0.6) };
             let dashes = if dashes.is_empty() { "none".to_owned() } else { dashes.join(" ") };
             let data: String = lines.iter().map(Line::data).collect();
@@ -168,10 +200,68 @@ fn a_dxf_has_lines_alone() {
         assert!(fs::read(folder.path("b.dxf")).unwrap() == kept, "{options}");
     }
     let message = folder.run("draw s.obj -o a.dxf --ids").refused();
-    assert!(message.contains("only SVG has a place for names"), "{message}");
+    assert!(message.contains("--ids works only in an SVG"), "{message}");
     let message = folder.run("draw s.obj -o a.dxf --edges none").refused();
-    assert!(message.contains("a DXF have nothing to draw"), "{message}");
+    assert!(message.contains("DXF need edges to draw"), "{message}");
     assert!(fs::read(folder.path("a.dxf")).unwrap() == kept);
+}
+
+/// All of a small drawing, with y upwards: lines from the most hidden to the visible ones, each kind in its layer.
+#[test]
+fn lines_have_their_places_layers_and_dashes() {
+    let folder = Folder::new("dxf_cards");
+    folder.write("cards.obj", CARDS);
+    folder.write("cards.mtl", CARDS_MATERIALS);
+    let drawn = |options: &str| {
+        folder.run(&format!("draw {CARDS_VIEW} {options} -o a.dxf")).good();
+        Dxf::parse(&fs::read_to_string(folder.path("a.dxf")).unwrap())
+    };
+    let layers = |dxf: &Dxf| -> Vec<(String, Vec<f64>)> {
+        dxf.layers.iter().map(|(name, dashes)| (name.clone(), dashes.clone())).collect()
+    };
+    let named = |name: &str, dashes: &[f64]| (name.to_owned(), dashes.to_vec());
+    // Corners to the right of each other from the lower left one on, wherever the pen begins.
+    let lines = |dxf: &Dxf| -> Vec<(String, Vec<[f64; 2]>)> {
+        let lines = dxf.lines.iter().map(|line| {
+            assert!(line.is_closed);
+            let (mut points, order) =
+                (line.points.clone(), |a: &[f64; 2], b: &[f64; 2]| a.partial_cmp(b).unwrap());
+            let first = (0..points.len()).min_by(|&a, &b| order(&points[a], &points[b])).unwrap();
+            points.rotate_left(first);
+            let [second, last] = [points[1], points[points.len() - 1]];
+            if (second[1] - points[0][1]).abs() > (last[1] - points[0][1]).abs() {
+                points[1..].reverse();
+            }
+            (line.layer.clone(), points)
+        });
+        lines.collect()
+    };
+    let line = |layer: &str, points: &[[f64; 2]]| (layer.to_owned(), points.to_vec());
+    let small = [[74.8, 17.0], [77.2, 17.0], [77.2, 21.0]];
+    let large = [[70.0, 15.0], [80.0, 15.0], [80.0, 35.0]];
+    let plate = [[10.0, 5.0], [90.0, 5.0], [90.0, 45.0], [10.0, 45.0]];
+    let card = [[30.0, 15.0], [50.0, 15.0], [50.0, 35.0], [30.0, 35.0]];
+    let visible = [line("BORDER", &plate), line("BORDER", &card)];
+    // Dashes are of lines a pixel wide, whatever the width of lines in pictures.
+    for width in ["1", "2"] {
+        let dxf = drawn(&format!("--hidden layers --line-width {width}"));
+        assert_eq!(dxf.extent, [100.0, 50.0]);
+        let expected = [
+            named("0", &[]),
+            named("BORDER", &[]),
+            named("HIDDEN2_BORDER", &[2.0, -3.0]),
+            named("HIDDEN_BORDER", &[3.0, -2.0]),
+        ];
+        assert_eq!(layers(&dxf), expected);
+        let hidden = [line("HIDDEN2_BORDER", &small), line("HIDDEN_BORDER", &large)];
+        assert_eq!(lines(&dxf), [&hidden[..], &visible].concat());
+    }
+    let dxf = drawn("--hidden dashed");
+    assert_eq!(layers(&dxf)[1..], [named("BORDER", &[]), named("HIDDEN_BORDER", &[3.0, -2.0])]);
+    assert!(dxf.lines[..2].iter().all(|line| line.layer == "HIDDEN_BORDER"));
+    let dxf = drawn("");
+    assert_eq!(layers(&dxf)[1..], [named("BORDER", &[])]);
+    assert_eq!(lines(&dxf), visible);
 }
 
 /// A square of 3 units is 30 mm at 10 mm for each unit.

@@ -50,30 +50,31 @@ fn what_cannot_be_drawn_is_said_at_once() {
             "-o p",
             "p: name a file that ends in one of .svg, .pdf, .tex, .dxf, .png, or give --format",
         ),
-        ("-o p.svg --format pdf", "p.svg: its name and --format are of different formats"),
+        ("-o p.svg --format pdf", "p.svg: the file's name and --format disagree"),
         ("-o p.svg --format gif", "--format"),
-        ("-o p.svg --lines --edges none", "--lines and a DXF have nothing to draw"),
+        ("-o p.svg --lines --edges none", "--lines and DXF need edges to draw"),
         ("-o p.svg --lines --hidden dotted", "--hidden"),
         ("-o p.svg --lines --colours polygon", "cannot be used with"),
         ("-o p.svg --edges creases=x", "from 0 to 180 degrees, as in creases=20"),
         ("-o p.svg --edges outlines", "none, all, creases, creases=DEG or silhouettes"),
-        ("-o p.png --ids", "only SVG has a place for names: write .svg"),
-        ("-o p.pdf --ids", "only SVG has a place for names"),
-        ("-o p.png --background none", "a PNG has a background"),
+        ("-o p.png --ids", "--ids works only in an SVG"),
+        ("-o p.pdf --ids", "--ids works only in an SVG"),
+        ("-o p.png --background none", "a PNG needs a background"),
         ("-o p.svg --background red", "such as #ffeecc"),
         ("-o p.svg --margin 50", "0 to 45 percent"),
-        ("-o p.svg --line-width 0", "more than 0"),
+        ("-o p.svg --line-width 0", "a number above 0"),
         ("-o p.pdf --scale 2", "not provided:\n  <--direction <X,Y,Z>|--view <NAME>>"),
         ("-o p.pdf --scale 2 --view top --size 9x9", "cannot be used with"),
         ("-o p.pdf --scale 1e9 --view top", "4294967295"),
         ("-o p.svg --view top --fov 9", "cannot be used with"),
+        ("-o p.svg --view top --eye 9 -4 3", "cannot be used with"),
         ("-o p.svg --view back", "front, top, right, iso"),
         ("-o p.svg --eye 1,2", "as in 9,-4,3 or 9 -4 3, not 2"),
-        ("-o p.pdf --size 14401x2", "a PDF or of TeX has at most 14400 points each way"),
+        ("-o p.pdf --size 14401x2", "pages of PDF and TeX are at most 14400 points wide and high"),
         ("-o missing/p.pdf", "cannot be written"),
         ("-o missing/p.png", "cannot be written"),
         ("-o missing/p.svg", "cannot be written"),
-        ("-o - --json", "standard output: the drawing and the figures"),
+        ("-o - --json", "standard output: the drawing and the object"),
         ("-o p.svg --samples 2", "--samples"),
         ("-o p.svg --z-buffer", "--z-buffer"),
         ("-o p.svg --depth", "--depth"),
@@ -116,6 +117,6 @@ fn a_page_too_large_is_refused_before_the_scene_is_read() {
     let folder = Folder::new("draw_page");
     for name in ["p.pdf", "p.tex"] {
         let message = folder.run(&format!("draw missing.obj -o {name} --size 14401x2")).refused();
-        assert!(message.contains("at most 14400 points each way"), "{message}");
+        assert!(message.contains("at most 14400 points wide and high"), "{message}");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::run::{CROSSING, Folder};
+use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 const BEGIN: &str = "\\begin{tikzpicture}[x=1bp,y=-1bp,line join=round]\n";
@@ -148,6 +148,46 @@ fn tikz_paints_what_the_svg_does() {
         assert!(2_000 * wrong <= found.rgb.len(), "{options}: {wrong} of {}", found.rgb.len());
     }
     assert!(classes > 10, "{classes}");
+}
+
+/// All of a small picture: paths from back to front, hidden lines before visible ones.
+#[test]
+fn paths_have_their_places_colours_and_lines() {
+    let folder = Folder::new("tex_paths");
+    folder.write("cards.obj", CARDS);
+    folder.write("cards.mtl", CARDS_MATERIALS);
+    let look = "--translucent --background #ffeecc --edges all --hidden layers --line-width 2";
+    folder.run(&format!("draw {CARDS_VIEW} {look} -o a.tex")).good();
+    let text = fs::read_to_string(folder.path("a.tex")).unwrap();
+    let (_, rest) = text.split_once(BEGIN).unwrap();
+    let line = "draw={rgb,255:red,0;green,0;blue,0},line width=";
+    let expected = format!(
+        r"\clip (0,0) rectangle (100,50);
+\fill[fill={{rgb,255:red,255;green,238;blue,204}},binspace/background/.try] (0,0) rectangle (100,50);
+\begin{{scope}}[fill={{rgb,255:red,255;green,0;blue,0}}]
+\fill (77.2,29)--(77.2,33)--(74.8,33)--cycle;
+\fill (80,15)--(80,35)--(70,35)--cycle;
+\end{{scope}}
+\fill[fill={{rgb,255:red,0;green,0;blue,255}}] (10,5)--(90,5)--(90,45)--(10,45)--cycle;
+\fill[fill={{rgb,255:red,0;green,255;blue,0}},fill opacity=0.4] (30,15)--(50,15)--(50,35)--(30,35)--cycle;
+\begin{{scope}}[{line}1.2bp,dash pattern=on 4bp off 6bp,binspace/hidden/.try,binspace/layers-2/.try]
+\draw[binspace/border/.try] (74.8,33)--(77.2,33)--(77.2,29)--cycle;
+\end{{scope}}
+\begin{{scope}}[{line}1.2bp,dash pattern=on 6bp off 4bp,binspace/hidden/.try]
+\draw[binspace/border/.try] (70,35)--(80,15)--(80,35)--cycle;
+\end{{scope}}
+\begin{{scope}}[{line}2bp,line cap=round,binspace/visible/.try]
+\draw[binspace/border/.try] (10,5)--(10,45)--(90,45)--(90,5)--cycle
+(30,15)--(30,35)--(50,35)--(50,15)--cycle;
+\end{{scope}}
+"
+    );
+    assert_eq!(rest.strip_suffix(END).unwrap(), expected);
+    // The page is as large as the drawing to scale, in big points.
+    folder.run("draw cards.obj --view front --up y --scale 10 --margin 0 -o a.tex").good();
+    let text = fs::read_to_string(folder.path("a.tex")).unwrap();
+    // 40 by 20 mm.
+    assert!(text.contains("\\clip (0,0) rectangle (114,57);\n"), "{text}");
 }
 
 #[test]

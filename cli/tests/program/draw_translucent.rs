@@ -96,7 +96,7 @@ fn options_that_do_not_fit_are_refused() {
     let folder = Folder::new("draw_translucent_options");
     write_scene(&folder, 3);
     for (options, expected) in [
-        ("-o a.pdf --seams plus-lighter", "only an SVG can add colours up"),
+        ("-o a.pdf --seams plus-lighter", "works only in an SVG: use `--seams trap`"),
         ("-o a.svg --seams some", "--seams"),
     ] {
         let message = folder.run(&format!("draw s.obj {options}")).refused();

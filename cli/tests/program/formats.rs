@@ -125,10 +125,10 @@ fn files_that_are_not_read_are_named() {
     for (name, content, kind) in [
         ("part.step", &b"ISO-10303-21;\nHEADER;\n"[..], "this is a STEP or IFC file"),
         ("part.obj", b"ISO-10303-21;\nHEADER;\n", "this is a STEP or IFC file"),
-        ("page.stl", b"<!DOCTYPE html>\n<html></html>", "this is a page of HTML"),
+        ("page.stl", b"<!DOCTYPE html>\n<html></html>", "this is an HTML page"),
         ("scene.fbx", b"Kaydara FBX Binary  \0", "this is an FBX file"),
-        ("notes", b"Dear all,\nthe scene is attached.\n", "this text is of no known kind"),
-        ("data", b"\x01\x02\0\x03 nothing known", "this binary file is of no known kind"),
+        ("notes", b"Dear all,\nthe scene is attached.\n", "unknown kind of text file"),
+        ("data", b"\x01\x02\0\x03 nothing known", "unknown kind of binary file"),
     ] {
         folder.write(name, content);
         for command in ["stats", "order --eye=1,2,3", "build -o out --cells 2", "verify"] {
@@ -153,7 +153,7 @@ fn copies_of_meshes_in_a_gltf_are_left_out_and_that_is_said() {
         let used = format!("{{\"extensionsUsed\":[\"{extension}\"],");
         folder.write("s.gltf", json.replacen('{', &used, 1));
         let run = folder.run("stats s.gltf");
-        let said = "copies by EXT_mesh_gpu_instancing skipped";
+        let said = "copies of meshes by EXT_mesh_gpu_instancing skipped";
         assert_eq!(run.err.contains(said), is_said, "{run:?}");
         run.good();
     }

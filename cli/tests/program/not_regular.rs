@@ -65,7 +65,7 @@ fn a_pipe_in_place_of_a_scene_is_refused() {
         for command in commands {
             let message = refused_soon(&folder, &command.replace("SCENE", name));
             assert!(message.contains(name), "{command}: {message}");
-            let says = ["pipe", "regular file", "its tree is built already"];
+            let says = ["pipe", "regular file", "it contains a finished tree"];
             assert!(says.iter().any(|says| message.contains(says)), "{command}: {message}");
         }
     }

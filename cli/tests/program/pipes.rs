@@ -49,7 +49,7 @@ fn material_libraries_beside_standard_input_are_not_read_and_that_is_said() {
     let text = format!("mtllib m.mtl\nmtllib ../n.mtl\nusemtl red\n{CROSSING}");
     let output = folder.pipe("render - -o - --size 40x30 --notes", &text);
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("name the file to have the colours of m.mtl, ../n.mtl"), "{said}");
+    assert!(said.contains("name the file to use m.mtl, ../n.mtl"), "{said}");
     assert_eq!(said.matches("m.mtl").count(), 1, "{said}");
     let rgb = Picture::parse(&output.stdout).rgb;
     assert!(rgb.chunks_exact(3).all(|p| p[0] == p[1] && p[1] == p[2]));
@@ -63,7 +63,7 @@ fn bad_scenes_on_standard_input_are_refused() {
         ("order - --eye=0,0,1", "v 0 0 nan\nf 1 1 1\n", "standard input, line 1"),
         ("render - -o p.png", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "standard input: nothing"),
         ("stats -", "f 1 2 3\n", "standard input, line 1, face 0"),
-        ("demo -o -", "", "standard output: it cannot hold several files"),
+        ("demo -o -", "", "standard output: several files cannot go there"),
     ] {
         let message = Run::new(&folder.pipe(command, text)).refused();
         assert!(message.contains(problem), "{command}: {message}");

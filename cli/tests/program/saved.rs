@@ -98,7 +98,7 @@ fn a_tree_that_is_built_is_not_built_in_another_way() {
         "verify s.bsp --max-fragments 33554432",
     ] {
         let message = folder.run(command).refused();
-        assert!(message.contains("s.bsp: its tree is built already"), "{command}: {message}");
+        assert!(message.contains("s.bsp: it contains a finished tree"), "{command}: {message}");
     }
     assert_eq!(folder.files(), ["m.mtl", "s.bsp", "s.obj"]);
 }
@@ -167,13 +167,13 @@ fn files_that_are_not_right_are_refused_by_name() {
     };
     for (content, problem) in [
         (file[..at - 9].to_vec(), "truncated"),
-        (file[..at].to_vec(), "where its scene must be"),
+        (file[..at].to_vec(), "in the scene after the tree"),
         (file[..file.len() - 1].to_vec(), "truncated"),
         (with(at / 2, 1), "damaged"),
         (with(file.len() - 30, 4), "damaged"),
         (with(12, 1), "version 3"),
-        ([&file[..], b"more"].concat(), "more follows"),
-        ([&file[..at], &other[other_at..]].concat(), "not one of its scene"),
+        ([&file[..], b"more"].concat(), "data after the end of the scene"),
+        ([&file[..at], &other[other_at..]].concat(), "belongs to another scene"),
         (CROSSING.as_bytes().to_vec(), "not a binspace file"),
         (Vec::new(), "truncated"),
     ] {

@@ -96,7 +96,7 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
         (serde_json::from_str::<Value>(&run.good()).unwrap(), notes)
     };
     let (line, notes) = run("");
-    let said = "its coordinates are precise to 1e-6, so the tolerance is 4e-6, unless";
+    let said = "s.obj: coordinates are precise to 1e-6, so the tolerance is 4e-6; `--tolerance`";
     assert!(notes.contains(said), "{notes}");
     let tolerance = line["tolerance"].as_f64().unwrap();
     assert!((tolerance - 4e-6).abs() < 1e-15, "{line}");
@@ -104,7 +104,7 @@ fn the_decimals_of_a_file_decide_the_tolerance_unless_one_is_given() {
 
     let (line, notes) = run("--tolerance 0");
     assert!(!notes.contains("precise to"), "{notes}");
-    assert!(notes.contains("with four corners or more are bent by at most"), "{notes}");
+    assert!(notes.contains("with four or more corners are non-planar by at most"), "{notes}");
     assert_eq!((line["tolerance"].as_f64(), line["flattened"].as_u64()), (Some(0.0), Some(0)));
     let bent_by = line["bent_by"].as_f64().unwrap();
     assert!(line["bent"].as_u64() >= Some(6) && bent_by > 0.0 && bent_by < 2e-6, "{line}");
@@ -123,23 +123,24 @@ fn quads_that_a_coarse_rounding_bends_are_noted_with_a_tolerance_that_helps() {
         let (bent, bent_by) = (line["bent"].as_u64().unwrap(), line["bent_by"].as_f64().unwrap());
         let unit = 10f64.powi(-(places as i32));
         assert!(bent >= 6 && bent_by < 2.0 * unit, "{places}: {line}");
-        let said = format!("{bent} of 10 faces with four corners or more are bent by at most");
+        let said =
+            format!("{bent} of 10 faces with four or more corners are non-planar by at most");
         assert!(notes.contains(&said), "{places}: {notes}");
         let tolerance = notes.split('`').find(|part| part.starts_with("--tolerance")).unwrap();
         let run = folder.run(&format!("stats s.obj --json {tolerance}"));
-        assert!(!run.err.contains("are bent"), "{places}: {}", run.err);
+        assert!(!run.err.contains("are non-planar"), "{places}: {}", run.err);
         let line: Value = serde_json::from_str(&run.good()).unwrap();
         assert_eq!((line["bent"].as_u64(), line["triangulated"].as_u64()), (Some(0), Some(0)));
     }
 }
 
-/// Quads that are bent on purpose are no rounding's.
+/// Quads that are non-planar on purpose are no rounding's.
 #[test]
 fn quads_that_are_bent_by_more_than_a_rounding_are_not_noted() {
     let folder = Folder::new("stats_saddle");
     folder.write("s.obj", "v 0 0 0.00\nv 1 0 0.25\nv 1 1 0\nv 0 1 0.25\nf 1 2 3 4\n");
     let run = folder.run("stats s.obj --json");
-    assert!(!run.err.contains("are bent"), "{}", run.err);
+    assert!(!run.err.contains("are non-planar"), "{}", run.err);
     let line: Value = serde_json::from_str(&run.good()).unwrap();
     assert_eq!((line["bent"].as_u64(), line["triangulated"].as_u64()), (Some(0), Some(1)));
 }

@@ -55,7 +55,7 @@ impl Svg {
         Self { paths, lines, text: text.to_owned() }
     }
 
-    /// A viewer's picture, one sample a pixel at its centre.
+    /// A viewer's picture, one sample per pixel at its centre.
     pub(crate) fn picture(&self) -> Picture {
         self.rendered(ShapeRendering::CrispEdges)
     }

@@ -64,13 +64,13 @@ fn a_scene_without_area_is_not_called_right() {
     folder.write("s.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     for command in ["verify s.obj", "order s.obj --eye=0,0,1", "render s.obj -o s.png"] {
         let message = folder.run(&format!("{command} --notes")).refused();
-        assert!(message.contains("s.obj: nothing is left to draw"), "{message}");
+        assert!(message.contains("s.obj: nothing to draw"), "{message}");
         assert!(message.contains("1 face without area dropped: face 0 (line 4)"), "{message}");
     }
     assert_eq!(folder.files(), ["s.obj"]);
     // Everything that can be counted is counted.
     let run = folder.run("stats s.obj --json --notes");
     assert!(run.err.contains("1 face without area dropped: face 0 (line 4)"), "{run:?}");
-    assert!(run.err.contains("s.obj: nothing is left to draw"), "{run:?}");
+    assert!(run.err.contains("s.obj: nothing to draw"), "{run:?}");
     assert!(run.good().contains("\"dropped\":1"));
 }

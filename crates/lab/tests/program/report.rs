@@ -140,7 +140,7 @@ fn a_scene_without_area_is_refused() {
     let folder = Folder::new("report_empty");
     folder.write("s.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     let message = folder.run("report --family gap s.obj -o out").refused();
-    assert!(message.contains("s.obj: nothing is left to draw"), "{message}");
+    assert!(message.contains("s.obj: nothing to draw"), "{message}");
     assert!(message.contains("1 face without area dropped: face 0 (line 4)"), "{message}");
     assert_eq!(folder.files(), ["s.obj"]);
 }
