@@ -14,26 +14,40 @@ pub(crate) fn map<T: Send, U: Send, E: Send>(
     // A single item needs no other thread, and waking a thread takes time.
     #[cfg(feature = "parallel")]
     if items.len() >= 2 && are_running() {
-        use rayon::prelude::*;
         use std::sync::atomic::{AtomicUsize, Ordering};
+        use std::sync::{Mutex, PoisonError};
 
         // The smallest number of an item that has failed. Items with smaller numbers are never skipped, so
         // the first error is among the results.
         let failed = AtomicUsize::new(usize::MAX);
-        let result = |(number, item)| {
+        let places: Vec<_> = items.into_iter().map(|item| Mutex::new((Some(item), None))).collect();
+        for_each_number(places.len(), &|number| {
             if failed.load(Ordering::Relaxed) < number {
-                return None;
+                return;
             }
-            let result = function(item);
-            if result.is_err() {
+            // Each lock is taken once.
+            let mut place = places[number].lock().unwrap_or_else(PoisonError::into_inner);
+            let result = place.0.take().map(&function);
+            if let Some(Err(_)) = result {
                 failed.fetch_min(number, Ordering::Relaxed);
             }
-            Some(result)
-        };
-        let results: Vec<_> = items.into_par_iter().enumerate().map(result).collect();
-        return results.into_iter().flatten().collect();
+            place.1 = result;
+        });
+        let results = places
+            .into_iter()
+            .map(|place| place.into_inner().unwrap_or_else(PoisonError::into_inner).1);
+        return results.flatten().collect();
     }
     items.into_iter().map(function).collect()
+}
+
+/// Calls a function with each number below `count`, on all threads. The machinery of rayon is compiled once for
+/// all functions.
+#[cfg(feature = "parallel")]
+fn for_each_number(count: usize, function: &(dyn Fn(usize) + Sync)) {
+    use rayon::prelude::*;
+
+    (0..count).into_par_iter().for_each(function);
 }
 
 /// Calls `here` on this thread and `other` on a second thread at the same time, if waking a thread is worth

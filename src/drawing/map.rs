@@ -401,9 +401,11 @@ pub(super) fn sort_by<T>(
     watch: &Watch<'_>,
     compare: impl Fn(&T, &T) -> Ordering,
 ) -> Result<(), Error> {
+    // The sort is compiled once for each type of item, not for each function: it is long.
+    let compare: &dyn Fn(&T, &T) -> Ordering = &compare;
     for part in list.chunks_mut(SORTED_AT_ONCE) {
         watch.work(part.len() * SORTED)?;
-        part.sort_by(&compare);
+        part.sort_by(compare);
     }
     if list.len() > SORTED_AT_ONCE {
         list.sort_by(compare);
