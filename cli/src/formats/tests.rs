@@ -633,6 +633,7 @@ fn files_of_other_programs_are_named() {
         (b"FORM\0\0\x01\0LWO2", "LightWave"),
         (b"MM\x08\0\0\0\x02\0", "3DS"),
         (b"{\"a\": 1}", "JSON"),
+        (b"4OFF\n4 4 6\n", "four coordinates"),
         (b"\xff\xfe<\0?\0x\0m\0l\0>\0<\0X\x003\0D\0>\0", "X3D"),
     ] {
         assert!(matches!(kind(beginning), Kind::Other(found) if found.contains(name)), "{name}");
