@@ -1,7 +1,7 @@
 //! Files that are not read, by how they begin, so that messages can name them.
 
 /// The kind of files that begin with these bytes.
-const BEGINNINGS: [(&[u8], &str); 31] = [
+const BEGINNINGS: [(&[u8], &str); 33] = [
     (b"ISO-10303-21", "a STEP or IFC file"),
     (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
     (b"\x1f\x8b", "compressed by gzip: unpack it (`gunzip -c FILE | binspace … -`)"),
@@ -23,6 +23,8 @@ const BEGINNINGS: [(&[u8], &str); 31] = [
     (b"LWSC", "a LightWave scene"),
     (b"*3DSMAX", "an ASE file, as 3ds Max writes"),
     (b"AC3D", "an AC3D file"),
+    (b"4OFF", "an OFF file with four coordinates for each vertex"),
+    (b"nOFF", "an OFF file with another number of coordinates than three"),
     (b"DBRep_DrawableShape", "a BREP file"),
     (b"LASF", "a LAS point cloud"),
     (b"# .PCD", "a PCD point cloud"),

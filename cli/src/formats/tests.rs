@@ -472,25 +472,27 @@ fn sparse_values_replace_others() {
     let mut buffer = little([corners[0], [0.0; 3], corners[2]].concat());
     // Its number in 16 bits, and itself.
     buffer.extend([1, 0, 0, 0]);
-    buffer.extend(little(corners[1]));
-    let file = |count: usize, base: &str| {
+    buffer.extend(little([corners[1], [0.0; 3]].concat()));
+    // The lengths of the numbers and of the values, in bytes.
+    let file = |count: usize, base: &str, [numbers, values]: [usize; 2]| {
         format!(
             r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
             "accessors":[{{{base}"componentType":5126,"count":3,"type":"VEC3","sparse":{{"count":{count},
             "indices":{{"bufferView":1,"componentType":5123}},"values":{{"bufferView":2}}}}}}],
-            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":2}},
-            {{"buffer":0,"byteOffset":40,"byteLength":12}}],
-            "buffers":[{{"uri":"data:;base64,{}","byteLength":52}}]}}"#,
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{numbers}}},
+            {{"buffer":0,"byteOffset":40,"byteLength":{values}}}],
+            "buffers":[{{"uri":"data:;base64,{}","byteLength":64}}]}}"#,
             STANDARD.encode(&buffer)
         )
     };
     let base = "\"bufferView\":0,";
-    let scene = read(MeshKind::Gltf, file(1, base).as_bytes()).unwrap();
+    let scene = read(MeshKind::Gltf, file(1, base, [2, 12]).as_bytes()).unwrap();
     assert_eq!(scene.polygon(0), corners.map(|corner| DVec3::from(corner.map(f64::from))));
     for (file, problem) in [
-        (file(2, base), "accessor 0 (from 0): its sparse values do not fit into their buffer"),
-        (file(1, ""), "accessor 0 (from 0): it has no buffer view"),
+        (file(2, base, [2, 24]), "accessor 0 (from 0): its sparse values do not fit"),
+        (file(2, base, [4, 12]), "accessor 0 (from 0): its sparse values do not fit"),
+        (file(1, "", [2, 12]), "accessor 0 (from 0): it has no buffer view"),
     ] {
         let message = read(MeshKind::Gltf, file.as_bytes()).unwrap_err();
         assert!(message.contains(problem), "{message}");
@@ -633,6 +635,7 @@ fn files_of_other_programs_are_named() {
         (b"FORM\0\0\x01\0LWO2", "LightWave"),
         (b"MM\x08\0\0\0\x02\0", "3DS"),
         (b"{\"a\": 1}", "JSON"),
+        (b"4OFF\n4 4 6\n", "four coordinates"),
         (b"\xff\xfe<\0?\0x\0m\0l\0>\0<\0X\x003\0D\0>\0", "X3D"),
     ] {
         assert!(matches!(kind(beginning), Kind::Other(found) if found.contains(name)), "{name}");

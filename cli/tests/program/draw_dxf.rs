@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use crate::draw::figures;
-use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
+use crate::draw_tex::{CARDS, CARDS_MATERIALS, CARDS_VIEW};
+use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 /// A file: its extent, the dashes and gaps of each layer, and its lines.

@@ -97,12 +97,16 @@ fn options_that_do_not_fit_are_refused() {
     write_scene(&folder, 3);
     for (options, expected) in [
         ("-o a.pdf --seams plus-lighter", "works only in an SVG: use `--seams trap`"),
+        ("-o a.svg --seams plus-lighter --translucent", "no hidden ones: omit --translucent, or"),
         ("-o a.svg --seams some", "--seams"),
     ] {
         let message = folder.run(&format!("draw s.obj {options}")).refused();
         assert!(message.contains(expected), "{options}: {message}");
     }
     assert_eq!(folder.files(), ["m.mtl", "s.obj"]);
+    // Neither matters to lines, or to pixels.
+    folder.run("draw s.obj -o l.svg --seams plus-lighter --translucent --lines").good();
+    folder.run("draw s.obj -o a.png --seams plus-lighter --translucent").good();
     // Lines above them are visible lines.
     folder.run("draw s.obj -o a.svg --translucent --edges all --hidden dashed").good();
     let svg = Svg::read(&folder.path("a.svg"));

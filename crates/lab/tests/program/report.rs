@@ -128,7 +128,7 @@ fn scenes_come_from_standard_input_and_from_trees_too() {
     assert!(report.contains("standard input"), "{report}");
     for (command, problem) in [
         ("report - - -o s", "standard input: it can be read only once"),
-        ("report -o -", "standard output: it cannot hold several files"),
+        ("report -o -", "standard output: several files cannot go there"),
     ] {
         assert!(run(command).refused().contains(problem), "{command}");
     }
