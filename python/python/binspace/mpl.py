@@ -463,6 +463,14 @@ def _of_scatter(axes, artist):
     return source
 
 
+def _of_patches(axes, artist):
+    source = _of_scatter(axes, artist)
+    if len(source.points):
+        source.point_rows = np.arange(max(len(source.points), len(artist.get_paths())))
+        source.points = source.points[source.point_rows % len(source.points)]
+    return source
+
+
 def _of_text(axes, artist):
     source = _Source(artist)
     if artist.get_text():
@@ -475,6 +483,7 @@ _KINDS = [
     (art3d.Poly3DCollection, _of_polygons),
     (art3d.Line3DCollection, _of_segments),
     (art3d.Path3DCollection, _of_scatter),
+    (art3d.Patch3DCollection, _of_patches),
     (art3d.Line3D, _of_line),
     (art3d.Patch3D, _of_patch),
     (art3d.Text3D, _of_text),
@@ -484,6 +493,9 @@ if hasattr(art3d, "Collection3D"):
 
 
 def _kind(artist):
+    if isinstance(artist, art3d.Patch3DCollection) and artist.get_offset_transform() != artist.axes.transData:
+        # The patches are not at points in space.
+        return None
     return next((gather for kind, gather in _KINDS if isinstance(artist, kind)), None)
 
 
@@ -643,7 +655,10 @@ class _Built:
 def _are_equal(some, others):
     """Whether arrays, or None, are equal one by one."""
     return all(
-        a is b or (a is not None and b is not None and np.shape(a) == np.shape(b) and np.array_equal(a, b, equal_nan=True))
+        a is b
+        or (a is not None and b is not None)
+        # The first comparison is fast, and enough without NaN.
+        and (np.array_equal(a, b) or np.array_equal(a, b, equal_nan=True))
         for a, b in zip(some, others)
     )
 
@@ -765,6 +780,8 @@ class _Shown:
     def sort_markers(self, depths):
         """Sorts markers that follow one another by depth: those that are in one plane with the eye overlap as well."""
         is_marker = self.kinds == 2
+        if not is_marker.any():
+            return
         run = np.cumsum(np.append(True, ~(is_marker[1:] & is_marker[:-1]))[: len(is_marker)])
         depth = np.zeros(len(run))
         depth[is_marker] = depths[self.marker[self.numbers[is_marker]]]
@@ -777,17 +794,16 @@ class _Shown:
 
 
 def _runs(built, order, view, may_join):
-    """Where the fragments of each polygon begin that follow one another in an order, if the polygon may be joined. Each of
-    the others, and each part of a line and each point, begins a run."""
+    """Where the fragments of each polygon begin that follow one another in an order and show one side, if the polygon may be
+    joined: outlines of both sides may overlap. Each of the others, and each part of a line and each point, begins a run."""
     *normals, shift = built.planes
     eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
-    is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
-    fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
-    # Outlines of polygons that are not flat, and show both sides, may overlap themselves.
-    may_join = may_join & ((fronts == 0) | (fronts == built.counts))
-    polygon = np.append(built.polygon, np.full(len(built.pieces.number), -1))[order]
-    joined = np.append(may_join, False)[polygon]
-    continues = joined[1:] & (polygon[1:] == polygon[:-1])
+    # The polygon and the side of each fragment.
+    shown = 2 * built.polygon
+    shown[built.several] += sum(normal * part for normal, part in zip(normals, eye)) > shift
+    shown = np.append(shown, np.full(len(built.pieces.number), -1))[order]
+    joined = np.append(may_join, False)[shown >> 1]
+    continues = joined[1:] & (shown[1:] == shown[:-1])
     return np.flatnonzero(np.append(True, ~continues)[: len(order)])
 
 
@@ -984,7 +1000,7 @@ class _Drawn(_Shown):
 class _Looks:
     """How polygons are painted: a row for each."""
 
-    def __init__(self, parts):
+    def __init__(self, parts, hatches):
         def rows(values):
             chosen = [np.asarray(v)[r % len(v)] if len(v) else np.zeros((len(r), *np.shape(v)[1:])) for v, r in values]
             return np.concatenate(chosen) if chosen else None
@@ -995,7 +1011,7 @@ class _Looks:
         self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
         self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
         self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
-        self.hatches = np.array([s.hatches[row % len(s.hatches)] for s, r in parts for row in r], object)
+        self.hatch = rows([([hatches.index(hatch) for hatch in s.hatches], r) for s, r in parts]) if count else np.empty(0, int)
         self.widths = np.where(self.is_stroked, self.widths, 0.0)
         self.dashes = None
         if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
@@ -1044,7 +1060,8 @@ class _Composite(martist.Artist):
         markers = np.concatenate([source.points for source in sources] + [np.empty((0, 3))])
         self.marker_owner = np.repeat(np.arange(len(sources)), [len(source.points) for source in sources])
         self.marker_row = np.concatenate([source.point_rows for source in sources] + [np.empty(0, int)]).astype(int)
-        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
+        self.hatches = list(dict.fromkeys(hatch for source in sources for hatch in source.hatches))
+        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)], self.hatches)
         self.line_looks = _LineLooks(sources, self.line_owner, self.line_row)
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
@@ -1105,12 +1122,10 @@ class _Composite(martist.Artist):
         is_plain[is_plain] = ~self.looks.is_stroked[shown.polygon[numbers[is_plain]]]
         last = np.maximum.accumulate(np.where(is_plain, 0, np.arange(len(kinds))))
         style = np.where(alone, 0, style[last])
-        hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
-        hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
-        known = {}
-        hatch = np.array([known.setdefault(name, len(known)) for name in hatches], int)
+        hatch = np.array([self.hatches.index(source.hatches[0]) for source in sources] + [0])[owners]
+        hatch[kinds == 0] = self.looks.hatch[shown.polygon[numbers[kinds == 0]]]
         key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
-        key += (len(groups) + 3 * len(sources) + 3) * (hatch + (len(known) + 1) * style)
+        key += (len(groups) + 3 * len(sources) + 3) * (hatch + len(self.hatches) * style)
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
@@ -1118,7 +1133,7 @@ class _Composite(martist.Artist):
             if not alone[start]:
                 template = sources[owners[start + np.argmin(is_plain[start:end])]].artist
                 batch = self._paths(template, shown, kinds[start:end], chosen, owners[start:end], place)
-                batch.set_hatch(hatches[start])
+                batch.set_hatch(self.hatches[hatch[start]])
                 batch.draw(renderer)
             elif kinds[start] == 1:
                 self._paint_line(renderer, source, shown, chosen, place)
@@ -1128,7 +1143,7 @@ class _Composite(martist.Artist):
                 copy.set_linestyle("None")
                 copy.set_markevery(None)
                 copy.draw(renderer)
-            elif isinstance(source.artist, art3d.Path3DCollection):
+            elif isinstance(source.artist, (art3d.Path3DCollection, art3d.Patch3DCollection)):
                 rows = self.marker_row[shown.marker[chosen]]
                 _paint_scatter(renderer, source.artist, rows, shown.at[chosen])
             else:
@@ -1308,10 +1323,11 @@ def _take_style(copy, artist, kind=martist.Artist):
 
 def _paint_scatter(renderer, artist, rows, at):
     count = len(artist._offsets3d[0])
+    is_sorted = isinstance(artist, art3d.Path3DCollection)
 
     def unsorted(colors):
         """Colours in the order of the points, not in that of their depths."""
-        if len(colors) != count or count < 2:
+        if len(colors) != count or count < 2 or not is_sorted:
             return colors
         result = np.empty_like(colors)
         result[artist._z_markers_idx] = colors
@@ -1326,9 +1342,11 @@ def _paint_scatter(renderer, artist, rows, at):
 
     face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
     paths = artist.get_paths()
-    sizes, widths = np.atleast_1d(artist._sizes3d), np.atleast_1d(artist._linewidths3d)
-    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=of_rows(sizes))
+    sizes = of_rows(np.atleast_1d(artist._sizes3d)) if is_sorted else None
+    widths = np.atleast_1d(artist._linewidths3d if is_sorted else artist.get_linewidth())
+    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=sizes)
     _take_style(batch, artist)
+    batch.set_transform(_IDENTITY if is_sorted else artist.get_transform())
     batch.set_facecolor(np.array(of_rows(face)).reshape(-1, 4))
     batch.set_edgecolor(np.array(of_rows(edge)).reshape(-1, 4))
     batch._linewidths = of_rows(widths)
