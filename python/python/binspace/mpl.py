@@ -707,6 +707,14 @@ def _closed(offsets):
     return corners, codes, closed
 
 
+def _without_repeats(places, offsets):
+    """The corners of outlines, and where each begins, without those that are at the place of the corner before."""
+    is_other = (np.abs(np.diff(places, axis=0)) > _JOINED).any(1)
+    keep = np.append(True, is_other)[: len(places)]
+    keep[offsets[:-1]] = True
+    return places[keep], np.append(0, np.cumsum(keep))[offsets]
+
+
 class _Outline(Path):
     """A path whose attributes are read without calls: renderers read those of each path of a collection."""
 
@@ -936,8 +944,9 @@ class _Drawn(_Shown):
         if traps.any():
             # Polygons below would show through seams between faces.
             filled = drawing._trapped(traps.tolist())
-            corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
-            paths = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
+            places, of_outlines = _without_repeats(place(filled.corners), filled.outline_offsets.astype(np.int64))
+            corners, codes, closed = _closed(of_outlines)
+            paths = _paths(places[corners], codes, closed[filled.path_offsets])
             self.is_whole[traps[self.polygon]] = False
         else:
             corners, codes, closed = _closed(self.of_outlines)
@@ -1134,6 +1143,9 @@ class _Composite(martist.Artist):
                 template = sources[owners[start + np.argmin(is_plain[start:end])]].artist
                 batch = self._paths(template, shown, kinds[start:end], chosen, owners[start:end], place)
                 batch.set_hatch(self.hatches[hatch[start]])
+                if not batch.get_hatch():
+                    # matplotlib would check a colour for each path.
+                    batch._hatchcolors = np.empty((0, 4))
                 batch.draw(renderer)
             elif kinds[start] == 1:
                 self._paint_line(renderer, source, shown, chosen, place)
