@@ -855,8 +855,7 @@ class _Ordered(_Shown):
             self.near[area] = self._before_eye(order[self.first_of_area[area]], matrix)
             self.fills[area] = self.near[area][0]
         parts = np.flatnonzero(~is_complete & ~is_near[self.polygon])
-        for area, path in zip(parts.tolist(), self._parts(parts)):
-            self.fills[area] = path
+        self.fills[parts] = np.fromiter(self._parts(parts), object, len(parts))
         ends = built.pieces.ends
         self.ends = place(ends.reshape(-1, 3)).reshape(-1, 2, 2)
         self.at = self.ends[:, 0]
