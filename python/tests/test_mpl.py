@@ -136,6 +136,15 @@ def one_scatter(ax):
     ax.scatter(np.cos(t), np.sin(t), t, c=t, s=5 * t + 4, marker="^", edgecolors="k")
 
 
+def some_patches(ax, offsets=((0, 0), (1, 1), (0, 1)), zs=(0, 1, 0), **options):
+    shapes = [matplotlib.patches.Circle((0, 0), 20), matplotlib.patches.Rectangle((-30, -9), 60, 18, angle=30)]
+    options = {"facecolors": ["C1", "C2", "C3"], "edgecolors": "k", "linewidths": 2} | options
+    patches = matplotlib.collections.PatchCollection(
+        shapes, offsets=offsets, offset_transform=ax.transData, transform=matplotlib.transforms.IdentityTransform(), **options
+    )
+    ax.add_collection3d(patches, zs=zs)
+
+
 def one_wireframe(ax):
     x, y = np.meshgrid(np.linspace(-2, 2, 9), np.linspace(-2, 2, 9))
     ax.plot_wireframe(x, y, x + y, color="C1")
@@ -173,7 +182,7 @@ def a_text(ax):
 
 
 @pytest.mark.parametrize(
-    "draw", [one_surface, one_line, one_scatter, one_wireframe, bars, contours, hatches, noise, a_patch, a_text]
+    "draw", [one_surface, one_line, one_scatter, some_patches, one_wireframe, bars, contours, hatches, noise, a_patch, a_text]
 )
 def test_what_mplot3d_draws_right_is_the_same(draw, way):
     before, ours = picture(draw, "3d"), picture(draw, "exact3d")
@@ -406,6 +415,21 @@ def test_overlapping_markers_are_sorted_by_depth(way):
     for azim in (-50, 130):
         pictures = [picture(draw, "exact3d", azim=azim, is_reversed=is_reversed) for is_reversed in (False, True)]
         assert np.array_equal(*pictures) and np.array_equal(pictures[0], picture(draw, "3d", azim=azim))
+
+
+def test_patches_are_before_and_behind_surfaces(way):
+    """Patches at offsets in space, in one order with a surface between them."""
+    figure = plt.figure(figsize=(4, 4), dpi=80)
+    ax = figure.add_subplot(projection="exact3d")
+    x, y = np.meshgrid(np.linspace(-2, 2, 5), np.linspace(-2, 2, 5))
+    ax.plot_surface(x, y, 0 * x, color="#0000ff", shade=False)
+    some_patches(ax, [(0.5, 0.5), (-0.5, -0.5)], [0.5, -0.5], facecolors="#ff0000", linewidths=0)
+    ax.set_zlim(-1, 1)
+    figure.canvas.draw()
+    image = np.asarray(figure.canvas.buffer_rgba())[..., :3]
+    pixels, _ = compare.View(ax)(np.array([[0.5, 0.5, 0.5], [-0.5, -0.5, -0.5]]))
+    columns, rows = np.floor(pixels).astype(int).T
+    assert image[rows, columns].tolist() == [[255, 0, 0], [0, 0, 255]]
 
 
 @pytest.mark.skipif(VERSION < (3, 10), reason="axlim_clip is from matplotlib 3.10 on")

@@ -464,6 +464,14 @@ def _of_scatter(axes, artist):
     return source
 
 
+def _of_patches(axes, artist):
+    source = _of_scatter(axes, artist)
+    if len(source.points):
+        source.point_rows = np.arange(max(len(source.points), len(artist.get_paths())))
+        source.points = source.points[source.point_rows % len(source.points)]
+    return source
+
+
 def _of_text(axes, artist):
     source = _Source(artist)
     if artist.get_text():
@@ -476,6 +484,7 @@ _KINDS = [
     (art3d.Poly3DCollection, _of_polygons),
     (art3d.Line3DCollection, _of_segments),
     (art3d.Path3DCollection, _of_scatter),
+    (art3d.Patch3DCollection, _of_patches),
     (art3d.Line3D, _of_line),
     (art3d.Patch3D, _of_patch),
     (art3d.Text3D, _of_text),
@@ -485,6 +494,9 @@ if hasattr(art3d, "Collection3D"):
 
 
 def _kind(artist):
+    if isinstance(artist, art3d.Patch3DCollection) and artist.get_offset_transform() != artist.axes.transData:
+        # The patches are not at points in space.
+        return None
     return next((gather for kind, gather in _KINDS if isinstance(artist, kind)), None)
 
 
@@ -644,7 +656,10 @@ class _Built:
 def _are_equal(some, others):
     """Returns whether each array (or None) equals its counterpart."""
     return all(
-        a is b or (a is not None and b is not None and np.shape(a) == np.shape(b) and np.array_equal(a, b, equal_nan=True))
+        a is b
+        or (a is not None and b is not None)
+        # The first comparison is fast, and enough without NaN.
+        and (np.array_equal(a, b) or np.array_equal(a, b, equal_nan=True))
         for a, b in zip(some, others)
     )
 
@@ -691,6 +706,14 @@ def _closed(offsets):
     codes[closed[:-1]] = Path.MOVETO
     codes[closed[1:] - 1] = Path.CLOSEPOLY
     return corners, codes, closed
+
+
+def _without_repeats(places, offsets):
+    """Returns the corners of outlines, and where each outline begins, without corners that repeat the previous one."""
+    is_other = (np.abs(np.diff(places, axis=0)) > _JOINED).any(1)
+    keep = np.append(True, is_other)[: len(places)]
+    keep[offsets[:-1]] = True
+    return places[keep], np.append(0, np.cumsum(keep))[offsets]
 
 
 class _Outline(Path):
@@ -768,6 +791,8 @@ class _Shown:
     def sort_markers(self, depths):
         """Sorts consecutive markers by depth, because markers in one plane with the eye can overlap too."""
         is_marker = self.kinds == 2
+        if not is_marker.any():
+            return
         run = np.cumsum(np.append(True, ~(is_marker[1:] & is_marker[:-1]))[: len(is_marker)])
         depth = np.zeros(len(run))
         depth[is_marker] = depths[self.marker[self.numbers[is_marker]]]
@@ -780,17 +805,17 @@ class _Shown:
 
 
 def _runs(built, order, view, may_join):
-    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon that may be joined form a
-    run. Each other fragment, part of a line, and point is a run by itself."""
+    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon form a run if the polygon
+    may be joined and they show the same side: outlines of two sides may overlap. Each other fragment, part of a line, and
+    point is a run by itself."""
     *normals, shift = built.planes
     eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
-    is_front = sum(normal * part for normal, part in zip(normals, eye)) > shift
-    fronts = np.bincount(built.polygon[built.several[is_front]], minlength=len(built.counts))
-    # If a polygon is not flat and shows both sides, its outline may overlap itself.
-    may_join = may_join & ((fronts == 0) | (fronts == built.counts))
-    polygon = np.append(built.polygon, np.full(len(built.pieces.number), -1))[order]
-    joined = np.append(may_join, False)[polygon]
-    continues = joined[1:] & (polygon[1:] == polygon[:-1])
+    # The polygon and the side of each fragment.
+    shown = 2 * built.polygon
+    shown[built.several] += sum(normal * part for normal, part in zip(normals, eye)) > shift
+    shown = np.append(shown, np.full(len(built.pieces.number), -1))[order]
+    joined = np.append(may_join, False)[shown >> 1]
+    continues = joined[1:] & (shown[1:] == shown[:-1])
     return np.flatnonzero(np.append(True, ~continues)[: len(order)])
 
 
@@ -834,8 +859,7 @@ class _Ordered(_Shown):
             self.near[area] = self._before_eye(order[self.first_of_area[area]], matrix)
             self.fills[area] = self.near[area][0]
         parts = np.flatnonzero(~is_complete & ~is_near[self.polygon])
-        for area, path in zip(parts.tolist(), self._parts(parts)):
-            self.fills[area] = path
+        self.fills[parts] = np.fromiter(self._parts(parts), object, len(parts))
         ends = built.pieces.ends
         self.ends = place(ends.reshape(-1, 3)).reshape(-1, 2, 2)
         self.at = self.ends[:, 0]
@@ -923,8 +947,9 @@ class _Drawn(_Shown):
         if traps.any():
             # Polygons below would show through seams between faces.
             filled = drawing._trapped(traps.tolist())
-            corners, codes, closed = _closed(filled.outline_offsets.astype(np.int64))
-            paths = _paths(place(filled.corners)[corners], codes, closed[filled.path_offsets])
+            places, of_outlines = _without_repeats(place(filled.corners), filled.outline_offsets.astype(np.int64))
+            corners, codes, closed = _closed(of_outlines)
+            paths = _paths(places[corners], codes, closed[filled.path_offsets])
             self.is_whole[traps[self.polygon]] = False
         else:
             corners, codes, closed = _closed(self.of_outlines)
@@ -987,7 +1012,7 @@ class _Drawn(_Shown):
 class _Looks:
     """The styles of polygons: a row for each."""
 
-    def __init__(self, parts):
+    def __init__(self, parts, hatches):
         def rows(values):
             chosen = [np.asarray(v)[r % len(v)] if len(v) else np.zeros((len(r), *np.shape(v)[1:])) for v, r in values]
             return np.concatenate(chosen) if chosen else None
@@ -998,7 +1023,7 @@ class _Looks:
         self.widths = rows([(s.widths, r) for s, r in parts]) if count else np.empty(0)
         self.smooth = rows([(s.smooth, r) for s, r in parts]).astype(bool) if count else np.empty(0, bool)
         self.is_stroked = (self.edge[:, 3] > 0) & (self.widths > 0)
-        self.hatches = np.array([s.hatches[row % len(s.hatches)] for s, r in parts for row in r], object)
+        self.hatch = rows([([hatches.index(hatch) for hatch in s.hatches], r) for s, r in parts]) if count else np.empty(0, int)
         self.widths = np.where(self.is_stroked, self.widths, 0.0)
         self.dashes = None
         if any(pattern is not None for s, _ in parts for _, pattern in s.dashes):
@@ -1047,7 +1072,8 @@ class _Composite(martist.Artist):
         markers = np.concatenate([source.points for source in sources] + [np.empty((0, 3))])
         self.marker_owner = np.repeat(np.arange(len(sources)), [len(source.points) for source in sources])
         self.marker_row = np.concatenate([source.point_rows for source in sources] + [np.empty(0, int)]).astype(int)
-        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)])
+        self.hatches = list(dict.fromkeys(hatch for source in sources for hatch in source.hatches))
+        self.looks = _Looks([(sources[i], p.rows) for i, p in areas if len(p.rows)], self.hatches)
         self.line_looks = _LineLooks(sources, self.line_owner, self.line_row)
         alpha = self.looks.face[:, 3]
         is_opaque = bool((alpha >= 1).all())
@@ -1108,12 +1134,10 @@ class _Composite(martist.Artist):
         is_plain[is_plain] = ~self.looks.is_stroked[shown.polygon[numbers[is_plain]]]
         last = np.maximum.accumulate(np.where(is_plain, 0, np.arange(len(kinds))))
         style = np.where(alone, 0, style[last])
-        hatches = np.array([source.hatches[0] for source in sources] + [None], object)[owners]
-        hatches[kinds == 0] = self.looks.hatches[shown.polygon[numbers[kinds == 0]]]
-        known = {}
-        hatch = np.array([known.setdefault(name, len(known)) for name in hatches], int)
+        hatch = np.array([self.hatches.index(source.hatches[0]) for source in sources] + [0])[owners]
+        hatch[kinds == 0] = self.looks.hatch[shown.polygon[numbers[kinds == 0]]]
         key = np.where(alone, len(groups) + 3 * owners + kinds, group[owners])
-        key += (len(groups) + 3 * len(sources) + 3) * (hatch + (len(known) + 1) * style)
+        key += (len(groups) + 3 * len(sources) + 3) * (hatch + len(self.hatches) * style)
         starts = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else []
         for start, end in zip(starts, np.append(starts[1:], len(key))):
             source = sources[owners[start]]
@@ -1121,7 +1145,10 @@ class _Composite(martist.Artist):
             if not alone[start]:
                 template = sources[owners[start + np.argmin(is_plain[start:end])]].artist
                 batch = self._paths(template, shown, kinds[start:end], chosen, owners[start:end], place)
-                batch.set_hatch(hatches[start])
+                batch.set_hatch(self.hatches[hatch[start]])
+                if not batch.get_hatch():
+                    # matplotlib would check a colour for each path.
+                    batch._hatchcolors = np.empty((0, 4))
                 batch.draw(renderer)
             elif kinds[start] == 1:
                 self._paint_line(renderer, source, shown, chosen, place)
@@ -1131,7 +1158,7 @@ class _Composite(martist.Artist):
                 copy.set_linestyle("None")
                 copy.set_markevery(None)
                 copy.draw(renderer)
-            elif isinstance(source.artist, art3d.Path3DCollection):
+            elif isinstance(source.artist, (art3d.Path3DCollection, art3d.Patch3DCollection)):
                 rows = self.marker_row[shown.marker[chosen]]
                 _paint_scatter(renderer, source.artist, rows, shown.at[chosen])
             else:
@@ -1311,10 +1338,11 @@ def _take_style(copy, artist, kind=martist.Artist):
 
 def _paint_scatter(renderer, artist, rows, at):
     count = len(artist._offsets3d[0])
+    is_sorted = isinstance(artist, art3d.Path3DCollection)
 
     def unsorted(colors):
         """Returns colours in the order of the points. mplot3d has sorted them by depth."""
-        if len(colors) != count or count < 2:
+        if len(colors) != count or count < 2 or not is_sorted:
             return colors
         result = np.empty_like(colors)
         result[artist._z_markers_idx] = colors
@@ -1329,9 +1357,11 @@ def _paint_scatter(renderer, artist, rows, at):
 
     face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
     paths = artist.get_paths()
-    sizes, widths = np.atleast_1d(artist._sizes3d), np.atleast_1d(artist._linewidths3d)
-    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=of_rows(sizes))
+    sizes = of_rows(np.atleast_1d(artist._sizes3d)) if is_sorted else None
+    widths = np.atleast_1d(artist._linewidths3d if is_sorted else artist.get_linewidth())
+    batch = mcoll.PathCollection([paths[row % len(paths)] for row in rows] if len(paths) > 1 else paths, sizes=sizes)
     _take_style(batch, artist)
+    batch.set_transform(_IDENTITY if is_sorted else artist.get_transform())
     batch.set_facecolor(np.array(of_rows(face)).reshape(-1, 4))
     batch.set_edgecolor(np.array(of_rows(edge)).reshape(-1, 4))
     batch._linewidths = of_rows(widths)
