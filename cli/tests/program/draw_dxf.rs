@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use crate::draw::figures;
-use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
+use crate::draw::{CARDS, CARDS_MATERIALS, CARDS_VIEW, figures};
+use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 /// A file: its extent, the dashes and gaps of each layer, and its lines.

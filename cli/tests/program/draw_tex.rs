@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use crate::run::{CARDS, CARDS_MATERIALS, CARDS_VIEW, CROSSING, Folder};
+use crate::draw::{CARDS, CARDS_MATERIALS, CARDS_VIEW};
+use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 
 const BEGIN: &str = "\\begin{tikzpicture}[x=1bp,y=-1bp,line join=round]\n";
