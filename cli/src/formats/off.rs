@@ -88,21 +88,22 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
 
 /// Reads a binary file from behind its first line: numbers of 32 bits, big-endian.
 fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
-    let mut next = || -> Result<[u8; 4], &'static str> {
-        let (number, behind) = rest.split_first_chunk().ok_or("truncated")?;
+    let mut take = |count: usize| {
+        let (bytes, behind) = rest.split_at_checked(count.saturating_mul(4)).ok_or("truncated")?;
         rest = behind;
-        Ok(*number)
+        Ok::<_, &str>(bytes.as_chunks().0)
     };
-    let [vertices, faces, _] = [next()?, next()?, next()?].map(u32::from_be_bytes);
-    let mut precision = Precision::default();
-    let mut content = Content::new(name);
+    let whole = |&bytes: &[u8; 4]| u32::from_be_bytes(bytes) as usize;
+    let single = |&bytes: &[u8; 4]| f32::from_be_bytes(bytes);
+    let counts = take(3)?;
+    let [vertices, faces] = [whole(&counts[0]), whole(&counts[1])];
+    let (mut precision, mut content) = (Precision::default(), Content::new(name));
     let first_colour = 3 + if kind.has_normals { 3 } else { 0 };
     let behind_colours = first_colour + if kind.has_colours { 4 } else { 0 };
     let count = behind_colours + if kind.has_textures { 2 } else { 0 };
     for number in 0..vertices {
         let about = |problem: &str| format!("vertex {number} (from 0): {problem}");
-        let numbers = (0..count).map(|_| next().map(f32::from_be_bytes));
-        let numbers = numbers.collect::<Result<Vec<f32>, _>>().map_err(about)?;
+        let numbers: Vec<f32> = take(count).map_err(about)?.iter().map(single).collect();
         let mut coordinate = |axis: usize| precision.single(numbers[axis]);
         let (Some(x), Some(y), Some(z)) = (coordinate(0), coordinate(1), coordinate(2)) else {
             return Err(about("a coordinate is not a finite number"));
@@ -114,18 +115,16 @@ fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
     }
     for number in 0..faces {
         let about = |problem: &str| format!("face {number} (from 0): {problem}");
-        let mut corners = Vec::new();
-        for _ in 0..u32::from_be_bytes(next().map_err(about)?) {
-            let corner = u32::from_be_bytes(next().map_err(about)?) as usize;
-            if corner >= vertices as usize {
-                return Err(about(&format!("index {corner} is out of range: {vertices} vertices")));
-            }
-            corners.push(corner);
+        let mut list = || {
+            let count = whole(&take(1)?[0]);
+            take(count)
+        };
+        let corners: Vec<usize> = list().map_err(about)?.iter().map(whole).collect();
+        if let Some(corner) = corners.iter().find(|&&corner| corner >= vertices) {
+            return Err(about(&format!("index {corner} is out of range: {vertices} vertices")));
         }
-        let count = u32::from_be_bytes(next().map_err(about)?);
-        let numbers = (0..count).map(|_| next().map(f32::from_be_bytes));
-        let numbers = numbers.collect::<Result<Vec<f32>, _>>().map_err(about)?;
         // A single number is an index of a colour map.
+        let numbers: Vec<f32> = list().map_err(about)?.iter().map(single).collect();
         let own = match numbers[..] {
             [r, g, b] => Some([r, g, b, 1.0]),
             [r, g, b, opacity] => Some([r, g, b, opacity]),

@@ -18,6 +18,18 @@ pub(crate) const WHITE: [u8; 3] = [255; 3];
 /// it agree with it. Viewers round corners to 1/64 of a pixel or so.
 const SAMPLES: usize = 21;
 
+/// A green card of glass in front of a blue plate of 4 by 2 units, and behind the plate a red triangle that hides a
+/// smaller one.
+pub(crate) const CARDS: &str = "\
+mtllib cards.mtl\nusemtl blue\nv 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nf 1 2 3 4\n\
+usemtl glass\nv 1 0.5 1\nv 2 0.5 1\nv 2 1.5 1\nv 1 1.5 1\nf 5 6 7 8\n\
+usemtl red\nv 3 0.5 -1\nv 3.5 0.5 -1\nv 3.5 1.5 -1\nf 9 10 11\n\
+v 3.24 0.6 -2\nv 3.36 0.6 -2\nv 3.36 0.8 -2\nf 12 13 14\n";
+pub(crate) const CARDS_MATERIALS: &str =
+    "newmtl blue\nKd 0 0 1\nnewmtl glass\nKd 0 1 0\nd 0.4\nnewmtl red\nKd 1 0 0\n";
+/// A view of these from in front: a unit is 20 pixels, and the plate is 10 pixels from the left, and 5 from below.
+pub(crate) const CARDS_VIEW: &str = "cards.obj --direction=0,0,-1 --up y --margin 10 --size 100x50";
+
 /// A built-in scene and a camera.
 pub(crate) struct View {
     scene: Builtin,

@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use crate::draw::figures;
-use crate::draw_tex::{CARDS, CARDS_MATERIALS, CARDS_VIEW};
+use crate::draw::{CARDS, CARDS_MATERIALS, CARDS_VIEW, figures};
 use crate::run::{CROSSING, Folder};
 use crate::svg_picture::Svg;
 

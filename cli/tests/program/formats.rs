@@ -94,7 +94,7 @@ fn all_formats_have_the_same_order() {
     assert!(order("cells").good().lines().count() > 4);
     for scene in ["s.stl", "s.ply", "s.off", "s.gltf"] {
         let run = folder.run(&format!("verify {scene} --views 2 --size 40x30"));
-        assert!(!run.err.contains("z pointed up"), "{run:?}");
+        assert!(!run.err.contains("z points up"), "{run:?}");
         run.good();
     }
 }
