@@ -139,9 +139,9 @@ pub enum Hidden {
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
     /// have the edge do not count, but another face of a polygon that is not planar may be in front and
-    /// count. The number is at least 1, even if the edge of a shelf lies on the wall that hides the shelf.
-    /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
-    /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
+    /// count. `layers` is at least 1. Example: a shelf's edge touches the wall that hides the edge. Time and
+    /// memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The notion of
+    /// quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
 }
 

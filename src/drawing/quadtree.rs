@@ -36,12 +36,12 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles of this size, in steps, are not halved if long lists are divided afterwards: 2⁻⁴ of a pixel. Too
-/// small: tiles around a vertex of many faces are halved many times. Too large: many small pieces are in one
-/// tile.
+/// If the caller divides long lists itself, tiles of this size or smaller, in steps, are not halved: 2⁻⁴ of a
+/// pixel. Too small: tiles around a vertex of many faces are halved many times. Too large: many small pieces
+/// are in one tile.
 pub(super) const TINY: i64 = 1 << 20;
-/// Other tiles of this size, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small: tiles around common points
-/// are halved many times. Too large: long lists remain.
+/// For other callers, tiles of this size or smaller, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small:
+/// tiles around common points are halved many times. Too large: long lists remain.
 pub(super) const TINIEST: i64 = 1 << 6;
 
 /// The growth of the number of pieces by halving. When a tile is halved, its two parts together have more

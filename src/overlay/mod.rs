@@ -109,9 +109,9 @@ use crate::viewpoint::Ray;
 /// tree's. The tree's fragments keep their own order, with pieces between them.
 ///
 /// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
-/// nearer shape is painted later. There is one exception: if both shapes lie, within the tolerance, in one
-/// dividing plane that is seen edge-on, they are painted in the order of shapes in one plane (see below),
-/// whichever is nearer. Dividing planes are
+/// nearer shape is painted later. Exception: two shapes that lie, within the tolerance, in one dividing plane
+/// that is seen edge-on. They are painted polygons first, then lines in input order, then points, even if the
+/// first is nearer. Dividing planes are
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
@@ -128,9 +128,10 @@ use crate::viewpoint::Ray;
 /// an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut there, and a point at
 /// the cut is painted between the two parts.
 ///
-/// Between polygons, one rule differs: a point at a corner of a line is painted after both segments there, if
-/// the line has no point at the corners before and after. Closed lines and repeated corners follow the same
-/// rule. If more than two segments meet at a point, some segments may be painted after the point.
+/// Where no polygon is involved, a point at a corner of a line is painted after both adjoining segments,
+/// provided that no point lies at the line's previous or next corner. Closed lines and repeated corners
+/// follow the same rule. If more than two segments meet at a point, some segments may be painted after the
+/// point.
 ///
 /// The tolerance applies as for polygons:
 ///

@@ -40,7 +40,8 @@ impl BspTree {
     /// ```
     ///
     /// The first call sorts all edges, to check that the bodies are closed: O(n log n). Each call takes time
-    /// proportional to the number of boxes above the point.
+    /// proportional to the number of bounding boxes of fragments that a ray from the point in the direction
+    /// of +z meets.
     ///
     /// The winding number is the signed number of faces that a ray from the point crosses. A point-in-polygon
     /// test in the projection along the ray finds these faces. Where the ray meets an edge, the ray is moved

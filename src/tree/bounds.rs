@@ -60,16 +60,17 @@ impl BspTree {
 }
 
 impl Node<'_> {
-    /// Returns the bounding box `[low, high]` of all fragments on the node's plane and on its sides, in the
-    /// polygons' unit. It is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64`
-    /// on each side. O(1), but see [`BspTree::bounds`].
+    /// Returns the bounding box `[low, high]` of all fragments of the node's subtree, in the polygons' unit.
+    /// The box is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64` on each
+    /// side. O(1) after the tree's boxes are computed; the first call computes them in O(n) time
+    /// ([`BspTree::bounds`]).
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
     /// Returns the side that all fragments of the subtree show to a viewpoint: the exact [`Fragment::facing`]
-    /// of each fragment. `None` if the box and the normals of the fragments do not decide it. O(1), but see
-    /// [`BspTree::bounds`].
+    /// of each fragment. `None` if the box and the normals of the fragments do not decide the side. O(1)
+    /// after the tree's boxes are computed; the first call computes them in O(n) time ([`BspTree::bounds`]).
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));
@@ -385,11 +386,11 @@ pub(in crate::tree) struct Normals {
     high: [f32; 3],
 }
 
-/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this bound to it. With ε =
-/// 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is less
-/// than ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and a sum of more than 1 by ε / 2.
-/// So this is more than twice the error. Too small: a box may not contain the exact normal. Too large: fewer
-/// subtrees are decided at once.
+/// Bounds the total error of rounding a unit normal's coordinate to `f32` and then adding this constant. With
+/// ε = 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is
+/// less than ε / 1000. Rounding to `f32` moves a coordinate of at most 1 by ε / 4, and a sum of more than 1
+/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal. Too
+/// large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {

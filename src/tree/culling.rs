@@ -44,8 +44,9 @@ impl Culling {
     /// plane of a frustum. Only the first 32 planes are used. Testing only boxes is fast;
     /// [`BspTree::fragments_in`] is exact.
     ///
-    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
-    /// than the rounding errors of the test and of an eye in the apex of the frustum.
+    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate. This
+    /// margin exceeds the rounding error of the test, and the rounding error of the frustum's apex if the eye
+    /// is there.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }
