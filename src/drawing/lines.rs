@@ -829,8 +829,8 @@ const FINE: f64 = 1.0 / (1u64 << 32) as f64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`. Also a
-    /// bound on the error of each component of the slope, times the picture's shorter side.
+    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`. This
+    /// number also bounds the error of each component of the slope, times the picture's shorter side.
     pub(super) error: f64,
     /// An upper bound on the length of the line's slope.
     pub(super) slope: f64,

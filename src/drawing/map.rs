@@ -135,7 +135,7 @@ pub enum Hidden {
     /// Returns hidden parts as runs that are not visible.
     Keep,
     /// Like `Keep`, but cuts hidden runs where the number of polygons in front changes. A run's `layers` is
-    /// this number.
+    /// the number of polygons in front.
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
     /// have the edge do not count. If their polygon is not planar, another face of the polygon may be in

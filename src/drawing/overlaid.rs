@@ -201,8 +201,7 @@ impl Between {
     }
 
     /// Places lines and points in an order of `count` parts; `places` contains the place of each item. Also
-    /// returns the pairs of items that are in the wrong order. Without such pairs, each line and point would
-    /// have a place.
+    /// returns pairs of items whose order leaves no place for a line or a point.
     pub(super) fn placed(
         &self,
         places: &[u32],

@@ -163,7 +163,7 @@ impl<'d> Path<'d> {
 /// edges are lost to rounding. Too large: sides along collinear edges of other polygons count as edges.
 const BEYOND: f64 = 1e-3;
 
-/// The edges of a polygon's faces; the line of an edge is the key.
+/// The edges of a polygon's faces, sorted by line.
 struct PolygonEdges<'s, 't> {
     primitives: &'s Primitives<'t>,
     /// The line, the face, and the number of the edge in the face; sorted.
@@ -258,10 +258,10 @@ struct End {
     /// The place of the end, in the direction of the line's positive half.
     place: f64,
     radius: f64,
-    /// The half-plane of the other side that ends there.
+    /// The half-plane of the other side that ends at the corner.
     across: HalfPlane,
     is_start: bool,
-    /// Whether that half-plane contains the points ahead, in the direction of the line's positive half.
+    /// Whether `across` contains the points ahead, in the direction of the line's positive half.
     is_ahead: bool,
 }
 

@@ -562,8 +562,8 @@ pub(super) struct Depth {
     layers: u32,
 }
 
-/// The quantitative invisibility of segments, and the start of each segment's list: before its first place,
-/// nothing is in front.
+/// The quantitative invisibility along segments, one list for each segment, and the start of each list.
+/// Before the first place of a list, nothing is in front of the segment.
 pub(super) struct Depths {
     depths: Vec<Depth>,
     begins: Vec<usize>,
