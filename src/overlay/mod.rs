@@ -98,9 +98,9 @@ use crate::viewpoint::Ray;
 /// kinds are numbered from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
 /// [`replace`](Self::replace).
 ///
-/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. In a leaf without
-/// polygons of the overlay, planes through lines or perpendicular to an axis separate lines and points.
-/// Segments without length have no pieces.
+/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. In a region that
+/// contains no polygon, planes through lines or perpendicular to an axis separate lines and points. Segments
+/// without length have no pieces.
 ///
 /// # Order
 ///
@@ -111,7 +111,7 @@ use crate::viewpoint::Ray;
 /// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
 /// nearer shape is painted later. Exception: two shapes that lie, within the tolerance, in one dividing plane
 /// that is seen edge-on. Such shapes are painted polygons first, then lines in input order, then points, even
-/// if a later-painted shape is further away. Dividing planes are
+/// if the shape painted first is nearer. Dividing planes are
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a

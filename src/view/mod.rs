@@ -248,10 +248,10 @@ impl Camera {
         }
     }
 
-    /// Two vectors, one for [`right`](Self::right) and one for [`up`](Self::up). The scalar product of each
-    /// with the vector from the [origin](Self::origin) to a point is the point's distance from the middle of
-    /// the picture in that direction. For a perspective camera, it is that distance times the point's
-    /// distance along [`forward`](Self::forward).
+    /// Two vectors, one for [`right`](Self::right) and one for [`up`](Self::up). The scalar product of such a
+    /// vector and the vector from the [origin](Self::origin) to a point is the point's distance from the
+    /// middle of the picture to the right or upwards. For a perspective camera, the product is that distance
+    /// times the point's distance along [`forward`](Self::forward).
     fn rows(&self) -> [DVec3; 2] {
         let Self { right, up, forward, middle, .. } = *self;
         let sine = up.cross(right).dot(forward);
