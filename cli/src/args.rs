@@ -43,7 +43,7 @@ pub(crate) enum Command {
     /// Write shell completions and manual pages into DIR
     #[command(hide = true)]
     Generate {
-        /// Folder for the folders completions and man
+        /// Output folder; `completions` and `man` are created in it
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },

@@ -25,8 +25,8 @@ pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
     if backs * MOSTLY[0] > all * MOSTLY[1] {
         let share = format!("{} % of the picture shows back faces", 100 * backs / all);
         let full = format!(
-            "{share}: the scene is a room seen from outside, or its corners run clockwise; `--cull \
-             back` omits back faces"
+            "{share}: the scene is a room seen from outside, or the polygons are wound clockwise; \
+             `--cull back` omits back faces"
         );
         remark(scene.name(), format!("{share} (`--cull back` omits them)"), full);
     }

@@ -83,7 +83,7 @@ struct Band {
     background: [f64; 3],
     width: usize,
     top: usize,
-    /// The coverage of a pixel minus that of the pixel before, for the cell that is being added.
+    /// The coverage of a pixel minus the previous pixel's coverage, for the cell that is being added.
     change: Vec<f64>,
     /// The first and last change of each row.
     changed: Vec<[usize; 2]>,

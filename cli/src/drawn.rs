@@ -64,7 +64,7 @@ impl<'a> Style<'a> {
         if self.ids { &self.scene.material(polygon).name } else { "" }
     }
 
-    /// The colour of polygons one behind the other, front to back, times its opacity, and that: from 0 to 1.
+    /// The blend of polygons given front to back: the premultiplied colour and the opacity, each from 0 to 1.
     pub(crate) fn blended(&self, polygons: &[usize]) -> [f64; 4] {
         let over = |below: [f64; 4], &polygon: &usize| {
             let opacity = f64::from(self.opacity(polygon));

@@ -192,7 +192,7 @@ mod tests {
             ("draw --eye 9 -4 3 s.obj", "draw --eye=9,-4,3 s.obj"),
             ("--eye 1, 2, 3 --eye 4 5 6e1", "--eye=1,2,3 --eye=4,5,6e1"),
             ("--eye 9,-4,3 s.obj --up z", "--eye 9,-4,3 s.obj --up z"),
-            // Too few: that is said of the option.
+            // Too few: the option's own parser reports this.
             ("--eye 9 -4 s.obj", "--eye=9,-4 s.obj"),
             ("--size 9 4 3 --eye=1,2,3 1", "--size 9 4 3 --eye=1,2,3 1"),
             ("--target 1", "--target 1"),

@@ -268,8 +268,9 @@ impl Visibility {
 /// `path_offsets[i + 1]`, filled together by the nonzero rule. Outline `o` has the rows of `corners` from `outline_offsets[o]` to
 /// `outline_offsets[o + 1]`, in pixels from the top left corner. `edges[c]` is the edge of the polygon from corner `c` to
 /// the next, by the number of its first corner; -1 if it is none. `items` has the order of everything, of shape (n, 2):
-/// 0 and the number of a path, 1 and that of a row of `lines`, or 2 and that of a row of `markers`; both are None without
-/// an overlay. `size` is the width and the height of the picture in pixels.
+/// 0 and the number of a path, 1 and the number of a row of `lines`, or 2 and the number of a row of
+/// `markers`. Without an overlay, `lines` and `markers` are None. `size` is the width and the height of the
+/// picture in pixels.
 #[pyclass(frozen, module = "binspace._binspace")]
 pub(crate) struct Drawing {
     drawing: drawing::Drawing,

@@ -24,7 +24,7 @@ pub(crate) struct Overlay {
 /// The numbers by which the caller knows lines and points. A line is broken where it has NaN.
 #[derive(Default)]
 pub(crate) struct Numbers {
-    /// For each line of the overlay, that of the caller and the number of its first segment.
+    /// For each line of the overlay: the caller's line number and the number of the first segment.
     lines: Vec<[u32; 2]>,
     points: Vec<u32>,
 }

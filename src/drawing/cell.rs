@@ -10,7 +10,7 @@ use super::quadtree::Tile;
 use crate::Error;
 use crate::progress::Watch;
 
-/// A side of a cell, and its first corner.
+/// A side of a cell, and the side's first corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     /// The half-plane that contains the cell.
@@ -22,7 +22,8 @@ pub(super) struct Side {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub(super) at: [f64; 2],
-    /// A bound on the distance from the exact corner; infinite if the two lines are nearly the same.
+    /// A bound on the distance of `at` from the exact corner; infinite if the lines of the two sides are
+    /// nearly equal.
     pub(super) radius: f64,
 }
 
@@ -30,8 +31,8 @@ pub(super) struct Corner {
 /// corners. Too large: integers decide more sides.
 const FINE: f64 = 1e-6;
 
-/// A convex polygon with area, by its sides. Each side begins at the end of the previous side. The sides turn
-/// from the x axis towards the y axis, which is clockwise in the picture.
+/// A convex polygon with area: a list of sides. Each side begins at the end of the previous side. The sides
+/// turn from the x axis towards the y axis, which is clockwise in the picture.
 ///
 /// A corner is defined by the two lines that meet there; its rounded position is for output and for filters
 /// only. So a cell is as exact as its lines, however often it is cut.
@@ -62,8 +63,8 @@ impl Cell {
         Self::rectangle(lines, low, high)
     }
 
-    /// The part of the cell in all half-planes, if any. The remaining parts are appended to `outside`, each
-    /// convex.
+    /// The part of the cell inside all half-planes; `None` if there is no such part. Appends convex parts of
+    /// the rest of the cell to `outside`.
     pub(super) fn within(
         &self,
         lines: &LineTable<'_>,
@@ -143,10 +144,10 @@ impl Cell {
         around
     }
 
-    /// For each corner, whether it lies inside a half-plane (`Greater`), on its line (`Equal`) or outside
-    /// (`Less`). Floats decide if the line's value at the rounded corner is larger than its error plus its
-    /// possible change between the rounded and the exact corner: their distance times the length of the
-    /// slope.
+    /// The position of each corner: inside a half-plane (`Greater`), on the half-plane's line (`Equal`) or
+    /// outside (`Less`). Floats decide if the line's value at the rounded corner is larger than the sum of
+    /// two bounds: the value's error, and the change of the value from the rounded to the exact corner. (The
+    /// change is at most the distance of these two corners times the length of the slope.)
     pub(super) fn signs(&self, lines: &LineTable<'_>, half: HalfPlane) -> SmallVec<[Ordering; 8]> {
         let line = lines.rounded(half);
         let sign = |i: usize, side: &Side| {
@@ -219,10 +220,11 @@ impl Corner {
     /// rounded values plus the lines' errors. So e = (β a⊥ − α b⊥) / (a × b), and the length of e is at most
     /// (|α| |b| + |β| |a|) / |a × b|.
     ///
-    /// Rounding the products of a × b and their difference adds an error of at most 2 roundings of their
-    /// sizes; 8 roundings are subtracted. If components of the slopes are off by s and t, a × b is off by
-    /// s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two components is at most 1.4 times a line's
-    /// `slope`; twice the `slope` is subtracted. A hundredth is added for the roundings of the bound itself.
+    /// Rounding the products of a × b and their difference adds an error of at most 2 roundings of the
+    /// products' sizes; 8 roundings are subtracted. If components of the slopes are off by s and t, a × b is
+    /// off by s (|b₁| + |b₂|) + t (|a₁| + |a₂|) + 2 s t. A sum of two components is at most 1.4 times a
+    /// line's `slope`; twice the `slope` is subtracted. A hundredth is added for the roundings of the bound
+    /// itself.
     fn of(lines: &LineTable<'_>, [first, second]: [HalfPlane; 2]) -> Self {
         let [a, b] = [first, second].map(|half| lines.rounded(half));
         let ([a0, ax, ay], [b0, bx, by]) = (a.k, b.k);
@@ -287,7 +289,7 @@ mod tests {
     use glam::DVec3;
 
     /// The distance of each corner from the intersection in integers is at most the corner's radius. If
-    /// floats decide the side of a third line on which a corner is, the side is right.
+    /// floats decide on which side of a third line a corner lies, the side is correct.
     #[test]
     fn corners_are_as_near_as_they_say_and_on_the_sides_that_floats_tell() {
         let mut random = SplitMix64::new(3);

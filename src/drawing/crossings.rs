@@ -1,4 +1,5 @@
-//! Intersections: pairs of faces that cross each other, and the visible parts of their lines.
+//! Intersections: pairs of faces that cross each other, and the visible parts of the lines in which the faces
+//! cross.
 
 use std::cmp::Ordering;
 
@@ -48,14 +49,14 @@ struct CommonSide {
 type Known = Table<(HalfPlane, [u32; 2]), bool>;
 
 impl VisibilityMap<'_> {
-    /// Returns the lines in which polygons intersect: runs of [`EdgeKind::Crossing`], each once, with the
-    /// polygon of the lower number first. [`edges`](Self::edges) returns edges that only touch another
-    /// polygon.
+    /// Returns the lines in which polygons intersect, as runs of [`EdgeKind::Crossing`]. Each run is returned
+    /// once: [`EdgeRun::polygon`] is the lower of the two numbers. [`edges`](Self::edges) returns edges that
+    /// only touch another polygon.
     ///
     /// A point is on a visible crossing if both polygons are visible at the point, one on each side.
     /// Crossings are as exact as the map: only the ends of runs are rounded. At an edge that triangulation
-    /// made, another polygon crosses if that polygon lies between the edge's two triangles. A corner no
-    /// further from a plane than the tolerance is treated as on the plane.
+    /// made, another polygon counts as crossing if that polygon lies between the edge's two triangles. A
+    /// corner no further from a plane than the tolerance is treated as on the plane.
     ///
     /// Except with [`Hidden::Skip`], hidden runs are returned too, if each of two polygons has corners on
     /// both sides of the other polygon's plane, further from that plane than the tolerance. If a polygon has
@@ -109,7 +110,7 @@ impl VisibilityMap<'_> {
     }
 
     /// The common parts of two sides of cells, line by line. The two cells lie on opposite sides of the line,
-    /// in which their faces cross each other. Counts as two phases of the progress.
+    /// and the faces of the cells cross each other in the line. Counts as two phases of the progress.
     fn common_sides(
         &self,
         inner: &InnerEdges,
@@ -407,8 +408,9 @@ struct Block {
     growth: Growth,
 }
 
-/// Pairs of faces of different polygons that may cross each other: each has corners on both sides of the
-/// other's plane, further from the plane than the tolerance. Counts as one phase of the progress.
+/// Pairs of faces of different polygons that may cross each other. Each face of a pair has corners on both
+/// sides of the other face's plane, further from that plane than the tolerance. Counts as one phase of the
+/// progress.
 fn straddling(
     primitives: &Primitives<'_>,
     inner: &InnerEdges,
@@ -516,7 +518,8 @@ pub(super) struct InnerEdges(Table<FaceEdge, FaceEdge>);
 /// The crossing of two polygons along an edge inside one polygon.
 pub(super) struct Bend {
     pub(super) edge: FaceEdge,
-    /// A face of the other polygon, and its edge there if the other polygon is bent, too.
+    /// A face of the other polygon; and, if the other polygon is bent at the crossing too, this face's edge
+    /// there.
     pub(super) other: u32,
     pub(super) other_edge: Option<u32>,
     /// A face of each polygon, the lower number first. If two faces of one polygon meet at the edge, the face
@@ -621,7 +624,7 @@ fn third(faces: &Faces, (face, k): FaceEdge) -> [f64; 3] {
 }
 
 /// Whether a half-plane that turns to the left around a line, starting at the triangle `from`, reaches a
-/// third triangle before the triangle `to`; `None` if the third triangle lies on one of the two.
+/// third triangle before the triangle `to`; `None` if the third triangle lies on `from` or `to`.
 fn is_between(
     faces: &Faces,
     along: DVec3,

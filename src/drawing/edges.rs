@@ -20,12 +20,12 @@ impl VisibilityMap<'_> {
     /// sorted by polygon, then by edge, then from the start of the edge to its end.
     ///
     /// Visibility is as exact as the map: only the ends of runs are rounded. The faces that have an edge do
-    /// not hide it, but another part of a polygon that is not planar may hide it. Polygons share an edge if
-    /// both corners of the edge are equal. Edges that triangulation made inside a polygon are left out,
-    /// except silhouettes. (A polygon that is not planar may be seen from its front on one side of such an
-    /// edge, and from behind on the other side.) Also left out are edges whose polygons are all seen exactly
-    /// edge-on, and edges along a border of the picture whose polygons are all outside the picture.
-    /// [`crossings`](Self::crossings) returns the lines in which polygons intersect.
+    /// not hide the edge. If their polygon is not planar, another part of the polygon may hide the edge.
+    /// Polygons share an edge if both corners of the edge are equal. Edges that triangulation made inside a
+    /// polygon are left out, except silhouettes. (A polygon that is not planar may be seen from its front on
+    /// one side of such an edge, and from behind on the other side.) Also left out are edges whose polygons
+    /// are all seen exactly edge-on, and edges along a border of the picture whose polygons are all outside
+    /// the picture. [`crossings`](Self::crossings) returns the lines in which polygons intersect.
     ///
     /// O(n log n) for n edges and cells, except with [`Hidden::Count`].
     ///
@@ -223,7 +223,7 @@ type Numbers = Table<FaceEdge, u32>;
 struct SharedEdge {
     /// The faces that have the edge, each with the edge's number in the face.
     faces: SmallVec<[FaceEdge; 2]>,
-    /// The first face's edge in the picture; `None` if the picture does not show it as a line.
+    /// The first face's edge in the picture; `None` if the picture does not show the edge as a line.
     segment: Option<ProjectedSegment>,
     /// The visible parts: intervals of places along the edge.
     visible: Vec<[f64; 2]>,
@@ -258,7 +258,7 @@ impl SharedEdge {
         self.segment.is_some_and(|segment| segment.picture.is_eq() || segment.picture == inside)
     }
 
-    /// The kind of the edge, by the sides that its faces show.
+    /// The kind of the edge, given the sides that the edge's faces show.
     fn kind(&self, faces: &Faces, sides: &[Ordering]) -> EdgeKind {
         let &[(one, _), (other, _)] = &self.faces[..] else { return EdgeKind::Border };
         // If two polygons have their fronts on the same side, they traverse the edge in opposite directions.

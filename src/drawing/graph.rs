@@ -209,8 +209,8 @@ impl Graph<'_> {
         Ok(())
     }
 
-    /// For each node, the number of pairs in the component that end at it, times the number of pairs that
-    /// begin at it.
+    /// For each node, two numbers of pairs in the component multiplied: the pairs that end at the node, and
+    /// the pairs that begin at the node.
     fn degrees(&mut self, nodes: &[u32]) -> Result<Vec<(u64, u32)>, Error> {
         let mut counts = std::mem::take(&mut self.search.counts);
         for &node in nodes {
@@ -324,13 +324,13 @@ impl Graph<'_> {
     }
 }
 
-/// Nodes and the pairs that begin at each.
+/// Nodes, and for each node the pairs that begin at the node.
 struct Graph<'p> {
     pairs: &'p [Pair],
     starts: Vec<u32>,
     is_clipped: Vec<bool>,
     is_opaque: &'p dyn Fn(u32) -> bool,
-    /// For each node, whether a translucent node has to follow it.
+    /// For each node, whether a translucent node has to follow the node.
     is_seen_through: Vec<bool>,
     /// The strongly connected component of each node that is searched.
     component: Vec<u32>,
@@ -343,12 +343,12 @@ struct Graph<'p> {
 struct Search {
     /// For each node, the number of nodes visited before it.
     number: Vec<u32>,
-    /// For each node, the least number that it leads to.
+    /// For each node, the low-link of Tarjan's algorithm: the least `number` reached from the node.
     least: Vec<u32>,
     is_on_stack: Vec<bool>,
     /// For each node, the node from which the search for a cycle reached it last.
     reached: Vec<u32>,
-    /// For each node, how many pairs begin and end at it.
+    /// For each node, how many pairs begin and end at the node.
     counts: Vec<[u32; 2]>,
 }
 
@@ -396,7 +396,7 @@ impl Graph<'_> {
         self.starts[node as usize + 1] - self.starts[node as usize]
     }
 
-    /// Whether no node has to follow a node, because it is clipped.
+    /// Whether a node is clipped and no translucent node has to follow it, so no node has to follow it.
     fn is_last(&self, node: u32) -> bool {
         self.is_clipped[node as usize] && !self.is_seen_through[node as usize]
     }
@@ -407,8 +407,9 @@ impl Graph<'_> {
         !self.is_clipped[below as usize] || !(self.is_opaque)(above)
     }
 
-    /// The strongly connected components of more than one node among some nodes (R. Tarjan, "Depth-first
-    /// search and linear graph algorithms", 1972). Writes the numbers of the components to `component`.
+    /// The strongly connected components, among the given nodes, with more than one node (R. Tarjan,
+    /// "Depth-first search and linear graph algorithms", 1972). Writes the numbers of the components to
+    /// `component`.
     fn components(&mut self, nodes: &[u32]) -> Result<Vec<Vec<u32>>, Error> {
         let Search { number, least, is_on_stack, .. } = &mut self.search;
         let (is_clipped, is_opaque) = (&self.is_clipped, self.is_opaque);
@@ -528,8 +529,8 @@ pub(super) struct Groups {
     leader: Vec<u32>,
     /// The place of each group in the order.
     place: Vec<u32>,
-    /// For each group, the nodes of other groups that have to follow it (`after`) or precede it (`before`);
-    /// some are repeated.
+    /// For each group, the nodes of other groups that have to follow the group (`after`) or precede the group
+    /// (`before`). Nodes may be repeated.
     after: Vec<Vec<u32>>,
     before: Vec<Vec<u32>>,
     /// For each group, the last search that visited it.
@@ -632,8 +633,8 @@ impl Groups {
         Ok(true)
     }
 
-    /// The groups between two groups that are reached from the first, in their order; `None` if the second is
-    /// reached, or if there are more than `most`.
+    /// The groups that are reached from the group `from` without passing the group `to`, in order. `None` if
+    /// `to` is reached, or if there are more than `most` groups.
     fn reach(
         &mut self,
         [from, to]: [u32; 2],

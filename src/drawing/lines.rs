@@ -4,9 +4,9 @@
 //! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
 //! k₀ + x·k₁ + y·k₂ = 0. The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the
 //! picture, is called a half of the line. The edge between two points is the plane through both points and
-//! the eye. The cut of a face f by a plane h consists of the rays that meet both in one point. Let κ be the
-//! value of a plane at the eye (for parallel rays, its slope along them), and φ its value along a ray. Then
-//! k = κ_f φ_h − κ_h φ_f.
+//! the eye. The cut of a face f by a plane h consists of the rays that meet f and h in one point. Let κ be
+//! the value of a plane at the eye (for parallel rays, the plane's slope along the rays), and φ the plane's
+//! value along a ray. Then k = κ_f φ_h − κ_h φ_f.
 //!
 //! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
 //! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
@@ -52,7 +52,7 @@ pub(super) struct LineTable<'t> {
     points: Table<[u64; 3], u32>,
     /// The numbers of the points to which corners were moved.
     moved: Table<u32, u32>,
-    /// For each point number, a corner there and its position.
+    /// For each point number, a corner at the point, and the corner's position.
     corners: Vec<(u32, [f64; 3])>,
 }
 
@@ -272,7 +272,7 @@ impl<'t> LineTable<'t> {
     }
 
     /// The number of the point to which a corner off its face's plane was moved. No edge of another face ends
-    /// there.
+    /// at this point.
     fn moved(&mut self, corner: u32) -> u32 {
         if let Some(&number) = self.moved.get(&corner) {
             return number;
@@ -340,7 +340,8 @@ impl LineTable<'_> {
         Rounded::new(exact, self.reach)
     }
 
-    /// Whether a point is in the picture or at most a pixel beyond it. Errors are bounded only there.
+    /// Whether a point is in the picture or at most a pixel beyond it. Errors are bounded only for such
+    /// points.
     pub(super) fn shows(&self, at: [f64; 2]) -> bool {
         (0..2).all(|axis| -1.0 <= at[axis] && at[axis] <= self.reach[axis])
     }
@@ -475,8 +476,8 @@ impl Hasher for Mixer {
 }
 
 /// The point of a line that is nearest to the middle of the picture, and the cosine of twice the line's
-/// angle: the same for both directions. For a line in the picture, these are off by less than [`MARGIN`]
-/// times [`STEP`].
+/// angle. Both are the same for both directions of the line. For a line in the picture, point and cosine are
+/// off by less than [`MARGIN`] times [`STEP`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foot {
     point: [f64; 2],
@@ -617,8 +618,8 @@ impl HalfPlane {
 }
 
 impl LineTable<'_> {
-    /// The exact side of a half's line on which the lines of two other halves meet. These two must be
-    /// consecutive sides of a convex cell.
+    /// The exact side of a half's line on which the lines of two other halves meet. These two lines must
+    /// bound consecutive sides of a convex cell.
     #[cold]
     pub(super) fn exact_side(&self, half: HalfPlane, [first, second]: [HalfPlane; 2]) -> Ordering {
         let lines = [first, second, half];
@@ -746,8 +747,8 @@ impl ViewFrame<'_> {
 }
 
 impl ImagePlane {
-    /// The side from which the plane is seen: `Greater` if its κ is positive. A face whose front is seen has
-    /// a positive κ from an eye, and a negative κ along parallel rays.
+    /// The side from which the plane is seen: `Greater` if the plane's κ is positive. A face whose front is
+    /// seen has a positive κ from an eye, and a negative κ along parallel rays.
     pub(super) fn side(&self) -> Ordering {
         self.kappa.sign()
     }
@@ -778,8 +779,8 @@ pub(super) fn side_at(line: &ExactLine, image: &Image) -> Ordering {
     (term(0) + term(1) + term(2)).sign()
 }
 
-/// A total order of lines, regardless of their direction. Lines are compared by the first of their
-/// coefficients that is not 0, slopes first, and then by the ratios of the other coefficients to it.
+/// A total order of lines, regardless of their direction. Lines are compared by the first coefficient that is
+/// not 0, slopes first, and then by the ratios of the other coefficients to that coefficient.
 pub(super) fn compare(a: &ExactLine, b: &ExactLine) -> Ordering {
     let order = [1, 2, 0];
     let [first, second] = [a, b].map(|line| order.iter().position(|&i| line[i].sign().is_ne()));
@@ -828,8 +829,8 @@ const FINE: f64 = 1.0 / (1u64 << 32) as f64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounded {
     pub(super) k: [f64; 3],
-    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`. It is
-    /// also a bound on the error of each component of the slope, times the picture's shorter side.
+    /// A bound on the error of the line's values in the picture, computed as `k[0] + x·k[1] + y·k[2]`. This
+    /// number also bounds the error of each component of the slope, times the picture's shorter side.
     pub(super) error: f64,
     /// An upper bound on the length of the line's slope.
     pub(super) slope: f64,

@@ -27,10 +27,10 @@ use crate::view::Camera;
 /// polygon that the tree's order paints last.
 ///
 /// If corners of a polygon were moved onto a common plane, that plane decides which polygon is in front. The
-/// edges still go through the given corners if no corner was moved by more than 2⁻³² of the extent, which is
-/// more than the rounding of `f64`. So there is no crack between neighbours that share an edge. The edges go
-/// through the moved corners if a corner was moved further, if the given corners do not form a convex polygon
-/// in the picture, or if the polygon has more than eight corners.
+/// edges still go through the given corners if no corner was moved by more than 2⁻³² of the extent. (The
+/// rounding of `f64` moves corners less.) So there is no crack between neighbours that share an edge. The
+/// edges go through the moved corners if a corner was moved further, if the given corners do not form a
+/// convex polygon in the picture, or if the polygon has more than eight corners.
 ///
 /// Time is O(n log n) for n fragments in most scenes. The map also stores the lines of the edges of hidden
 /// polygons in the frustum. With the feature `parallel`, all threads share the tiles of the picture; the map
@@ -43,13 +43,13 @@ use crate::view::Camera;
 ///
 /// A map keeps [the callback](ViewOptions::progress) that it is made with: each later operation that can fail
 /// reports to the same callback. Each operation, including the making of the map, counts separately. `total`
-/// is the number of its parts; it does not change during the operation. `done` begins with 0, never
-/// decreases, and is `total` in the last call, when the result is ready. Parts do not take equally long. The
-/// callback is called about once per millisecond, by any thread, one call at a time. Only while a long list
-/// is sorted or read, a call may be late (by a tenth of a second for a million items). If the callback
-/// returns `Break`, the operation ends with an error whose [kind](Error::kind) is `Cancelled`. The map is not
-/// changed, and its next operation starts from the beginning. If several threads use one map at once, their
-/// operations take turns to call the callback, and the last call of an operation may be missing.
+/// is the number of the operation's parts, and does not change during the operation. `done` begins with 0,
+/// never decreases, and is `total` in the last call, when the result is ready. Parts do not take equally
+/// long. The callback is called about once per millisecond, by any thread, one call at a time. Only while a
+/// long list is sorted or read, a call may be late (by a tenth of a second for a million items). If the
+/// callback returns `Break`, the operation ends with an error whose [kind](Error::kind) is `Cancelled`. The
+/// map is not changed, and its next operation starts from the beginning. If several threads use one map at
+/// once, their operations take turns to call the callback, and the last call of an operation may be missing.
 #[derive(Debug)]
 pub struct VisibilityMap<'t> {
     pub(super) tree: &'t BspTree,
@@ -135,13 +135,13 @@ pub enum Hidden {
     /// Returns hidden parts as runs that are not visible.
     Keep,
     /// Like `Keep`, but cuts hidden runs where the number of polygons in front changes. A run's `layers` is
-    /// this number.
+    /// the number of polygons in front.
     ///
     /// Each polygon that shows a side to the camera counts once, even if it is hidden itself. The faces that
-    /// have the edge do not count, but another face of a polygon that is not planar may be in front and
-    /// count. The number is at least 1, even if the edge of a shelf lies on the wall that hides the shelf.
-    /// Time and memory are proportional to the number of polygons in front of hidden parts. (A. Appel, "The
-    /// notion of quantitative invisibility and the machine rendering of solids", 1967.)
+    /// have the edge do not count. If their polygon is not planar, another face of the polygon may be in
+    /// front of the edge, and counts. `layers` is at least 1. Example: a shelf's edge touches the wall that
+    /// hides the edge. Time and memory are proportional to the number of polygons in front of hidden parts.
+    /// (A. Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.)
     Count,
 }
 

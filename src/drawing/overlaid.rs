@@ -63,17 +63,18 @@ impl LineRun {
 
 impl VisibilityMap<'_> {
     /// Returns the lines of an overlay of the same tree, clipped to the picture. Each segment is divided into
-    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are in input
-    /// order, and along each segment from its start to its end.
+    /// visible and hidden runs; with [`Hidden::Skip`] only visible runs are returned. Runs are sorted by
+    /// segment in input order, then from the start of the segment to its end.
     ///
-    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of it, even
-    /// with only an edge or a corner. A segment within the tolerance of a polygon's plane lies on the plane,
-    /// and the polygon does not hide it. A segment that is further from the plane on one side only is treated
-    /// as entirely on that side. These decisions are exact; only the ends of runs are rounded. Polygons seen
-    /// edge-on hide nothing, lines hide nothing, and a segment seen end-on has no run.
+    /// A point of a line is hidden if a polygon that shows a side to the camera lies in front of the point.
+    /// An edge or a corner of the polygon suffices. A segment within the tolerance of a polygon's plane
+    /// counts as lying on the plane, and the polygon does not hide the segment. A segment that is further
+    /// from the plane on one side only is treated as entirely on that side. These decisions are exact; only
+    /// the ends of runs are rounded. Polygons seen edge-on hide nothing, lines hide nothing, and a segment
+    /// seen end-on has no run.
     ///
-    /// O(n log n) for n segments and cells (or faces, with [`Hidden::Count`]), plus the number of pairs that
-    /// have points in common.
+    /// O(n log n) for n segments and cells (or faces, with [`Hidden::Count`]), plus the number of pairs of a
+    /// segment and a cell (or face) that have points in common.
     ///
     /// # Errors
     ///
@@ -200,8 +201,7 @@ impl Between {
     }
 
     /// Places lines and points in an order of `count` parts; `places` contains the place of each item. Also
-    /// returns the pairs of items that are in the wrong order. Without such pairs, each line and point would
-    /// have a place.
+    /// returns pairs of items whose order leaves no place for a line or a point.
     pub(super) fn placed(
         &self,
         places: &[u32],
@@ -236,10 +236,10 @@ impl Between {
     }
 }
 
-/// An item that is passed: whether it is in front, its place in the order, and its number.
+/// An item that is passed: whether the item is in front, its place in the order, and its number.
 type Key = (bool, u32, u32);
 
-/// The items that are passed at a point, and the number of passes of each.
+/// The items that are passed at a point, and for each item the number of passes.
 type Passed = BTreeMap<Key, i32>;
 
 /// The places that an order allows: after at least `least` and at most `most` parts.
@@ -255,8 +255,8 @@ impl Room {
         Self { least: 0, most: count }
     }
 
-    /// After the items behind, and before the items in front. If no place satisfies both conditions, the
-    /// first condition wins.
+    /// The places after the items behind, and before the items in front. If no place satisfies both
+    /// conditions, the first condition wins.
     fn between(passed: &Passed, count: u32) -> Self {
         let [last, first] = outermost(passed);
         let least = last.map_or(0, |last| last.1 + 1);
@@ -277,8 +277,9 @@ fn outermost(passed: &Passed) -> [Option<Key>; 2] {
     [before, in_front].map(|end| end.map(|(key, _)| *key))
 }
 
-/// If no place remains, adds the pairs that are in the wrong order. These are the last item behind with each
-/// item in front that precedes it, and the first item in front with each item behind that follows it.
+/// If no place remains, adds the pairs that are in the wrong order: the last item behind with each item in
+/// front that precedes the last item behind; and the first item in front with each item behind that follows
+/// the first item in front.
 fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<(), Error> {
     let [Some(below), Some(above)] = outermost(passed) else { return Ok(()) };
     if above.1 >= below.1 {
@@ -293,8 +294,9 @@ fn add_missed(passed: &Passed, missed: &mut Found, watch: &Watch<'_>) -> Result<
     Ok(())
 }
 
-/// Divides a segment into as few runs as possible, each with the number of parts of the drawing that precede
-/// it, according to the items that it passes. Adds the pairs of items that leave no place between them.
+/// Divides a segment into as few runs as possible, according to the items that the segment passes. Each run
+/// has the number of parts of the drawing that precede the run. Adds the pairs of items that leave no place
+/// for a run.
 fn in_order(
     ends: [f64; 2],
     passes: &[Pass],

@@ -1,4 +1,5 @@
-//! Pairs of polygons that are painted over one another, so that their order has to follow their depths.
+//! Pairs of polygons that overlap in the picture, so the painting order has to follow the depths of the
+//! polygons.
 
 use std::collections::HashSet;
 use std::hash::BuildHasherDefault;
@@ -20,14 +21,14 @@ use crate::progress::Watch;
 /// Pairs that were found so far, each once.
 pub(super) type Found = HashSet<Pair, BuildHasherDefault<Mixer>>;
 
-/// All pairs of several sets, sorted, each once.
+/// All pairs of several sets, sorted and without repetitions.
 pub(super) fn sorted(parts: Vec<Found>, watch: &Watch<'_>) -> Result<Vec<Pair>, Error> {
     let mut pairs: Vec<Pair> = parts.into_iter().flatten().collect();
     sort_unique(&mut pairs, watch)?;
     Ok(pairs)
 }
 
-/// Leaves, with the opaque faces and the translucent items that may reach into them.
+/// Leaves, and for each leaf the opaque faces and the translucent items that may reach into the leaf.
 struct LeafLists<'l, 'p> {
     leaves: &'l [Leaf],
     opaque: Candidates<'p>,
@@ -202,9 +203,9 @@ pub(super) fn around(leaves: &[Leaf]) -> Rect {
 /// Too small: more tiles. Too large: more pairs are compared.
 const FEW: usize = 8;
 
-/// Sorted pairs of items that overlap in the picture, by item numbers. The pairs are sufficient for an order,
-/// but not all are listed: where an item covers a part of the picture, items behind this item are not paired
-/// with items in front of it.
+/// Sorted pairs of items that overlap in the picture, by item numbers. Not all overlapping pairs are listed,
+/// but the listed pairs imply the order of all: where an item covers a part of the picture, items behind this
+/// item are not paired with items in front of this item.
 pub(super) fn overlaps<'p>(
     primitives: &'p Primitives<'_>,
     watch: &Watch<'_>,

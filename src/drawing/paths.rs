@@ -64,7 +64,7 @@ impl Drawing {
         }
     }
 
-    /// Adds a path that fills an area. The area consists of parts of these faces of the polygon.
+    /// Adds a path that fills an area. The area consists of parts of the given faces of the polygon.
     pub(super) fn push(
         &mut self,
         polygon: usize,
@@ -137,12 +137,12 @@ impl<'d> Path<'d> {
         self.ranges().map(move |range| &corners[range])
     }
 
-    /// Returns, for each of the [`outlines`](Self::outlines), the edges of the polygon along its sides: a
-    /// list with one entry per corner, for the side that begins at the corner.
+    /// Returns a list for each of the [`outlines`](Self::outlines): the edges of the polygon along the
+    /// outline's sides. Entry `i` of the list belongs to the side that begins at corner `i`.
     ///
     /// An edge has the number of the polygon's corner where it begins. `None` stands for sides along the
     /// border of the picture, along other polygons, and along edges that triangulation made. A side along
-    /// several collinear edges has the number of the edge at its middle.
+    /// several collinear edges has the number of the edge at the middle of the side.
     pub fn edges(&self) -> impl Iterator<Item = &'d [Option<u32>]> + Clone + use<'d> {
         let edges = &self.drawing.edges;
         self.ranges().map(move |range| &edges[range])
@@ -163,7 +163,7 @@ impl<'d> Path<'d> {
 /// edges are lost to rounding. Too large: sides along collinear edges of other polygons count as edges.
 const BEYOND: f64 = 1e-3;
 
-/// The edges of a polygon's faces, by the lines that they are on.
+/// The edges of a polygon's faces, sorted by line.
 struct PolygonEdges<'s, 't> {
     primitives: &'s Primitives<'t>,
     /// The line, the face, and the number of the edge in the face; sorted.
@@ -229,7 +229,7 @@ pub(super) fn add_piece(
     }
 }
 
-/// Convex parts of an area, by their sides.
+/// The convex parts of an area, each a list of sides.
 #[derive(Default)]
 pub(super) struct Area {
     sides: Vec<Side>,
@@ -242,7 +242,7 @@ const FOLLOWED: usize = 16;
 /// No piece.
 const NONE: u32 = u32::MAX;
 
-/// Sides of parts, by numbers; corners have the numbers of the sides that begin there.
+/// The numbered sides of all parts. A corner has the number of the side that begins at the corner.
 struct Sides<'a> {
     lines: &'a LineTable<'a>,
     sides: &'a [Side],
@@ -258,10 +258,10 @@ struct End {
     /// The place of the end, in the direction of the line's positive half.
     place: f64,
     radius: f64,
-    /// The half-plane of the other side that ends there.
+    /// The half-plane of the other side that ends at the corner.
     across: HalfPlane,
     is_start: bool,
-    /// Whether that half-plane contains the points ahead, in the direction of the line's positive half.
+    /// Whether `across` contains the points ahead, in the direction of the line's positive half.
     is_ahead: bool,
 }
 
@@ -294,9 +294,9 @@ impl Area {
         &self.sides[start as usize..self.ends[i] as usize]
     }
 
-    /// The closed outlines of all parts, by their sides, each with the area on its left. Sides that two
-    /// neighbouring parts share in opposite directions cancel. Where parts overlap, outlines wind around both
-    /// parts.
+    /// The closed outlines of all parts, as lists of sides. The area is on the left of each outline. Sides
+    /// that two neighbouring parts share in opposite directions cancel. Where parts overlap, outlines wind
+    /// around both parts.
     pub(super) fn outlines(
         &self,
         lines: &LineTable<'_>,
@@ -407,7 +407,7 @@ impl<'a> Sides<'a> {
 
     /// The exact order of two ends of sides along a line, in the direction of the line's positive half.
     fn compare(&self, line: &Rounded, a: &End, b: &End) -> Ordering {
-        // A corner is off by at most its radius, which changes its place by at most the radius times the
+        // A corner is off by at most its radius. So the corner's place is off by at most the radius times the
         // slope. The place is rounded three times.
         let size: f64 = self.lines.reach.iter().sum();
         let off = line.slope * (a.radius + b.radius + 8.0 * ROUNDING * size);
@@ -470,9 +470,9 @@ impl VisibilityMap<'_> {
     /// area is less than [`ViewOptions::least_area`](super::ViewOptions::least_area) are left out.
     ///
     /// Translucent polygons follow the polygons behind them. A translucent polygon in a cycle has several
-    /// paths, as in [`Drawing::translucent`]; each of its visible points is in one path. Time and memory are
-    /// quadratic in the number of translucent polygons that overlap one another. If all polygons are
-    /// translucent, `Drawing::translucent` takes less time and memory.
+    /// paths, as in [`Drawing::translucent`]; each visible point of the polygon is in one path. Time and
+    /// memory are quadratic in the number of translucent polygons that overlap one another. If all polygons
+    /// are translucent, `Drawing::translucent` takes less time and memory.
     ///
     /// # Errors
     ///

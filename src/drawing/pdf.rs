@@ -352,7 +352,7 @@ mod tests {
         }
     }
 
-    /// A label of known width: its middle is at its point.
+    /// The middle of a label of known width is at the label's point.
     #[test]
     fn labels_are_centred() {
         let mut picture = VectorPicture::new([600, 400]);

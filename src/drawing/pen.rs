@@ -99,8 +99,8 @@ struct Net {
     /// The ends at all corners, one corner after another, and the start of each corner's ends.
     ends: Vec<u32>,
     begins: Vec<u32>,
-    /// For each corner, the index in `ends` of its first end that may be unused; and whether each segment is
-    /// used.
+    /// For each corner, the index in `ends` of the corner's first end that may be unused; and whether each
+    /// segment is used.
     done: Vec<u32>,
     is_used: Vec<bool>,
     /// For each corner where an odd number of ends meet, another such corner, which a jump reaches without
@@ -108,7 +108,8 @@ struct Net {
     jumps: Vec<Option<u32>>,
 }
 
-/// A step of a trail: the corner that the step leads to, and the end that it leaves from (`None` for a jump).
+/// A step of a trail: the corner that the step leads to, and the end where the step begins (`None` for a
+/// jump).
 type Step = (u32, Option<u32>);
 
 impl Net {
@@ -326,8 +327,8 @@ impl Ends {
     /// The number of the nearest remaining point. If several are nearest, the first that is found.
     pub(super) fn nearest(&self, from: [f64; 2]) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
-        // Ranges, and lower bounds on their distances. The stack stays short, because the tree is never
-        // deeper than 32.
+        // Ranges, each with a lower bound on the distance of its points. The stack stays short, because the
+        // tree is never deeper than 32.
         let mut stack: Vec<(Node, f64)> = self.root().map(|root| (root, 0.0)).into_iter().collect();
         while let Some((node, least)) = stack.pop() {
             let middle = node.middle();

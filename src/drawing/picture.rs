@@ -19,8 +19,8 @@ const FURTHEST: f64 = 1e6;
 const SHORTEST: f64 = 1e-4;
 /// In a picture whose longer side is at least this, in pixels, a unit is a fiftieth of a pixel. Rounding then
 /// moves corners by at most a hundredth of a pixel, which is not visible even if the picture is enlarged a
-/// few times. In smaller pictures units are a tenth as large, in pictures below a tenth of this a hundredth
-/// as large, and so on.
+/// few times. If the longer side is below 480 pixels, a unit is a tenth as large; below 48 pixels, a
+/// hundredth as large; and so on.
 const LARGE: u32 = 480;
 const UNITS: u32 = 50;
 
@@ -89,8 +89,8 @@ pub struct Stroke {
     pub colour: [u8; 3],
     /// The opacity, from 0 to 1. Default: 1.
     pub opacity: f64,
-    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid. It
-    /// is also solid if one of the lengths is 0.
+    /// The lengths of dashes and of the gaps between them, in pixels. Default: `None`, the line is solid. The
+    /// line is also solid if one of the lengths is 0.
     pub dashes: Option<[f64; 2]>,
     /// Whether a line ends in a half disc beyond its last point. Default: `true`.
     /// [`with_dashes`](Self::with_dashes) sets `false`.
@@ -214,7 +214,7 @@ pub(super) enum Shape {
     Label { at: [i64; 2], size: f64, text: String },
 }
 
-/// The parts of a path's outlines that are edges of its polygon.
+/// The parts of a path's outlines that are edges of the path's polygon.
 fn own_edges(path: Path<'_>) -> Vec<Vec<[f64; 2]>> {
     let mut lines = Vec::new();
     for (outline, edges) in path.outlines().zip(path.edges()) {
@@ -250,13 +250,13 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint, and
-    /// [trapped](Drawing::trapped), which closes the seams between them. `paint` is called once for each
+    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint. They are also
+    /// [trapped](Drawing::trapped), which closes the seams between paths. `paint` is called once for each
     /// polygon that has a path, with the polygon's number.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). The stroke is painted directly after its
-    /// path, so later paths cover it. Drawings with strokes are not batched. The lines and points of an
-    /// overlay are not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all
+    /// path, so later paths cover the stroke. Drawings with strokes are not batched. The lines and points of
+    /// an overlay are not added. To add them, iterate over [`Drawing::display_list`]. To draw edges over all
     /// paths, add polylines of [`VisibilityMap::edges`](super::VisibilityMap::edges).
     pub fn add_drawing<P: Into<Paint>>(
         &mut self,
@@ -290,7 +290,7 @@ impl VectorPicture {
         }
     }
 
-    /// Adds an area. Its outlines are filled together by the nonzero rule, like the outlines of a
+    /// Adds an area. All outlines are filled together by the nonzero rule, like the outlines of a
     /// [`Path`](super::Path::outlines) or a [`Region`](super::Region::outlines).
     pub fn add_area<O: AsRef<[[f64; 2]]>>(
         &mut self,
@@ -380,8 +380,8 @@ impl VectorPicture {
         self.group_with(written, add)
     }
 
-    /// Groups adjacent areas that `add` adds. In an SVG there are no seams between these areas, even if they
-    /// are translucent.
+    /// Groups adjacent areas that `add` adds. In an SVG there are no seams between these areas, even if the
+    /// areas are translucent.
     ///
     /// Viewers add up the colours of the areas (`mix-blend-mode: plus-lighter`), and blend the sum with the
     /// picture below. Use such a group for [regions](super::VisibilityMap::regions), each with its blended

@@ -108,7 +108,7 @@ struct BoxedPath {
     outlines: Vec<Vec<Point>>,
 }
 
-/// Pairs of paths that overlap, the lower path first; `None` if there are too many to compare.
+/// Pairs of paths that overlap, the lower path first; `None` if there are too many pairs to compare.
 fn overlaps(paths: &[Path<'_>], size: [u32; 2]) -> Option<Vec<[u32; 2]>> {
     let areas: Vec<BoxedPath> = paths.iter().map(area).collect();
     let [width, height] = size.map(f64::from);
@@ -224,15 +224,15 @@ impl Drawing {
     ///
     /// Viewers blend the border pixels of each path with the pixels below. Along an edge of two polygons that
     /// each cover half of a pixel, a quarter of the background shows. Printers close such gaps by *trapping*
-    /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area, which is
-    /// opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers of
-    /// polygons. Polygons that are not opaque are not extended. Edges without an opaque neighbour are not
+    /// (ISO 32000-1, 14.11.6): the lower area is extended by about a pixel under the upper area. The upper
+    /// area is opaque and painted later, so the extension is not visible. `is_opaque` is called with numbers
+    /// of polygons. Polygons that are not opaque are not extended. Edges without an opaque neighbour are not
     /// extended either, nor edges whose neighbour is not convex and has many corners, nor edges whose
     /// extension would have less than a tenth of a square pixel. No path is added, removed or moved; outlines
     /// only gain corners. An extended side is no longer an [edge](Path::edges) of its polygon.
     ///
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically. O(n log n)
-    /// for n corners, unless they are spread very unevenly.
+    /// for n corners, unless the corners are spread very unevenly.
     #[must_use]
     pub fn trapped(&self, is_opaque: impl Fn(usize) -> bool) -> Self {
         let mut grid = Grid::new(self.size, self.corners.len());
@@ -300,7 +300,8 @@ fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// A side of an outline, the number of its path, and the number of the convex part that it bounds.
+/// A side of an outline, the number of the outline's path, and the number of the convex part that the side
+/// bounds.
 #[derive(Clone, Copy)]
 struct PlacedSide {
     path: usize,
@@ -335,7 +336,7 @@ impl Grid {
         }
     }
 
-    /// Finds the sides of later paths near a side, sorted by their parts.
+    /// Finds the sides of later paths near a side, sorted by the numbers of their convex parts.
     fn find_near(&self, ends: Segment, path: usize, found: &mut Vec<PlacedSide>) {
         found.clear();
         let mut numbers: Vec<u32> = Vec::new();
@@ -403,7 +404,8 @@ fn is_convex(outline: &[Point]) -> bool {
     (0..n).all(|i| turn * area_of([0, 1, 2].map(|k| outline[(i + k) % n])) >= 0.0)
 }
 
-/// The highest triangle on a side. Its apex is a corner of the path, and no side of the path enters it.
+/// The highest triangle on a side. The apex is a corner of the path, and no side of the path enters the
+/// triangle.
 fn triangle_on([a, b]: Segment, turn: f64, sides: &[Segment]) -> Option<[Point; 3]> {
     let area = |p: Point| turn * area_of([a, b, p]);
     let mut apexes: Vec<[f64; 2]> = sides.iter().map(|side| side[0]).collect();
@@ -432,12 +434,12 @@ fn enters(segment: Segment, triangle: [Point; 3], turn: f64) -> bool {
     from < to
 }
 
-/// Twice the area of a triangle, positive if it turns from x to y.
+/// Twice the area of a triangle, positive if the corners turn from x to y.
 fn area_of([a, b, c]: [Point; 3]) -> f64 {
     cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]])
 }
 
-/// Coordinates along a side, and outwards from it.
+/// Coordinates along a side, and outwards from the side.
 struct SideFrame {
     start: Point,
     length: f64,
@@ -478,8 +480,8 @@ impl SideFrame {
     }
 }
 
-/// The extension of a path at a side into a convex neighbour, along their common edges. Its corners are in
-/// local coordinates, from the lower to the upper end along the side.
+/// The extension of a path at a side into a convex neighbour, along the common edges of both. The corners of
+/// the extension are in local coordinates, from the lower to the upper end along the side.
 fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
     let corners: Outline = neighbour.iter().map(|&corner| frame.local(corner)).collect();
     let strip = band(frame, &corners)?;
@@ -489,8 +491,8 @@ fn strip(frame: &SideFrame, neighbour: &[Point]) -> Option<Outline> {
     Some(triangle(&corners, &strip).unwrap_or(strip))
 }
 
-/// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour. It
-/// has one corner less than the strip, which makes drawings shorter.
+/// A triangle on the edge of a strip that covers most of the strip and reaches further into the neighbour.
+/// The triangle has one corner less than the strip, which makes drawings shorter.
 fn triangle(neighbour: &[Point], strip: &[Point]) -> Option<Outline> {
     let [low, high] = [*strip.first()?, *strip.last()?];
     let length = high[0] - low[0];

@@ -1,4 +1,4 @@
-//! The primitives of a picture: pieces of faces, front to back, and the lines that bound them.
+//! The primitives of a picture: pieces of faces, front to back, and the lines that bound the pieces.
 
 use std::cmp::Ordering;
 
@@ -38,7 +38,7 @@ pub(super) struct View {
     pub(super) side: Ordering,
     /// Whether the face hides items behind it.
     pub(super) is_opaque: bool,
-    /// Whether the face's edges in the picture go through its given corners.
+    /// Whether the face's edges in the picture go through the given corners.
     pub(super) is_as_given: bool,
     /// The last item of the face, if any.
     pub(super) last: u32,
@@ -46,7 +46,7 @@ pub(super) struct View {
     halves: [u32; 2],
 }
 
-/// All pieces that may be visible, front to back, and the lines that bound them.
+/// All pieces that may be visible, front to back, and the lines that bound the pieces.
 #[derive(Debug)]
 pub(super) struct Primitives<'t> {
     tree: &'t BspTree,
@@ -64,9 +64,9 @@ pub(super) struct Primitives<'t> {
 const SHARE: usize = 1024;
 /// Faces and cells with more corners than this count one unit of work per corner.
 pub(super) const FEW_CORNERS: usize = 32;
-/// A face whose corners were moved is drawn with its moved corners if it has more corners than this: the test
-/// for given corners takes quadratic time. Too small: cracks beside faces of many corners. Too large: more
-/// time.
+/// A face whose corners were moved is drawn with the moved corners if it has more corners than this, because
+/// the test for given corners takes quadratic time. Too small: cracks beside faces of many corners. Too
+/// large: more time.
 const FEW_CORNERS_AS_GIVEN: usize = 8;
 /// The cost of one piece, in pieces that a build examines.
 const LOOKED: usize = 16;
@@ -145,7 +145,7 @@ impl<'t> Primitives<'t> {
         Ok(())
     }
 
-    /// The half-planes that bound a whole face: its edges, one after another; empty for a face outside the
+    /// The half-planes that bound a whole face, one for each edge, in order; empty for a face outside the
     /// picture.
     ///
     /// A ray that meets the face's plane behind the eye, or is parallel to the plane, is never in all these
@@ -240,8 +240,8 @@ impl<'t> Primitives<'t> {
         self.tree.preparation().polygons
     }
 
-    /// The cost of all edges of a face, in pieces that a build examines. It is 0 for faces of few corners:
-    /// the cost of the face includes their edges.
+    /// The cost of all edges of a face, in pieces that a build examines. It is 0 for faces of few corners,
+    /// because the cost of such a face includes the edges.
     pub(super) fn edges_work(&self, face: u32) -> usize {
         let corners = self.lines.frame.faces.corners(face).len();
         if corners > FEW_CORNERS { corners } else { 0 }
@@ -298,9 +298,9 @@ const FURTHEST_MOVE: f64 = (1u64 << 20) as f64;
 
 impl ViewFrame<'_> {
     /// Whether a face whose corners were moved can be drawn with its given corners. The given corners must
-    /// certainly form a convex polygon in the picture, which shows the same side as the face's plane. Rays
-    /// through the given corners must meet the face's plane ahead. No corner may have been moved by more than
-    /// [`FURTHEST_MOVE`].
+    /// certainly form a convex polygon in the picture. This polygon must show the same side as the face's
+    /// plane. Rays through the given corners must meet the face's plane ahead. No corner may have been moved
+    /// by more than [`FURTHEST_MOVE`].
     fn is_convex_as_given(&self, face: u32, given: &[[f64; 3]], side: Ordering) -> bool {
         let ViewFrame { rays, faces } = self;
         let n = given.len();

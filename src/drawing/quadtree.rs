@@ -1,11 +1,11 @@
-//! A quadtree of the picture: tiles that are halved until few pieces are in each, on all threads (J. E.
-//! Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in
-//! place of pixels).
+//! A quadtree of the picture: all threads halve tiles until each tile has few pieces (J. E. Warnock, "A
+//! hidden surface algorithm for computer generated halftone pictures", 1969; with exact leaves in place of
+//! pixels).
 //!
 //! Halving a tile does not separate triangles around one vertex, or strips side by side. But an edge of such
-//! a triangle or strip leaves about half of the others on each side. So tiles where long lists remain are
-//! divided along edges of their pieces: a binary space partition of the tile (H. Fuchs, Z. M. Kedem, B. F.
-//! Naylor, "On visible surface generation by a priori tree structures", 1980).
+//! a triangle or strip leaves about half of the other triangles or strips on each side. So tiles where long
+//! lists remain are divided along edges of the tile's pieces: a binary space partition of the tile (H. Fuchs,
+//! Z. M. Kedem, B. F. Naylor, "On visible surface generation by a priori tree structures", 1980).
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -36,20 +36,21 @@ pub(super) enum Across {
     Maybe,
 }
 
-/// Tiles of this size, in steps, are not halved if long lists are divided afterwards: 2⁻⁴ of a pixel. Too
-/// small: tiles around a vertex of many faces are halved many times. Too large: many small pieces are in one
-/// tile.
+/// If the caller divides long lists itself, tiles of this size or smaller, in steps, are not halved: 2⁻⁴ of a
+/// pixel. Too small: tiles around a vertex of many faces are halved many times. Too large: many small pieces
+/// are in one tile.
 pub(super) const TINY: i64 = 1 << 20;
-/// Other tiles of this size, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small: tiles around common points
-/// are halved many times. Too large: long lists remain.
+/// For other callers, tiles of this size or smaller, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small:
+/// tiles around common points are halved many times. Too large: long lists remain.
 pub(super) const TINIEST: i64 = 1 << 6;
 
 /// The growth of the number of pieces by halving. When a tile is halved, its two parts together have more
 /// pieces than the tile, because pieces that reach into both parts are counted twice. The growth of a part is
 /// the product of the ratios of these two numbers, over all halvings that led to the part.
 ///
-/// All parts of a picture together have at most as many pieces as the picture, times their largest growth.
-/// Proof: divide the number of pieces of each part by its growth; halving a part does not increase the sum.
+/// The total number of pieces in all parts of a picture is at most the picture's number of pieces times the
+/// largest growth of a part. Proof: add up, over all parts, the part's number of pieces divided by the part's
+/// growth. Halving a part does not increase this sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth(f64);
 
@@ -145,8 +146,8 @@ pub(super) const LINES: usize = 64;
 /// The cost of visiting a node of a graph.
 pub(super) const VISITED: usize = 4;
 
-/// Halves a part repeatedly, until `halves` returns `None`, and calls `leaf` with each part that is not
-/// halved, to add its results. Returns one collection for each part that threads share. The result and its
+/// Halves a part repeatedly, until `halves` returns `None`. Calls `leaf` with each part that is not halved,
+/// to add the part's results. Returns one collection for each part that threads share. The result and its
 /// order do not depend on the number of threads. Counts as one phase of the progress.
 pub(super) fn found_in<P: Send, F: Send + Default>(
     all: P,
@@ -220,7 +221,7 @@ pub(super) struct Candidates<'p> {
     halves: Vec<HalfPlane>,
     /// Whether the list ends where an opaque candidate covers the part.
     ends_at_cover: bool,
-    /// Items behind this item are missing from the list, because they are hidden.
+    /// Hidden items behind this item are missing from the list.
     limit: u32,
 }
 
@@ -334,7 +335,7 @@ impl<'p> Candidates<'p> {
     }
 
     /// Ends the list of items with the last item of an opaque face that covers the box. One or more items of
-    /// the face cover it together.
+    /// the face together cover the box.
     fn end_at_face(&mut self, sides: &Rect, watch: &Watch<'_>) -> Result<(), Error> {
         let primitives = self.primitives;
         let mut end = self.limit;
@@ -364,7 +365,7 @@ impl<'p> Candidates<'p> {
     }
 }
 
-/// A tile with the candidates that may be in it.
+/// A tile with the candidates that may reach into the tile.
 #[derive(Debug)]
 pub(super) struct TileList<'p> {
     pub(super) tile: Tile,
@@ -373,7 +374,7 @@ pub(super) struct TileList<'p> {
 }
 
 impl<'p> TileList<'p> {
-    /// The whole picture, with the candidates that may be in it.
+    /// The whole picture, with the candidates that may reach into the picture.
     pub(super) fn picture(candidates: Candidates<'p>, watch: &Watch<'_>) -> Result<Self, Error> {
         let tile = Tile::picture(candidates.primitives.lines.frame.rays.size());
         let candidates = candidates.narrowed(&tile.sides(), watch)?;
@@ -412,7 +413,7 @@ pub(super) struct Visible {
     pub(super) cell: Cell,
 }
 
-/// A tile that was not halved, and the visible parts of items in it.
+/// A tile that was not halved, and the visible parts of items in the tile.
 #[derive(Debug)]
 pub(super) struct Leaf {
     pub(super) tile: Tile,
@@ -464,12 +465,12 @@ pub(super) struct SubTile<'l, 'p> {
 /// The number of edges, each from a different piece, that are tried to divide a part. Too small: parts are
 /// divided unevenly, or not at all. Too large: choosing takes longer than it saves.
 const TRIED: usize = 12;
-/// The number of pieces that each of these edges is compared with. Too small: the choice is poor. Too large:
+/// The number of pieces that each tried edge is compared with. Too small: the choice is poor. Too large:
 /// choosing takes longer.
 const SAMPLE: usize = 48;
 
 impl<'l, 'p> SubTile<'l, 'p> {
-    /// The whole tile as one part, with the segments and points in it.
+    /// The whole tile as one part, with the segments and points in the tile.
     pub(super) fn new(
         list: &'l TileList<'p>,
         passing: Passing<'l>,

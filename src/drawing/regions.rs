@@ -23,8 +23,8 @@ pub struct Region {
 const TILES_AT_ONCE: usize = 64;
 
 impl VisibilityMap<'_> {
-    /// Divides the picture into regions; inside each, the same polygons are visible. Parts without a visible
-    /// polygon are in no region.
+    /// Divides the picture into regions. Inside a region, the same polygons are visible everywhere. Parts of
+    /// the picture without a visible polygon are in no region.
     ///
     /// If all polygons are opaque, each visible polygon has one region. Translucent polygons divide the
     /// polygons behind them: n overlapping polygons have up to O(n²) regions, with up to n polygons each. To
@@ -60,7 +60,7 @@ impl VisibilityMap<'_> {
     }
 }
 
-/// A visible polygon, and the layer in front of it. The first layer stands for no polygon.
+/// A visible polygon, and the layer in front of the polygon. The first layer stands for no polygon.
 struct PolygonLayer {
     polygon: usize,
     before: u32,
@@ -70,7 +70,7 @@ struct PolygonLayer {
 #[derive(Default)]
 struct Stacks {
     layers: Vec<PolygonLayer>,
-    /// Layers, by the layer in front of them and their polygons.
+    /// The number of each layer. The key is the layer in front and the polygon.
     numbers: Table<(u32, usize), u32>,
     /// The parts of regions, and the region of each part.
     parts: Area,
@@ -103,7 +103,7 @@ impl Stacks {
         Ok(())
     }
 
-    /// The regions, in the order of their polygons. Counts as one phase of the progress.
+    /// The regions, sorted by their lists of polygons. Counts as one phase of the progress.
     fn regions(self, lines: &LineTable<'_>, watch: &Watch<'_>) -> Result<Vec<Region>, Error> {
         let Self { layers, parts, of_parts, .. } = self;
         let layer = |part: u32| of_parts[part as usize];
@@ -184,8 +184,8 @@ pub(super) struct LayeredCell {
     pub(super) layer: u32,
 }
 
-/// A visible item, and the layer in front of it. Cells share layers, to save memory where many items lie over
-/// one another.
+/// A visible item, and the layer in front of the item. Cells share layers, to save memory where many items
+/// lie over one another.
 pub(super) struct ItemLayer {
     pub(super) item: u32,
     pub(super) before: u32,

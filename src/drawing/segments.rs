@@ -1,4 +1,4 @@
-//! Segments and points of the scene in the picture, and their passes in front of pieces or behind them.
+//! Segments and points of the scene in the picture, and their passes in front of pieces or behind pieces.
 //!
 //! The number of polygons in front of a segment is its quantitative invisibility (A. Appel, "The notion of
 //! quantitative invisibility and the machine rendering of solids", 1967).
@@ -58,11 +58,11 @@ enum Source {
 /// All places.
 const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Boxes are enlarged by this, in pixels: far more than rounding.
+/// Boxes are enlarged by this length, in pixels, which far exceeds rounding errors.
 pub(super) const MARGIN: f64 = 1e-3;
 
 impl ProjectedSegment {
-    /// Projects a segment; `None` if it is not in the picture, or is a point there.
+    /// Projects a segment; `None` if the segment is not in the picture, or is a point in the picture.
     pub(super) fn new(lines: &LineTable<'_>, ends: [[f64; 3]; 2]) -> Option<Self> {
         let [low, high] = Tile::picture(lines.frame.rays.size()).sides();
         let images = ends.map(|end| lines.frame.image(end));
@@ -101,7 +101,7 @@ impl ProjectedSegment {
         Some(segment)
     }
 
-    /// The part in a cell of the line in which two faces cross each other.
+    /// Projects the line in which two faces cross each other, clipped to a cell.
     pub(super) fn crossing(lines: &LineTable<'_>, faces: [u32; 2], cell: &Cell) -> Option<Self> {
         let rounded = lines.rounded_other(&cut(lines, faces));
         let mut segment = Self::along(rounded, Source::Crossing(faces))?;
@@ -159,14 +159,14 @@ impl ProjectedSegment {
         self.rounded.at(middle).abs() <= reach
     }
 
-    /// Whether the line crosses a cell or lies along one of its sides, exactly.
+    /// Whether the line crosses a cell or lies along one of the cell's sides, decided exactly.
     fn meets(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
         let signs = self.signs(lines, cell);
         beside(&signs).is_eq() || side_on_line(&signs).is_some()
     }
 
-    /// The places between which the line crosses a cell or lies along one of its sides. This decision is
-    /// exact; the places are rounded.
+    /// The places between which the line crosses a cell or lies along one of the cell's sides; `None` if the
+    /// line does neither, which is decided exactly. The places are rounded.
     pub(super) fn chord(&self, lines: &LineTable<'_>, cell: &Cell) -> Option<[f64; 2]> {
         let n = cell.sides.len();
         let signs = self.signs(lines, cell);
@@ -315,7 +315,8 @@ fn point_of<const N: usize>(image: &[Int<N>; 3]) -> [f64; 2] {
     [x / weight, y / weight]
 }
 
-/// The side of a line on which a cell lies, given the sides of its corners; `Equal` if it is on both sides.
+/// The side of a line on which a cell lies, given the sides of the cell's corners; `Equal` if the cell is on
+/// both sides.
 fn beside(signs: &[Ordering]) -> Ordering {
     let sides = [Ordering::Greater, Ordering::Less].map(|side| signs.contains(&side));
     sides[0].cmp(&sides[1])
@@ -335,7 +336,7 @@ pub(super) struct ProjectedPoint {
 }
 
 impl ProjectedPoint {
-    /// Projects a point; `None` if it is not in the picture.
+    /// Projects a point; `None` if the point is not in the picture.
     pub(super) fn new(lines: &LineTable<'_>, point: [f64; 3]) -> Option<Self> {
         let image = lines.frame.image(point);
         if !image[0].sign().is_gt() {
@@ -350,7 +351,7 @@ impl ProjectedPoint {
         [self.at.map(|c| c - MARGIN), self.at.map(|c| c + MARGIN)]
     }
 
-    /// Whether the point is in a cell or on one of its sides, exactly.
+    /// Whether the point is in a cell or on one of the cell's sides, decided exactly.
     pub(super) fn is_in(&self, lines: &LineTable<'_>, cell: &Cell) -> bool {
         cell.sides.iter().all(|side| {
             let line = lines.rounded(side.half);
@@ -375,8 +376,8 @@ impl ProjectedPoint {
     }
 }
 
-/// A part of a segment that passes in front of or behind an item or a face, over its inside or along its
-/// border in the picture.
+/// A part of a segment that passes in front of or behind an item or a face, over the inside or along the
+/// border of that item or face in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {
     /// The numbers of the segment and of the item or face.
@@ -388,7 +389,7 @@ pub(super) struct Pass {
     pub(super) places: [f64; 2],
 }
 
-/// A point that is in an item or a face in the picture, or on its border.
+/// A point that in the picture is inside an item or a face, or on the border of that item or face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointPass {
     pub(super) point: u32,
@@ -561,8 +562,8 @@ pub(super) struct Depth {
     layers: u32,
 }
 
-/// The quantitative invisibility of segments, and the start of each segment's list: before its first place,
-/// nothing is in front.
+/// The quantitative invisibility along segments, one list for each segment, and the start of each list.
+/// Before the first place of a list, nothing is in front of the segment.
 pub(super) struct Depths {
     depths: Vec<Depth>,
     begins: Vec<usize>,
@@ -608,7 +609,8 @@ impl Depths {
     }
 }
 
-/// Removes the passes of a segment from the start of a list that is sorted by segments, and returns them.
+/// Removes the passes of a segment from the start of a list that is sorted by segments, and returns these
+/// passes.
 pub(super) fn take_own<'p>(passes: &mut &'p [Pass], segment: u32) -> &'p [Pass] {
     let (own, rest) = passes.split_at(passes.partition_point(|pass| pass.segment == segment));
     *passes = rest;

@@ -1,8 +1,8 @@
 //! Vector pictures as SVG.
 //!
-//! Coordinates are whole numbers of a small unit, relative to the previous point, so that they are short. The
-//! look of a shape is its paint and the size of its font. Consecutive shapes with the same look are written
-//! as a group, which states the look once.
+//! Coordinates are whole numbers of a small unit, relative to the previous point, so the numbers are short.
+//! The look of a shape is its paint and the size of its font. Consecutive shapes with the same look are
+//! written as a group, which states the look once.
 
 use std::borrow::Cow;
 use std::fmt::{self, Write};
@@ -14,7 +14,7 @@ use super::picture::{
 impl VectorPicture {
     /// Returns the picture as the text of an SVG file.
     ///
-    /// Labels are text, in the fonts of the viewer. [Groups](Self::group) are written with their attributes.
+    /// Labels are text, in the fonts of the viewer. [Groups](Self::group) have attributes.
     pub fn to_svg(&self) -> String {
         let mut out = String::new();
         // Writing to a string does not fail.
@@ -66,7 +66,7 @@ pub(super) enum Written<'a> {
     End,
 }
 
-/// A group that is being written: its end, and the look of its contents, if the group states their look.
+/// A group that is being written: its end, and the look that the group states for its contents, if any.
 struct Open {
     end: usize,
     look: Option<Look>,
@@ -224,7 +224,7 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The data of a path, in whole steps from one corner to the next, so that roundings do not add up.
+/// The data of a path. Steps from one corner to the next are whole, so rounding errors do not add up.
 fn data(steps: &Steps) -> String {
     let mut data = Data { text: String::new(), decimals: steps.decimals, had_point: false };
     let mut pen = [0; 2];

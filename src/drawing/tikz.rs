@@ -180,7 +180,8 @@ fn paint_options(paint: Option<Paint>) -> Vec<String> {
     options
 }
 
-/// Writes the options of a scope or a shape, and the styles of its classes, which override them.
+/// Writes the options of a scope or a shape, and then the styles of its classes. The styles override the
+/// options.
 fn write_options(out: &mut String, mut options: Vec<String>, attributes: &str) -> fmt::Result {
     // Values of other attributes do not contain these characters, because their quotation marks are escaped.
     let classes = attributes.split_once(" class=\"").and_then(|(_, rest)| rest.split_once('"'));

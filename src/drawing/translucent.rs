@@ -41,17 +41,17 @@ impl Drawing {
     /// [`VisibilityMap::lines`](super::VisibilityMap::lines) last.
     ///
     /// A segment is cut where its place in the order changes. Each part is painted after the polygons behind
-    /// it and the polygons that it lies on, and before the polygons in front of it, by the rules of `lines`.
-    /// Lines and points with the same place in the order are painted in input order, lines first. Two lines
-    /// that cross in the picture may also be painted in input order, whichever is nearer. All lines and
-    /// points are marked as visible.
+    /// the part and the polygons that the part lies on, and before the polygons in front of the part.
+    /// `VisibilityMap::lines` states which polygons are in front. Lines and points with the same place in the
+    /// order are painted in input order, lines first. Two lines that cross in the picture may also be painted
+    /// in input order, whichever is nearer. All lines and points are marked as visible.
     ///
     /// An overlay does not change the paths, with one exception: a line along the border of two polygons that
-    /// only touch there, one behind the line and the other in front. Then these two polygons are painted in
-    /// that order, which may change the number of paths of polygons. If such pairs close a cycle, or are not
-    /// all found in a few rounds, a part of a line is painted after all polygons behind it, but polygons in
-    /// front may be painted before it. The same applies to a bent polygon with one face behind a line and
-    /// another face in front, because the polygon is one path.
+    /// touch only at the border, one behind the line and the other in front. Then these two polygons are
+    /// painted in that order, which may change the number of paths of polygons. If such pairs close a cycle,
+    /// or are not all found in a few rounds, a part of a line is painted after all polygons behind the part,
+    /// but polygons in front may be painted before the part. The same applies to a bent polygon with one face
+    /// behind a line and another face in front, because the polygon is one path.
     ///
     /// # Errors
     ///
@@ -137,7 +137,7 @@ pub(super) fn mixed(
 /// Too small: more paths. Too large: more time.
 const NEXT: usize = 16;
 
-/// Parts that are painted at once, each with items of one polygon.
+/// The parts of polygons that are painted at once. All items of a part belong to one polygon.
 pub(super) struct Parts {
     of_item: Vec<u32>,
     /// The items of each part, one face after another.
@@ -359,8 +359,9 @@ fn units(primitives: &Primitives<'_>, overlaps: &[Pair]) -> Vec<u32> {
     (0..primitives.items.len() as u32).map(unit).collect()
 }
 
-/// Pairs of nodes of one unit. Pairs whose nodes are nearest in the order come first, because they have the
-/// fewest nodes between them. (The number of remaining parts hardly depends on the sequence of joins.)
+/// Pairs of nodes of one unit. Pairs whose nodes are nearest in the order come first, because such a pair has
+/// the fewest nodes between its two nodes. (The number of remaining parts hardly depends on the sequence of
+/// joins.)
 fn candidates(nodes: &[u32], units: &[u32], watch: &Watch<'_>) -> Result<Vec<(u32, u32)>, Error> {
     let unit = |node: u32| units[nodes[node as usize] as usize];
     let mut by_unit: Vec<u32> = (0..nodes.len() as u32).collect();

@@ -427,7 +427,7 @@ impl Faces {
         )
     }
 
-    /// Whether these can be the corners of a cell.
+    /// Whether `corners` can bound a cell.
     #[cfg(feature = "save")]
     pub(crate) fn is_cell(corners: &[[f64; 3]]) -> bool {
         let is_side = |c: f64, open: f64| c.abs() <= LIMIT || c == open;

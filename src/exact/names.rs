@@ -63,7 +63,7 @@ impl fmt::Debug for PlaneId {
 pub struct EdgeLine(u32);
 
 impl EdgeLine {
-    /// Returns the line of the face's edge from its corner `k` to the next.
+    /// Returns the line through the face's corner `k` and the next corner.
     pub const fn edge(k: u32) -> Self {
         Self(EDGE << TAG_SHIFT | k)
     }

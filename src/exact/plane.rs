@@ -46,7 +46,7 @@ impl Plane {
         Self { normal, point: p.map(|c| c as i64) }
     }
 
-    /// The plane through a lattice point that is perpendicular to an axis.
+    /// The plane perpendicular to an axis, through a lattice point.
     pub(crate) fn axis(axis: usize, point: [f64; 3]) -> Self {
         let mut normal = [0; 3];
         normal[axis] = 1;
@@ -571,7 +571,7 @@ mod convex_outline_tests {
         assert!(told[0] > 2000 && told[1] > 2000, "{told:?}");
     }
 
-    /// Steps that almost continue in one line, or turn back. Integers of 128 bits decide what is right.
+    /// Steps that almost continue in one line, or turn back. Integers of 128 bits give the correct result.
     #[test]
     fn turns_are_exact() {
         let mut random = SplitMix64::new(4);

@@ -91,14 +91,14 @@ impl StoredVertex {
     }
 }
 
-/// Cuts a piece by a plane that has some of its vertices in front and some behind, and appends
-/// the vertices of the two parts to `front` and `back`, in the piece's orientation.
+/// Cuts a piece that has vertices in front of a plane and behind the plane. Appends the vertices of the two
+/// parts to `front` and `back`, in the piece's orientation.
 ///
 /// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
 /// strictly on opposite sides. Both parts define the new vertex by the same line and plane, so it is equal
 /// bit for bit in both. At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
 ///
-/// A piece of two vertices belongs to a segment, whose ends are on different sides.
+/// A piece with two vertices is part of a segment; the plane must separate the piece's ends.
 pub fn split(
     faces: &Faces,
     plane: &PreparedPlane,

@@ -110,7 +110,7 @@ impl SnapParams {
         Self { lattice, tolerance, bend: tolerance }
     }
 
-    /// The parameters for corners in a box, of this precision.
+    /// The parameters for corners inside the box `[min, max]`, given with this precision.
     pub(super) fn new(
         lattice: Lattice,
         [min, max]: [DVec3; 2],

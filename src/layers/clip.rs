@@ -25,17 +25,17 @@ pub(super) const MOST_CORNERS: usize = 10;
 
 type Points = SmallVec<[Point; MOST_CORNERS]>;
 
-/// Appends the corners of a layer's part in a box of the screen, and returns the largest distance by which
-/// rounding may have moved them off their plane. Returns `None`, and appends nothing, if no part is
+/// Appends the corners of a layer's part in a box of the screen. Returns the largest distance by which
+/// rounding may have moved a corner off the layer's plane. Returns `None`, and appends nothing, if no part is
 /// visible.
 ///
 /// Rounding may put a corner slightly outside the box. The corner is moved onto the sides that lie in
 /// `viewport`, but not onto sides that are a million sizes of the viewport away. At such a side, the last bit
 /// of the corner's place in the layer is a tenth of a pixel on the screen, so a move would put the corner off
-/// its plane by as much.
+/// the layer's plane by a tenth of a pixel.
 ///
 /// The layer is clipped in its own plane, where every side of the box is a half-plane. So all corners lie in
-/// one plane up to the rounding of their last computation, whichever sides clipped them.
+/// one plane, up to one rounding, whichever sides of the box clipped the layer.
 pub(super) fn clip(
     layer: &Layer,
     limits: [DVec3; 2],
@@ -93,7 +93,8 @@ fn permanent([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(sums)
 }
 
-/// The part of the rectangle inside its ancestors' rectangles and the box; `None` if it is empty.
+/// The part of the layer's rectangle inside the ancestors' rectangles and the box; `None` if this part is
+/// empty.
 fn clipped(layer: &Layer, [x, y, z, w]: [DVec3; 4], limits: [DVec3; 2]) -> Option<Points> {
     let corners = layer.corners();
     let [low, high] = limits;

@@ -33,11 +33,11 @@
 //!
 //! # Conventions
 //!
-//! The conventions are those of CSS. On the screen x points right, y down and z towards the viewer, in one
-//! unit, usually the pixel. A matrix maps a point (u, v) of its layer, as (u, v, 0, 1), to homogeneous screen
-//! coordinates (x, y, z, w), and includes the perspective. If w is positive, the point is at (x/w, y/w) on
-//! the screen, and a larger z/w is nearer to the viewer. So the page is seen along −z *after* the division,
-//! and layers are painted in the order of increasing z/w.
+//! The conventions are the conventions of CSS. On the screen x points right, y down and z towards the viewer,
+//! in one unit, usually the pixel. A matrix maps a point (u, v) of its layer, as (u, v, 0, 1), to homogeneous
+//! screen coordinates (x, y, z, w), and includes the perspective. If w is positive, the point is at (x/w,
+//! y/w) on the screen, and a larger z/w is nearer to the viewer. So the page is seen along −z *after* the
+//! division, and layers are painted in the order of increasing z/w.
 //!
 //! If depths of your matrices increase away from the viewer, negate their third row. If depths are from 0 to
 //! 1, multiply the third row by the size of the viewport: depths are compared with the same tolerance as x
@@ -134,12 +134,12 @@
 //!
 //! # Tolerance
 //!
-//! A page has one tolerance, a length on the screen, where depth counts like x and y. It is four times the
-//! largest rounding error of a corner's distance from its layer's plane. Each number of a matrix is assumed
-//! to be off by 2⁻⁵² of itself, or 2⁻²³ if the layer is made by [`Layer::from_f32`]. The tolerance is at
-//! least 10⁻⁹ of the viewport's longer side. It is also at least 2⁻⁴⁵ of the largest coordinate (x, y or
-//! depth) of any corner; this is more only if a layer reaches further than 35 000 times the longer side. The
-//! tolerance is at most 10⁻⁵ of the longer side.
+//! A page has one tolerance, a length on the screen, where depth counts like x and y. The tolerance is four
+//! times the largest rounding error of a corner's distance from its layer's plane. Each number of a matrix is
+//! assumed to have a relative error of 2⁻⁵², or of 2⁻²³ if the layer is made by [`Layer::from_f32`]. The
+//! tolerance is between 10⁻⁹ and 10⁻⁵ of the viewport's longer side. The tolerance is also at least 2⁻⁴⁵ of
+//! the largest coordinate (x, y or depth) of any corner. That limit exceeds 10⁻⁹ of the longer side only if a
+//! layer reaches further than 35 000 times the longer side.
 //!
 //! The order of two layers where they overlap:
 //!

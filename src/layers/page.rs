@@ -11,9 +11,9 @@ use crate::faces::DEFAULT_TOLERANCE;
 use crate::input::Polygon;
 use crate::viewpoint::Viewpoint;
 
-/// The reach of a page in depth, and across as well if it is not clipped to its viewport, in sizes of the
-/// viewport. Too large: coordinates are rounded to more than the least tolerance. Too small: layers that
-/// pass near the eye lose a visible part.
+/// The largest depth of a page's layers, in sizes of the viewport. If the page is not clipped to the
+/// viewport, also the largest x and y. Too large: coordinates are rounded to more than the least tolerance.
+/// Too small: layers that pass near the eye lose a visible part.
 const REACH: f64 = (1 << 20) as f64;
 /// The least and the largest tolerance, as shares of the viewport's size, like the limits of
 /// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
@@ -21,16 +21,16 @@ const REACH: f64 = (1 << 20) as f64;
 /// merged, or, because of one layer with few digits, all thin layers of the page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
-/// 2⁻⁵² of the page's extent. It exceeds the least share of the viewport only if a layer reaches further than
-/// 35 000 times the viewport's longer side. Too small: a step is more than the tolerance, and layers that
-/// separate matrices put into one plane lose their document order (without this limit, in 8 of 2000 unclipped
-/// pages). Too large: thin layers are merged.
+/// 2⁻⁵² of the page's extent. It exceeds the tolerance of `TOLERANCES[0]` only if a layer reaches further
+/// than 35 000 times the viewport's longer side. Too small: a step is more than the tolerance, and coplanar
+/// layers whose matrices differ lose their document order (without this limit, in 8 of 2000 unclipped pages).
+/// Too large: thin layers are merged.
 const GRAIN: f64 = 1.0 / (1u64 << 45) as f64;
 /// A point outside a piece counts as inside up to a distance of this share of the viewport's size. Too small:
 /// points fall through between pieces. Too large: an edge is hit before it is reached.
 const TOUCH: f64 = 1e-9;
 
-/// The layers of a page, cut and in paint order. Their memory is reused from frame to frame.
+/// The layers of a page, cut and in paint order. Memory is reused from frame to frame.
 ///
 /// Pass every frame's layers to [`update`](Self::update), then read the pieces. Unchanged frames take no
 /// time; other frames take the time of building a [`BspTree`](crate::BspTree) of as many polygons. [The
@@ -59,15 +59,15 @@ pub struct Layers {
 #[derive(Clone, Debug)]
 struct Outline {
     layer: usize,
-    /// Equal for layers of one plane.
+    /// A number that is equal for layers of one plane.
     plane_key: u64,
-    /// The first of the outline's corners; they end where the next outline's corners begin.
+    /// The first corner of the outline. The outline's corners end where the next outline's corners begin.
     corners: usize,
     pieces: usize,
 }
 
 impl Layers {
-    /// Creates an empty page on a screen, from the `low` to the `high` corner of its viewport. If the
+    /// Creates an empty page on a screen, from the `low` to the `high` corner of the viewport. If the
     /// viewport has no area, no layer is visible.
     pub fn new([low, high]: [[f64; 2]; 2]) -> Self {
         Self {
@@ -245,17 +245,18 @@ impl Layers {
     }
 
     /// Returns the index of the nearest layer at a point of the screen, and the point (u, v) of the layer
-    /// that appears there. This is the first of the [`hits`](Self::hits).
+    /// that appears at that point: the first of the [`hits`](Self::hits).
     pub fn hit(&self, point: [f64; 2]) -> Option<(usize, [f64; 2])> {
         self.hits(point).next()
     }
 
     /// Returns all layers at a point of the screen, front to back, each once: the index of the layer, and the
-    /// point (u, v) of the layer that appears there.
+    /// point (u, v) of the layer that appears at that point.
     ///
     /// O(pieces). The order is the exact order of the pieces. Whether a piece covers the point is decided in
-    /// `f64`, by its [vertices](LayerPiece::vertices): a point outside counts as inside if it is closer to an
-    /// edge than 10⁻⁹ of the viewport's longer side. Where pieces of one layer meet, the nearer piece counts.
+    /// `f64`, by its [vertices](LayerPiece::vertices): a point outside counts as inside if the point is
+    /// closer to an edge than 10⁻⁹ of the viewport's longer side. Where pieces of one layer meet, the nearer
+    /// piece counts.
     pub fn hits(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
         let slack = TOUCH * self.size();
         let at = DVec2::new(x, y);

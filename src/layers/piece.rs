@@ -4,7 +4,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
 use crate::tree::Fragment;
 
-/// A convex piece of a layer, or its whole visible part.
+/// A convex piece of a layer, or the whole visible part of a layer.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerPiece<'p> {
     pub(super) number: usize,
@@ -21,7 +21,7 @@ impl<'p> LayerPiece<'p> {
         self.number
     }
 
-    /// Returns whether the piece is the whole visible part of its layer, because no other layer cuts it.
+    /// Returns whether the piece is the whole visible part of its layer: no other layer cuts that part.
     pub fn is_whole(&self) -> bool {
         self.is_whole
     }
@@ -29,8 +29,9 @@ impl<'p> LayerPiece<'p> {
     /// Returns the vertices, in the sense of the rotation from u to v. This is clockwise on the screen if the
     /// layer is seen from its front.
     ///
-    /// Pieces of one layer that share a vertex have the same bits for its position. The place in the layer is
-    /// u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the screen.
+    /// Pieces of one layer that share a vertex have the same bits for the vertex's position. The place in the
+    /// layer is u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the
+    /// screen.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = LayerVertex> + use<'p> {
         let Self { layer, outline, fragment, .. } = *self;
         fragment.vertices().zip(fragment.weights()).map(move |(position, weights)| {
@@ -41,9 +42,9 @@ impl<'p> LayerPiece<'p> {
         })
     }
 
-    /// Returns, for each edge from a vertex to the next, the edge of the layer that it lies on, or `None` if
-    /// a cut or the viewport made it. [Antialias](super#antialiasing) only edges of the layer: where pieces
-    /// of one layer meet, antialiasing would let the background through.
+    /// Returns the edge of the layer on which each edge of the piece (from a vertex to the next) lies. `None`
+    /// stands for an edge that a cut or the viewport made. [Antialias](super#antialiasing) only edges of the
+    /// layer: where pieces of one layer meet, antialiasing would let the background through.
     ///
     /// Edge 0 leads from the rectangle's low corner along u, edge 1 along v, edges 2 and 3 back. Edges 4 to 7
     /// belong to the first [ancestor](Layer::clipped_by) that cuts the layer, in the same order. Each further
@@ -54,8 +55,8 @@ impl<'p> LayerPiece<'p> {
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
     }
 
-    /// Whether a point of the screen is in the bounding box of its layer's visible part, or within `slack`
-    /// of it.
+    /// Whether a point of the screen is in the bounding box of the visible part of the piece's layer, or
+    /// within `slack` of that box.
     pub(super) fn is_near(&self, at: DVec2, slack: f64) -> bool {
         let corners = self.outline.iter().map(|corner| corner.vertex.position.truncate());
         let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
@@ -63,7 +64,7 @@ impl<'p> LayerPiece<'p> {
         at.cmpge(bounds[0] - slack).all() && at.cmple(bounds[1] + slack).all()
     }
 
-    /// Whether the piece covers a point of the screen, or is within `slack` of it.
+    /// Whether the piece covers a point of the screen, or is within `slack` of the point.
     ///
     /// The piece covers the point if the outline crosses a ray along x from the point an odd number of times.
     /// Sides of lines are not tested: an edge no longer than its rounding error may have any direction.
@@ -120,7 +121,7 @@ pub(super) struct ClippedCorner {
     pub(super) edge: Option<u8>,
 }
 
-/// The vertex at a point of the screen, by its weights over corners.
+/// The vertex at a point of the screen, given the point's weights over corners.
 pub(super) fn interpolated(
     layer: &Layer,
     outline: &[ClippedCorner],
@@ -137,8 +138,8 @@ pub(super) fn interpolated(
     LayerVertex { position, w: unit / sum.z, local }
 }
 
-/// A rectangle in its own coordinates, and a matrix that maps it to the screen. Rectangles of ancestors may
-/// cut the layer.
+/// A rectangle in its own coordinates, and a matrix that maps the rectangle to the screen. Rectangles of
+/// ancestors may cut the layer.
 ///
 /// Two layers are equal if their numbers are equal. An equal list of layers is an unchanged frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -180,7 +181,7 @@ impl Layer {
 
     /// Creates a layer with the rectangle from (0, 0) to (width, height): the box of a CSS element, with u to
     /// the right and v downwards from its upper left corner. [The module](super#matrices) shows how to
-    /// compute its matrix.
+    /// compute the matrix of an element.
     pub fn rect([width, height]: [f64; 2], matrix: DMat4) -> Self {
         Self::new([[0.0, 0.0], [width, height]], matrix)
     }
@@ -197,14 +198,14 @@ impl Layer {
         Self { low: low.into(), high: high.into(), rows, step, clips: Vec::new() }
     }
 
-    /// Cuts the layer by the rectangle of an ancestor that hides its overflow (CSS `overflow: hidden`), and
-    /// by the rectangles that cut the ancestor. Call this method again for further ancestors. The ancestor
+    /// Cuts the layer by the rectangle of an ancestor with hidden overflow (CSS `overflow: hidden`), and by
+    /// the rectangles that cut the ancestor. Call this method again for further ancestors. The ancestor
     /// itself is painted only if it is also in the list of layers.
     ///
-    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the intersection of
-    /// their outlines remains, up to the rounding of `f64`; it is exact if both layers have the same matrix.
-    /// Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor is seen
-    /// edge-on, nothing remains.
+    /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the visible part is
+    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the same
+    /// matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor
+    /// is seen edge-on, nothing remains.
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};
@@ -257,8 +258,8 @@ impl Layer {
     }
 
     /// Returns the point (u, v) of the layer's plane that appears at a point of the screen, for drawing a
-    /// layer pixel by pixel. The point may be outside the layer's rectangle. `None` if the plane does not
-    /// appear there or appears as a line.
+    /// layer pixel by pixel. The point (u, v) may be outside the layer's rectangle. `None` if the plane does
+    /// not appear at the point of the screen, or appears as a line.
     ///
     /// Without perspective, u and v are linear over the screen; otherwise u/w, v/w and 1/w are linear.
     pub fn local(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {

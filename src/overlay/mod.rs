@@ -86,21 +86,21 @@ use crate::viewpoint::Ray;
 /// # Queries
 ///
 /// [`hits`](Self::hits) returns the polygons of the tree and of the overlay along a ray, nearest first.
-/// [`is_occluded`](Self::is_occluded) returns whether a polygon of either blocks the line of sight between
-/// two points. [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices and triangles
-/// for a renderer.
+/// [`is_occluded`](Self::is_occluded) returns whether a polygon of the tree or of the overlay blocks the line
+/// of sight between two points. [`welded_mesh`](Self::welded_mesh) returns the overlay's polygons as vertices
+/// and triangles for a renderer.
 ///
 /// # Contents
 ///
-/// The planes of the tree cut each polygon down to the leaves that it reaches. A small separate tree orders
-/// the pieces that meet in one leaf. The tree itself is never cut or changed. A piece of a polygon is a
-/// [`Fragment`]. The overlay's polygons are numbered after the tree's polygons. Pieces of all kinds are
-/// numbered from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
+/// The planes of the tree cut each polygon, from the root to the leaves that the polygon reaches. A small
+/// separate tree orders the pieces that meet in one leaf. The tree itself is never cut or changed. A piece of
+/// a polygon is a [`Fragment`]. The overlay's polygons are numbered after the tree's polygons. Pieces of all
+/// kinds are numbered from the tree's [`len`](BspTree::len) on. All numbers are valid until the next
 /// [`replace`](Self::replace).
 ///
-/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. Where lines and
-/// points meet between polygons, they are separated by planes through lines or perpendicular to an axis.
-/// Segments without length have no pieces.
+/// Lines and points are cut and placed in the same way, and never cause a cut of a polygon. In a region that
+/// contains no polygon, planes through lines or perpendicular to an axis separate lines and points. Segments
+/// without length have no pieces.
 ///
 /// # Order
 ///
@@ -109,9 +109,9 @@ use crate::viewpoint::Ray;
 /// tree's. The tree's fragments keep their own order, with pieces between them.
 ///
 /// If a line or point coincides in the picture, but not in space, with another line, point or polygon, the
-/// nearer shape is painted later. There is one exception: if both shapes lie, within the tolerance, in one
-/// dividing plane that is seen edge-on, they are painted in the order of shapes in one plane (see below),
-/// whichever is nearer. Dividing planes are
+/// nearer shape is painted later. Exception: two shapes that lie, within the tolerance, in one dividing plane
+/// that is seen edge-on. Such shapes are painted polygons first, then lines in input order, then points, even
+/// if the shape painted first is nearer. Dividing planes are
 ///
 /// - the planes of the tree ([`BspTree::nodes`]), and the planes of the overlay's polygons;
 /// - where lines and points meet between polygons, planes perpendicular to an axis through a corner or a
@@ -120,17 +120,18 @@ use crate::viewpoint::Ray;
 ///   the segment, the plane is parallel to the z axis, or for a segment along z to the x axis.
 ///
 /// The exception never occurs for an eye that lies in no plane of a polygon or segment and shares no x, y or
-/// z coordinate with a corner or point. (If a grid of markers is seen exactly along one of its planes, the
+/// z coordinate with a corner or point. (If a grid of markers is seen exactly along a plane of the grid, the
 /// nearest marker may be painted first. Move the eye a little, or pass the markers in another order.)
 ///
 /// Shapes in one plane are painted in this order: polygons, then lines in input order, then points. This
 /// holds for shapes that coincide in *space*, and for all shapes in a dividing plane that is seen edge-on. So
-/// an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut there, and a point at
-/// the cut is painted between the two parts.
+/// an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut at the plane, and a
+/// point at the cut is painted between the two parts.
 ///
-/// Between polygons, one rule differs: a point at a corner of a line is painted after both segments there, if
-/// the line has no point at the corners before and after. Closed lines and repeated corners follow the same
-/// rule. If more than two segments meet at a point, some segments may be painted after the point.
+/// Where no polygon is involved, a point at a corner of a line is painted after both adjoining segments,
+/// provided that no point lies at the line's previous or next corner. Closed lines and repeated corners
+/// follow the same rule. If more than two segments meet at a point, some segments may be painted after the
+/// point.
 ///
 /// The tolerance applies as for polygons:
 ///
@@ -149,9 +150,9 @@ use crate::viewpoint::Ray;
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
 /// If the bounding box of many faces, such as the faces of a body, lies on one side of a plane, all these
-/// faces are moved there at once. So a body reaches its leaf in little time if its faces are passed
-/// consecutively. The small tree of the body is built again each time, so a body of thousands of faces takes
-/// milliseconds.
+/// faces are moved to that side at once. So a body reaches its leaf in little time if its faces are passed
+/// consecutively. Each `replace` builds the small tree of the body again, so a body of thousands of faces
+/// takes milliseconds.
 ///
 /// All coordinates are rounded to the tree's grid, and the tree's tolerance applies. The grid is a cube
 /// around the middle of the tree's bounding box, with sides at least as long as the longest side of the box.
@@ -261,9 +262,9 @@ impl Overlay {
     ///
     /// The rules of [`BspTree::hits`] apply to all polygons: hits are exact, and at one point the tree's
     /// polygons precede the overlay's. All hits of the overlay are found first, in time proportional to the
-    /// number of its boxes that the ray crosses. The first call after a [`replace`](Self::replace) computes
-    /// these boxes, in time proportional to the number of pieces. The first call for a tree also computes the
-    /// tree's boxes, in O(n), like [`BspTree::bounds`].
+    /// number of the overlay's boxes that the ray crosses. The first call after a [`replace`](Self::replace)
+    /// computes the boxes of all pieces, in time proportional to the number of pieces. The first call for a
+    /// tree also computes the tree's boxes, in O(n), like [`BspTree::bounds`].
     ///
     /// # Errors
     ///
@@ -286,10 +287,10 @@ impl Overlay {
         Ok(self.targets(tree)?.is_occluded(ray))
     }
 
-    /// Returns the pieces of polygons as vertices and triangles, without T-junctions between them. The mesh
-    /// is like the mesh of a tree. Its pieces have the numbers that [orders](Self::order) list, from the
-    /// tree's [`len`](BspTree::len) on. Its polygons are numbered after the tree's polygons. The mesh shares
-    /// no vertices with the tree's mesh, and no edge is welded with the tree's edges.
+    /// Returns the pieces of polygons as vertices and triangles, without T-junctions between pieces. The mesh
+    /// is like the mesh of a tree. The mesh's pieces have the numbers that [orders](Self::order) list, from
+    /// the tree's [`len`](BspTree::len) on. The overlay's polygons are numbered after the tree's polygons.
+    /// The mesh shares no vertices with the tree's mesh, and no edge is welded with the tree's edges.
     ///
     /// [`Triangles::write_order_with`](crate::mesh::Triangles::write_order_with) writes one list of indices
     /// for both meshes:

@@ -30,15 +30,15 @@ pub(super) struct InsertionTree {
     groups: Vec<Range<u32>>,
 }
 
-/// A plane with pieces on it or around it: the plane of a node of the tree, of the fragment in a leaf, or of
-/// a small tree in a cell.
+/// A plane with pieces on the plane or around it: the plane of a node of the tree, of the fragment in a leaf,
+/// or of a small tree in a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch {
     pub(super) rounded: Vec4,
     pub(super) plane: PlaneId,
     /// The number of fragments of the tree that lie on the plane.
     pub(super) own: u32,
-    /// The pieces on the plane. They follow the fragments on the plane.
+    /// The pieces on the plane. In the order, these pieces follow the fragments on the plane.
     pub(super) pieces: SlotSide,
     pub(super) front: SlotSide,
     pub(super) back: SlotSide,
@@ -93,7 +93,7 @@ impl InsertionTree {
         self.groups.clear();
     }
 
-    /// A side that consists of these pieces alone.
+    /// A side that consists of the given pieces alone.
     pub(super) fn group(&mut self, pieces: Range<u32>) -> SlotSide {
         if pieces.is_empty() {
             return SlotSide::empty(0);
@@ -177,7 +177,7 @@ impl InsertionTree {
 
     /// Writes the beginning of each slot in the order of fragments and pieces.
     ///
-    /// The loop has no branch on the eye's side, which no processor can predict.
+    /// The loop has no branch on the eye's side, because no processor can predict such a branch.
     fn write_begins(&self, faces: &Faces, view: &View, begins: &mut [u32]) {
         begins[self.root.slot as usize] = 0;
         for (i, branch) in self.branches.iter().enumerate() {
@@ -257,7 +257,7 @@ impl<'a> OverlayOrder<'a> {
     }
 
     /// Leaves out the fragments and pieces that are outside a frustum or show the wrong side. Lines and
-    /// points have no sides; they are left out only if they are outside the frustum. The other shapes keep
+    /// points have no sides, so they are left out only if they are outside the frustum. The other shapes keep
     /// their order.
     pub fn culled(self, culling: &'a Culling) -> Self {
         Self { order: self.order.culled(culling), ..self }
@@ -269,9 +269,9 @@ impl<'a> OverlayOrder<'a> {
     /// Takes the time of [`BspTree::back_to_front_into`], plus the time to copy the list and to compare the
     /// eye with each plane on the way from the root to a piece. An empty overlay adds no time. The buffer
     /// also serves as working space; once it is large enough, nothing is allocated. A culled order skips
-    /// subtrees like a [tree's](crate::Order::write_into), visits all planes on the way to the pieces, and
-    /// allocates working space. The first culled order after a [`replace`](Overlay::replace) also computes
-    /// the boxes of the pieces.
+    /// subtrees like a tree's [culled order](crate::Order::write_into), visits all planes on the way to the
+    /// pieces, and allocates working space. The first culled order after a [`replace`](Overlay::replace) also
+    /// computes the boxes of the pieces.
     pub fn write_into(self, numbers: &mut Vec<u32>) {
         let Self { overlay, order } = self;
         if overlay.is_empty() {

@@ -1,4 +1,5 @@
-//! Places an overlay's polygons, lines and points: cuts them by the planes of a tree, down to its leaves.
+//! Places an overlay's polygons, lines and points: the planes of a tree cut them, from the root to the
+//! leaves.
 
 use std::ops::Range;
 
@@ -16,11 +17,12 @@ use crate::tree::node::{MOST_FRAGMENTS, NodeRecord, Ranges, Sizes, finish, make_
 use crate::tree::order::eye::rounded;
 use crate::tree::parts::{Parts, Record};
 
-/// A set of at least this many pieces moves to one side of a plane at once if its box lies there. Too small:
-/// time to test boxes of scattered pieces. Too large: time to test the pieces of a body one by one.
+/// A set of at least this many pieces moves to one side of a plane at once if the set's box lies on that
+/// side. Too small: time to test boxes of scattered pieces. Too large: time to test the pieces of a body one
+/// by one.
 const CROWD: usize = 256;
 
-/// Places polygons, lines and points in a tree; its lists are reused.
+/// The placing of polygons, lines and points in a tree, with lists that are reused.
 #[derive(Default)]
 pub(super) struct Placer {
     cells: OverlayBuilder,
@@ -34,7 +36,7 @@ pub(super) struct Placer {
     pending: Vec<Pending>,
     front: Vec<Piece>,
     own: Vec<Piece>,
-    /// The box of the set on top of the stack, if it moved to one side of a plane as a whole.
+    /// The box of the set on top of the stack, if that set moved to one side of a plane as a whole.
     crowd: Option<[DVec3; 2]>,
     splitter: Splitter,
 }

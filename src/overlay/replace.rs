@@ -12,7 +12,8 @@ use crate::progress::{Progress, Watch, one_at_a_time};
 use crate::tree::{BspTree, Fragment};
 
 impl Overlay {
-    /// Replaces the overlay's contents by polygons, and cuts them down to the leaves of the tree.
+    /// Replaces the overlay's contents by polygons, and cuts the polygons by the planes of the tree, from the
+    /// root to the leaves.
     ///
     /// # Errors
     ///
@@ -27,8 +28,8 @@ impl Overlay {
         self.replace_with(tree, Shapes::NONE.with_polygons(polygons))
     }
 
-    /// Replaces the overlay's contents by polygons, lines and points, and cuts them down to the leaves of the
-    /// tree.
+    /// Replaces the overlay's contents by polygons, lines and points, and cuts these shapes by the planes of
+    /// the tree, from the root to the leaves.
     ///
     /// # Errors
     ///
@@ -150,8 +151,8 @@ impl<P, L, Q> Shapes<P, L, Q> {
     }
 
     /// Sets the lines: an iterator of any type of [`Polygon`](crate::Polygon), whose corners are joined in
-    /// order. The last corner is not joined to the first: to close a line, repeat its first corner. A single
-    /// corner makes no line.
+    /// order. The last corner is not joined to the first: to close a line, repeat the line's first corner. A
+    /// single corner makes no line.
     #[must_use]
     pub fn with_lines<T>(self, lines: T) -> Shapes<P, T, Q> {
         let Self { polygons, points, .. } = self;
@@ -223,7 +224,7 @@ impl Segment<'_> {
 
     /// Returns the two ends of the piece, in the direction of the line. A corner of the line is rounded to
     /// the grid; a cut end is rounded like [`Fragment::vertices`]. The two pieces at a cut have the same bits
-    /// there.
+    /// for the cut end.
     pub fn ends(&self) -> [DVec3; 2] {
         let mut ends = self.piece.vertices();
         [(); 2].map(|()| ends.next().unwrap_or_default())
@@ -239,7 +240,7 @@ impl Segment<'_> {
         [(); 2].map(|()| ends.next().unwrap_or_default())
     }
 
-    /// Returns, for each end, whether a cut made it. Otherwise the end is a corner of the line.
+    /// Returns, for each end, whether a cut made the end. Otherwise the end is a corner of the line.
     pub fn cuts(&self) -> [bool; 2] {
         let mut ends = self.piece.vertex_ids();
         [(); 2]

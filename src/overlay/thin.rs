@@ -128,16 +128,16 @@ fn cost(faces: &Faces, sample: &Sample<'_>, arena: &[Vertex], plane: PlaneId) ->
     divides.then_some(front.max(back) + CUT * cuts)
 }
 
-/// For each point, a segment that ends or begins at it, if any.
+/// For each point, a segment that ends or begins at the point, if any.
 ///
 /// A mark on a curve is to be painted over the curve. If a plane separated the two segments that meet at the
-/// mark, one segment would be painted after the mark. The plane of the segment that ends there also contains
-/// the next segment (see `third_corner`) and the point.
+/// mark, one segment would be painted after the mark. The plane of the segment that ends at the mark also
+/// contains the next segment (see `third_corner`) and the point.
 #[derive(Debug, Default)]
 pub(super) struct Anchors {
     /// The first point's face.
     first: u32,
-    /// A segment for each point, by the bits of the point's coordinates. (The lattice has no −0.)
+    /// A segment for each point. The key is the bits of the point's coordinates. (The lattice has no −0.)
     segments: HashMap<[u64; 3], Option<u32>>,
 }
 

@@ -17,8 +17,8 @@ use crate::tree::parts::Stored;
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::{Facing, Ray};
 
-/// The fragments that rays may meet: a tree's fragments, and the pieces of an overlay, which are numbered
-/// after them.
+/// The fragments that rays may meet: a tree's fragments, and the pieces of an overlay. Pieces are numbered
+/// after the tree's fragments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tree: &'t BspTree,
@@ -193,16 +193,18 @@ impl BspTree {
     ///
     /// # Definition of a hit
     ///
-    /// Polygons are as the tree stores them: their corners are rounded to its grid, and moved onto the
-    /// polygon's plane if they were off it by less than the tolerance. A polygon includes its edges and
-    /// corners, a segment both ends, and a ray its start. The intersection of a ray and a polygon consists of
-    /// points and segments. Each point is one hit, and each segment is one hit at its nearest point:
+    /// Polygons are as the tree stores them: corners are rounded to the tree's grid, and moved onto the
+    /// polygon's plane if they were off the plane by less than the tolerance. A polygon includes its edges
+    /// and corners, a segment both ends, and a ray its start. The intersection of a ray and a polygon
+    /// consists of points and segments. Each point is one hit, and each segment is one hit at the segment's
+    /// nearest point:
     ///
     /// - a ray through an edge that several polygons share, or through a corner, hits each of these polygons
     ///   once, however the tree has cut them;
-    /// - a ray in the plane of a polygon hits the polygon where it enters the polygon, or at its start if the
-    ///   start is inside the polygon. The hit then [faces](Hit::facing) neither side. There is no second hit
-    ///   where the ray leaves the polygon or passes from one of its fragments to another;
+    /// - a ray in the plane of a polygon hits the polygon where the ray enters the polygon, or at the ray's
+    ///   start if the start is inside the polygon. The hit then [faces](Hit::facing) neither side. There is
+    ///   no second hit where the ray leaves the polygon or passes from one fragment of the polygon to
+    ///   another;
     /// - only a polygon that is not convex, or not planar, can be hit more than once.
     ///
     /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
@@ -244,14 +246,15 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the
-    /// fragment's plane. It depends only on the ray's direction, also for a ray that begins on the fragment.
+    /// fragment's plane. The side depends only on the ray's direction, also for a ray that begins on the
+    /// fragment.
     pub fn facing(&self) -> Facing {
         self.facing.into()
     }
 
-    /// Returns the parameter of the hit: its point is at `from + parameter * direction`. The value is the
-    /// `f64` nearest to the exact fraction, or its neighbour if that is about as near. It is infinite if it
-    /// is too large for `f64`.
+    /// Returns the parameter of the hit: the hit's point is at `from + parameter * direction`. The value is
+    /// the `f64` nearest to the exact fraction, or the second nearest if both are about equally near. A value
+    /// that is too large for `f64` is infinite.
     ///
     /// The distance is the parameter times the length of the direction. Each call computes the parameter, in
     /// about 0.1 µs.
@@ -263,8 +266,8 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the point of the hit, rounded like a fragment's vertices: the error of each coordinate is at
-    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`. This holds however far away the ray begins and
-    /// however small its angle to the polygon.
+    /// most 2⁻⁵¹ of the scene's extent plus one step of `f64`. This bound holds however far away the ray
+    /// begins and however small the angle between the ray and the polygon.
     ///
     /// Each call computes the point, in about 0.2 µs.
     pub fn point(&self) -> DVec3 {
@@ -274,7 +277,7 @@ impl<'t> Hit<'t> {
 
     /// Compares the distances of two hits along the same ray: `Less` if this hit is nearer. The comparison is
     /// exact, even if the [parameters](Self::parameter) or [points](Self::point) are rounded to the same
-    /// values. It is meaningless for hits of different rays or trees.
+    /// values. The result is meaningless for hits of different rays or trees.
     pub fn compare(&self, other: &Self) -> Ordering {
         match (self.exact(), other.exact()) {
             (Some((_, t)), Some((_, other))) => t.compare(&other),
@@ -283,9 +286,9 @@ impl<'t> Hit<'t> {
     }
 
     /// Returns the exact definition of the hit's point: three points of the tree's [grid](BspTree::grid). The
-    /// ray meets the plane through these points at the hit. Usually this is the fragment's plane. For a ray
-    /// in the fragment's plane, it is a plane through an edge. `None` if the point is an end of the ray
-    /// inside the polygon: the start if [`parameter`](Self::parameter) is 0.
+    /// ray meets the plane through these points at the hit. Usually the three points define the fragment's
+    /// plane. For a ray in the fragment's plane, they define a plane through an edge. `None` if the point is
+    /// an end of the ray inside the polygon: the start if [`parameter`](Self::parameter) is 0.
     ///
     /// For the ray as given (see [`Ray`]), the exact parameter is the fraction n·(p − from) / n·direction,
     /// where n is the vector product of q − p and r − p.
@@ -322,8 +325,8 @@ impl std::fmt::Debug for Hit<'_> {
 /// A binary heap in which each interval precedes its two children. (The heap of the standard library cannot
 /// pass the ray to comparisons.)
 ///
-/// Pushing takes a few comparisons if the interval follows most others. That is common: at one point, faces
-/// are found in input order. Popping takes one or two comparisons per level.
+/// Pushing takes a few comparisons if the interval follows most others. This case is common, because faces
+/// hit at one point are found in input order. Popping takes one or two comparisons per level.
 #[derive(Clone, Debug, Default)]
 struct HitQueue {
     heap: SmallVec<[Interval; 8]>,
@@ -363,7 +366,7 @@ impl HitQueue {
         Some(first)
     }
 
-    /// Moves an interval up in front of all intervals that it precedes.
+    /// Moves an interval towards the root of the heap, past all parents that the interval precedes.
     fn rise(&mut self, mut at: usize, query: &RayQuery, faces: &Faces) {
         while at > 0 {
             let above = (at - 1) / 2;
@@ -419,10 +422,10 @@ impl BspTree {
     /// exact. If an eye should see along a floor, look for [`hits`](Self::hits) whose
     /// [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
     ///
-    /// The search stops at the first polygon that it finds, which need not be the nearest. Its time is
-    /// proportional to the number of boxes that the segment crosses before that polygon. The first call
-    /// computes the boxes, in O(n) time ([`bounds`](Self::bounds)). Later calls allocate nothing unless
-    /// dozens of parts of the tree are pending at once.
+    /// The search stops at the first polygon found, which need not be the nearest. The time is proportional
+    /// to the number of boxes that the segment crosses before that polygon. The first call computes the
+    /// boxes, in O(n) time ([`bounds`](Self::bounds)). Later calls allocate nothing unless dozens of parts of
+    /// the tree are pending at once.
     pub fn is_occluded(&self, ray: Ray) -> bool {
         Targets { tree: self, pieces: None }.is_occluded(ray)
     }

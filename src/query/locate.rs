@@ -23,13 +23,13 @@ pub struct Location<'t> {
 }
 
 impl<'t> Location<'t> {
-    /// Returns the node whose front or back is the leaf. `None` if the tree has no nodes: then it is one
-    /// leaf.
+    /// Returns the node whose front or back is the leaf. `None` if the tree has no nodes: then the whole tree
+    /// is one leaf.
     pub fn node(&self) -> Option<Node<'t>> {
         self.node
     }
 
-    /// Returns whether the leaf is the front of the node, rather than its back.
+    /// Returns whether the leaf is the front of the [node](Self::node), rather than the back.
     pub fn is_in_front(&self) -> bool {
         self.is_in_front
     }
@@ -57,11 +57,11 @@ impl PartialEq for Location<'_> {
 
 impl BspTree {
     /// Returns the leaf that contains a point, and the partition planes through the point. The result is
-    /// exact for the given point, as for a [`Ray`] from it. A point on a plane counts as in front of it.
-    /// `None` if a coordinate is NaN or infinite, and possibly if the point is further from the scene than
-    /// 2⁶⁸ extents. O(depth).
+    /// exact for the given point, as for a [`Ray`] from the point. A point on a plane counts as in front of
+    /// the plane. `None` if a coordinate is NaN or infinite, and possibly if the point is further from the
+    /// scene than 2⁶⁸ extents. O(depth).
     ///
-    /// A leaf is a convex region that no partition plane divides. It contains at most one fragment.
+    /// A leaf is a convex region that no partition plane divides, with at most one fragment.
     ///
     /// ```
     /// use binspace::{BspTree, Ray};

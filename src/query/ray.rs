@@ -1,5 +1,5 @@
-//! A ray, prepared to be compared with a tree, and its intersection with a fragment. Floats compute the
-//! intersection if they are certain, otherwise integers do.
+//! A ray, prepared to be compared with a tree, and the intersection of the ray and a fragment. Floats compute
+//! the intersection if they are certain, otherwise integers do.
 
 use std::cmp::Ordering;
 
@@ -24,7 +24,7 @@ pub(super) struct RayQuery {
     pub(super) speed: f64,
     pub(super) is_endless: bool,
     /// Whether each coordinate of the direction differs from its integer form by at most 1.001 roundings.
-    /// For the origin this is always true.
+    /// (The coordinates of the origin always satisfy this bound.)
     pub(super) is_precise: bool,
 }
 
@@ -34,14 +34,14 @@ const SPEED_BITS: i32 = 52;
 /// For segments shorter than this share of their largest coordinate, the integer form of the direction loses
 /// more than a thousandth of a rounding in floats.
 ///
-/// The grid of a segment's ends has steps of up to 2⁻¹²² of that coordinate, and each end is off by half a
-/// step: together 2⁻¹²². A thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this
+/// The grid of a segment's ends has steps of up to 2⁻¹²² of the largest coordinate, and each end is off by
+/// half a step: together 2⁻¹²². A thousandth of a rounding is 2⁻⁶³ of the length. So 2⁻⁵⁹ is enough, and this
 /// constant is twice as large. (Down to 2⁻⁶⁹ the grid contains the midpoints between two floats. Then
 /// rounding to the grid leads to the same float, and nothing is lost.)
 ///
-/// The origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. Its rounding is 2⁻⁵³ of the
-/// reach, which is at least 2⁵¹, and no lattice is further than 2¹¹⁰ from the world's origin. So the loss is
-/// below a thousandth of the rounding, however far away the origin is.
+/// The ray's origin is off by half a step as well, 2⁻¹²³ of the largest coordinate. The rounding of the ray's
+/// origin is 2⁻⁵³ of the reach. The reach is at least 2⁵¹, and no lattice is further than 2¹¹⁰ from the
+/// world's origin. So the loss is below a thousandth of the rounding, however far away the origin is.
 ///
 /// Too small: floats decide wrongly. Too large: integers decide more cases.
 const SHORT: f64 = 1.0 / (1u64 << 58) as f64;
@@ -96,15 +96,15 @@ struct RoundedAtRay {
 /// [`RoundedAtRay::size`], M the query's reach and d its speed. Differences of corners are exact, so a
 /// component of the normal is off by 2uπᵢ. The origin minus a corner is off by 2uM, and the direction by ud.
 /// With three products and two sums, the start is off by 7uπM and the slope by 6uπd; less for planes along an
-/// axis. [`RayQuery::is_precise`] adds a thousandth of that. Too small: wrong signs pass. Too large: more
-/// signs are computed in integers.
+/// axis. [`RayQuery::is_precise`] adds a thousandth of these errors. Too small: wrong signs pass. Too large:
+/// more signs are computed in integers.
 const START_ERROR: f64 = 3.6 * f64::EPSILON;
 const SLOPE_ERROR: f64 = 3.1 * f64::EPSILON;
 
 /// Error bound of a bounding plane's value at the point where the ray meets the face: start · slope of the
 /// face's plane − slope · start of the face's plane, as a multiple of the two sizes, M and d. By the bounds
-/// above, each product is off by (7 + 6) u for its factors and 1u for its rounding. The difference adds 2u:
-/// 30u in total.
+/// above, each product is off by (7 + 6) u for the factors and 1u for the rounding of the product. The
+/// difference adds 2u: 30u in total.
 const MEETING_ERROR: f64 = 15.1 * f64::EPSILON;
 
 impl RoundedAtRay {
@@ -132,8 +132,8 @@ impl RoundedAtRay {
         }
     }
 
-    /// The plane through an edge of a face and parallel to an axis. Seen against the axis, its front is on
-    /// the right of the edge.
+    /// The plane through an edge of a face and parallel to an axis. Seen against the axis, the front of the
+    /// plane is on the right of the edge.
     #[inline]
     fn edge(query: &RayQuery, corners: &[[f64; 3]], line: EdgeLine, axis: usize) -> Self {
         let k = line.as_edge().unwrap_or(0) as usize;
@@ -148,7 +148,7 @@ impl RoundedAtRay {
     }
 }
 
-/// A point of a ray by its definition.
+/// The definition of a point of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
     /// The start of the ray.
@@ -198,13 +198,14 @@ pub(super) fn upright(faces: &Faces, face: u32, k: usize) -> (Plane, Ordering) {
     (Plane::upright(corners[k], corners[next], axis), inside)
 }
 
-/// The axis in which a face is least steep; if its corners were moved, the axis along which they were moved.
+/// The axis in which a face is least steep; if corners of the face were moved, the axis along which they were
+/// moved.
 fn dominant_axis(faces: &Faces, face: u32) -> usize {
     faces.moved_axis(face).unwrap_or_else(|| faces.plane(PlaneId::face(face)).dominant_axis())
 }
 
-/// The distance of a spot along a ray. It is defined exactly by the spot, and lies in an interval of rounded
-/// parameters.
+/// The distance of a spot along a ray. The spot defines the distance exactly; an interval of rounded
+/// parameters contains the distance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     pub(super) spot: Spot,
@@ -212,11 +213,11 @@ pub(super) struct Depth {
     pub(super) high: f64,
 }
 
-/// A rounded parameter is off by less than this share of it.
+/// A rounded parameter is off by less than this share of the parameter.
 ///
-/// With ε = 2⁻⁵², a quotient of integers loses one rounding, ε / 2, and the digits of its second part, some
-/// ε². The product with 1 ± this share loses another ε / 2. So this is about four times as much as necessary.
-/// Too small: depths compare in the wrong order. Too large: integers compare more depths.
+/// With ε = 2⁻⁵², a quotient of integers loses one rounding, ε / 2, and the digits of the quotient's second
+/// part, some ε². The product with 1 ± this share loses another ε / 2. So this share is about four times as
+/// large as necessary. Too small: depths compare in the wrong order. Too large: integers compare more depths.
 const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
 
 impl Depth {
@@ -246,9 +247,10 @@ impl Depth {
 
 /// The intersection of a ray and a fragment: a point, or a segment of the ray.
 ///
-/// A fragment is closed: it includes its edges and vertices. It is the part of its face's plane on the inner
-/// sides of its bounding planes. These are the planes that cut it and, for an edge of the face, the plane
-/// through that edge along the axis in which the face is least steep.
+/// A fragment is closed: the fragment includes its edges and vertices. The bounding planes of a fragment are
+/// the planes that cut the face along the fragment's edges and, for an edge of the face, the plane through
+/// that edge along the axis in which the face is least steep. The fragment is the part of the face's plane on
+/// the inner sides of all bounding planes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interval {
     pub(super) fragment: u32,
@@ -266,9 +268,9 @@ impl Interval {
         guess.unwrap_or_else(|| Self::exact(&query.exact, fragment, faces))
     }
 
-    /// Computes the intersection by floats. They can decide that there is no intersection, or that it is a
-    /// point strictly inside the fragment and strictly between the ends of the ray. `None` if floats cannot
-    /// decide.
+    /// Computes the intersection by floats. Floats can decide that there is no intersection, or that the
+    /// intersection is a point strictly inside the fragment and strictly between the ends of the ray. `None`
+    /// if floats cannot decide.
     fn guess(query: &RayQuery, fragment: &Fragment<'_>, faces: &Faces) -> Option<Option<Self>> {
         if !query.is_precise {
             return None;
@@ -325,7 +327,7 @@ impl Interval {
     }
 
     /// Computes the intersection by integers: intersects the ray with the plane of the face, and then clips
-    /// it by each bounding plane (Cyrus and Beck 1978).
+    /// the intersection by each bounding plane (Cyrus and Beck 1978).
     fn exact(ray: &ExactRay, fragment: &Fragment<'_>, faces: &Faces) -> Option<Self> {
         let face = fragment.face();
         let own = ray.at(&faces.plane(PlaneId::face(face)));
@@ -384,8 +386,8 @@ impl Interval {
     }
 }
 
-/// A bounding plane of a fragment: the spot where the ray meets it, its equation along the ray, and the
-/// fragment's side of it.
+/// A bounding plane of a fragment: the spot where the ray meets the plane, the plane's equation along the
+/// ray, and the side of the plane on which the fragment lies.
 fn bound(ray: &ExactRay, line: EdgeLine, face: u32, faces: &Faces) -> (Spot, AtRay, Ordering) {
     match line.as_cut() {
         Some(plane) => {

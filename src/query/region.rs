@@ -61,8 +61,9 @@ impl<'t> FragmentsIn<'t> {
     }
 }
 
-/// Whether a fragment has a point in the intersection of some half-spaces, if the rounded positions of its
-/// vertices decide it: one vertex is inside all half-spaces, or all vertices are outside one half-space.
+/// Whether a fragment has a point in the intersection of some half-spaces, if the rounded positions of the
+/// fragment's vertices decide this: one vertex is inside all half-spaces, or all vertices are outside one
+/// half-space.
 fn guess(fragment: &Fragment<'_>, faces: &Faces, sides: &[&ExactHalfSpace]) -> Option<bool> {
     let mut is_out = SmallVec::<[bool; 6]>::from_elem(true, sides.len());
     let moved = faces.moved_axis(fragment.face());
@@ -126,9 +127,9 @@ impl FusedIterator for FragmentsIn<'_> {}
 
 impl BspTree {
     /// Returns the numbers of the fragments that have a point in a region, in ascending order: the fragments
-    /// in a box, or in front of planes. The result is exact: it contains a fragment if, and only if, the
-    /// closed fragment meets the closed region. ([`Culling`](crate::Culling) is faster: it tests boxes, and
-    /// keeps some more fragments.)
+    /// in a box, or in front of planes. The result is exact: the list contains a fragment if, and only if,
+    /// the closed fragment meets the closed region. ([`Culling`](crate::Culling) tests only boxes, so it is
+    /// faster and keeps some more fragments.)
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -149,7 +150,7 @@ impl BspTree {
     /// 2⁻¹¹⁵ of the scene's extent. All planes of the region are used, except planes with an infinite or NaN
     /// number, which exclude nothing.
     ///
-    /// Blocks of 16, 256, … fragments are included or excluded as a whole by their boxes. So the time is
+    /// The boxes of blocks of 16, 256, … fragments include or exclude blocks as a whole. So the time is
     /// mostly proportional to the number of fragments that are found or lie at the region's boundary. The
     /// first call computes the boxes, in O(n) time ([`bounds`](Self::bounds)).
     pub fn fragments_in<'t>(

@@ -1,10 +1,10 @@
 //! The parts of a tree that a ray may meet, nearest first.
 //!
 //! A partition plane divides the ray: the ray can meet one side of the tree only before the plane, and the
-//! other side only behind it. But the tolerance lets fragments reach across the plane, and the planes that
-//! are read here are rounded to `f32`. So each side, and the fragments *on* the plane, are visited up to a
-//! small distance beyond the plane. So the walk also visits some parts that the ray does not meet. This
-//! changes no result: the module `ray` decides which fragments are met, and in which order.
+//! other side only after the plane. But the tolerance lets fragments reach across the plane, and the walk
+//! reads planes that are rounded to `f32`. So each side, and the fragments *on* the plane, are visited up to
+//! a small distance beyond the plane. So the walk also visits some parts that the ray does not meet. These
+//! visits change no result: the module `ray` decides which fragments are met, and in which order.
 
 use std::ops::Range;
 
@@ -27,8 +27,8 @@ pub(super) struct Walk<'t> {
     /// The ray in units of 2⁵¹ lattice steps, like the tree's planes.
     origin: [f64; 3],
     direction: [f64; 3],
-    /// The largest distance by which a fragment may reach across the plane whose side it is on, or off the
-    /// plane that it is on.
+    /// The largest distance by which a fragment on one side of a plane may reach across the plane, or a
+    /// fragment on a plane may reach off the plane.
     slack: f64,
     /// Fragments that the ray has reached.
     run: Range<u32>,
@@ -36,7 +36,8 @@ pub(super) struct Walk<'t> {
     span: [f64; 2],
 }
 
-/// A subtree, or fragments without nodes, and the parameters between which the ray may meet them.
+/// A part of the tree (a subtree, or fragments without nodes), and the parameters between which the ray may
+/// meet the part.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
     /// [`LEAF`] for fragments without nodes.
@@ -45,7 +46,7 @@ struct Pending {
     end: u32,
     from: f64,
     to: f64,
-    /// Neither this part nor the parts below it on the stack are met before this parameter.
+    /// The ray meets neither this part nor the parts below it on the stack before this parameter.
     floor: f64,
 }
 
@@ -101,7 +102,7 @@ impl<'t> Walk<'t> {
         }
     }
 
-    /// No pending part is met before this parameter.
+    /// The ray meets no pending part before this parameter.
     fn floor(&self) -> f64 {
         self.pending.last().map_or(f64::INFINITY, |part| part.floor)
     }
@@ -203,9 +204,9 @@ pub(super) struct Boxes<'t> {
     inverses: [f64; 3],
 }
 
-/// Boxes count as larger by this share of the largest coordinate. The roundings of the direction, its
-/// inverse, the distance to a side and their product are a fourth of this. Too small: fragments that are met
-/// are missed. Too large: more fragments are visited without success.
+/// Boxes count as larger by this share of the largest coordinate. The roundings of the direction, the
+/// inverse, the distance to a side and the product of the last two are together a fourth of this share. Too
+/// small: fragments that are met are missed. Too large: more fragments are visited without success.
 const PARAMETER_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// The largest inverse of a direction's coordinate: larger and infinite inverses are replaced by this value.
@@ -264,8 +265,8 @@ impl<'t> Boxes<'t> {
 }
 
 /// Removes blocks from the start of a run of fragments, including the first block that may be inside a
-/// region. Returns that block, and whether it is certainly inside. If it is not, the block is a single
-/// fragment. `is_inside` returns whether a box is inside, or `None` if it cannot decide.
+/// region. Returns that block, and whether the block is certainly inside. A block that is not certainly
+/// inside is a single fragment. `is_inside` returns whether a box is inside, or `None` if it cannot decide.
 #[inline]
 pub(super) fn next_block(
     bounds: &Bounds,

@@ -11,14 +11,14 @@ use crate::exact::{Faces, LATTICE_LIMIT, Plane, PlaneId, cross, gcd};
 use crate::tree::{BspTree, Flat};
 use crate::viewpoint::Ray;
 
-/// Boxes are treated as wider by this, in units of 2⁵¹ lattice steps: more than the rounding of the point.
-/// Too small: faces above the point are missed. Too large: more faces are examined.
+/// Boxes are treated as wider by this length, in units of 2⁵¹ lattice steps. The length exceeds the rounding
+/// of the point. Too small: faces above the point are missed. Too large: more faces are examined.
 const MARGIN: f64 = 1e-6;
 
 impl BspTree {
     /// Returns how many times the polygons wind around a point: 0 outside, 1 inside a body whose fronts face
-    /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` on the
-    /// boundary; `hits(Ray::between(point, point))` returns the polygons there.
+    /// outwards, 2 where two bodies overlap, −1 inside a body whose fronts face inwards. `None` for a point
+    /// on the boundary; `hits(Ray::between(point, point))` returns the polygons that contain the point.
     ///
     /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the given
     /// point, except within the tolerance of polygons that were [flattened](crate::Preparation::flattened). A
@@ -40,7 +40,8 @@ impl BspTree {
     /// ```
     ///
     /// The first call sorts all edges, to check that the bodies are closed: O(n log n). Each call takes time
-    /// proportional to the number of boxes above the point.
+    /// proportional to the number of bounding boxes of fragments that a ray from the point in the direction
+    /// of +z meets.
     ///
     /// The winding number is the signed number of faces that a ray from the point crosses. A point-in-polygon
     /// test in the projection along the ray finds these faces. Where the ray meets an edge, the ray is moved
@@ -48,8 +49,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If an edge is open, because no edges of other polygons run back along it: the error names its polygon,
-    /// and [`open_edges`](Self::open_edges) returns all open edges. Also if the tree is the tree of a cell.
+    /// If an edge is open, because no edges of other polygons run back along that edge. The error names the
+    /// edge's polygon, and [`open_edges`](Self::open_edges) returns all open edges. Also if the tree is the
+    /// tree of a cell.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
@@ -69,20 +71,20 @@ impl BspTree {
     }
 
     /// Returns the open edges of bodies, in the order of polygons: the index of the polygon, and the number
-    /// of the corner where the edge begins. An edge is closed by one or more consecutive edges that run back
-    /// along it. The first call takes O(n log n) time and stores the result.
+    /// of the corner where the edge begins. An edge is open unless one edge or several consecutive edges run
+    /// back along the whole edge. The first call takes O(n log n) time and stores the result.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)
         })
     }
 
-    /// The open edges, by the number of the face and of the edge in it.
+    /// The open edges, each as the number of the face and the number of the edge in that face.
     fn open_edges_of_faces(&self) -> &[[u32; 2]] {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
 
-    /// The faces whose boxes reach above a point, each once. They include all faces that a ray from the point
+    /// The faces with a box above a point, each once. The list includes all faces that a ray from the point
     /// along z crosses.
     fn faces_above(&self, point: DVec3) -> Vec<u32> {
         let unit = 1.0 / LATTICE_LIMIT;
@@ -109,8 +111,8 @@ impl BspTree {
     }
 }
 
-/// How many times a face winds around the ray along z from a point, if the face is above the point; otherwise
-/// 0.
+/// Returns how many times a face winds around the ray along z from a point, if the face is above the point;
+/// otherwise 0.
 fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     // Corners as given, which neighbours share: so no ray slips between them.
     let corners: Vec<[f64; 3]> =
@@ -135,7 +137,7 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
         return 0;
     }
     // If the given corners wind around the ray but the moved corners do not, the face's plane may meet the
-    // ray anywhere. So corners decide for a point above or below all of them.
+    // ray anywhere. So corners decide for a point above or below all corners.
     let is_below_of = |&corner: &[f64; 3]| point.at(&Plane::axis(2, corner)).start().is_lt();
     let below = corners.iter().filter(|&corner| is_below_of(corner)).count();
     let plane = faces.plane(PlaneId::face(face));
@@ -148,10 +150,10 @@ fn winding_below(faces: &Faces, face: u32, point: &ExactRay) -> i32 {
     if is_below { winding } else { 0 }
 }
 
-/// An edge between lattice points: its start and end, and its face and number.
+/// An edge between lattice points: the start, the end, and the pair of the face and the edge's number.
 type Edge = ([i64; 3], [i64; 3], [u32; 2]);
 
-/// The open edges of faces, by face and number: no other edges run back along them.
+/// The open edges of faces, each as a face and a number: edges along which no other edges run back.
 fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
     let mut edges: Vec<Edge> = Vec::with_capacity(faces.corner_count());
     for face in 0..faces.len() as u32 {
@@ -183,8 +185,8 @@ fn open_edges(faces: &Faces) -> Vec<[u32; 2]> {
     open
 }
 
-/// The line through two points: its direction, and the moment of its points about the origin. The direction
-/// has no common divisor, and its first coordinate that is not 0 is positive.
+/// The line through two points: the direction, and the moment of the line's points about the origin. The
+/// direction's coordinates have no common divisor, and the first coordinate that is not 0 is positive.
 fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     let way: [i64; 3] = std::array::from_fn(|i| b[i] - a[i]);
     let divisor = way.iter().fold(0, |divisor, c| gcd(divisor, c.unsigned_abs())) as i64;
@@ -194,8 +196,8 @@ fn line(a: [i64; 3], b: [i64; 3]) -> ([i64; 3], [i128; 3]) {
     (way, cross([0.0; 3], a.map(|c| c as f64), way.map(|c| c as f64)))
 }
 
-/// The open edges among collinear edges: an edge is open if more edges traverse some stretch of it in its
-/// direction than backwards.
+/// The open edges among collinear edges: an edge is open if more edges traverse some stretch of the edge
+/// forwards than backwards.
 fn open_along(edges: &[Edge]) -> Vec<[u32; 2]> {
     // Points of a line have the same order as their coordinates, compared one after the other.
     let mut ends: Vec<([i64; 3], i32)> = Vec::with_capacity(2 * edges.len());

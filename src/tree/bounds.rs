@@ -1,5 +1,5 @@
-//! Bounding boxes of a tree's subtrees and fragments, bounds on their normals, and half-spaces compared
-//! with boxes.
+//! Bounding boxes of a tree's subtrees and fragments, bounds on the subtrees' normals, and half-spaces
+//! compared with boxes.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -12,11 +12,11 @@ use crate::exact::lattice::{exponent_of, scaled};
 use crate::exact::{Eye, LATTICE_LIMIT, Lattice, PlaneId, StoredVertex, VertexKind};
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// Bounding boxes of a tree's subtrees and fragments, and bounds on the subtrees' normals. They take about
-/// 90 bytes per fragment.
+/// Bounding boxes of a tree's subtrees and fragments, and bounds on the subtrees' normals. Boxes and bounds
+/// take about 90 bytes per fragment.
 ///
-/// Boxes are stored in `f32`, relative to the scene's middle, and rounded outwards: each contains the exact
-/// vertices of its fragments, and the rounded vertices that [`Fragment::vertices`] returns.
+/// Boxes are stored in `f32`, relative to the scene's middle, and rounded outwards. So a box contains the
+/// exact vertices of its fragments, and the rounded vertices that [`Fragment::vertices`] returns.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     fragments: u32,
@@ -40,8 +40,8 @@ const MOVED: f64 = 0.5;
 impl BspTree {
     /// Returns the bounding box `[low, high]` of all fragments, rounded outwards; `None` for an empty tree.
     ///
-    /// The first call computes boxes of all subtrees and fragments, in O(n) time, and keeps them with the
-    /// tree: about 90 bytes per fragment. The same applies to the first call of [`Node::bounds`],
+    /// The first call computes boxes of all subtrees and fragments, in O(n) time, and stores the boxes in the
+    /// tree, with about 90 bytes per fragment. So does the first call of [`Node::bounds`],
     /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
     /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
     /// [culled](crate::Order::culled) order of the tree or of an overlay. To compute the boxes in advance,
@@ -60,16 +60,17 @@ impl BspTree {
 }
 
 impl Node<'_> {
-    /// Returns the bounding box `[low, high]` of all fragments on the node's plane and on its sides, in the
-    /// polygons' unit. It is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64`
-    /// on each side. O(1), but see [`BspTree::bounds`].
+    /// Returns the bounding box `[low, high]` of all fragments of the node's subtree, in the polygons' unit.
+    /// The box is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64` on each
+    /// side. O(1) after the tree's boxes are computed; the first call computes them in O(n) time
+    /// ([`BspTree::bounds`]).
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
     /// Returns the side that all fragments of the subtree show to a viewpoint: the exact [`Fragment::facing`]
-    /// of each fragment. `None` if the box and the normals of the fragments do not decide it. O(1), but see
-    /// [`BspTree::bounds`].
+    /// of each fragment. `None` if the box and the normals of the fragments do not decide the side. O(1)
+    /// after the tree's boxes are computed; the first call computes them in O(n) time ([`BspTree::bounds`]).
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));
@@ -119,8 +120,8 @@ pub(crate) fn rounding(vertex: [f64; 3], is_cut: bool, moved: Option<usize>) -> 
 
 impl Bounds {
     fn new(tree: &BspTree) -> Self {
-        // Uses this thread alone: other threads may be waiting for the boxes, and rayon's threads would then
-        // wait for one another.
+        // Uses this thread alone: other threads may be waiting for the boxes. With parallel jobs, rayon's
+        // threads could then wait for one another.
         let blocks = blocks(tree.len(), |i| tree.fragment(i as u32).flat_bounds());
         let mut nodes = vec![NOTHING; tree.nodes.len()];
         let mut normals = vec![Normals::NONE; tree.nodes.len()];
@@ -128,8 +129,8 @@ impl Bounds {
             .map(|face| rounded(&tree.faces, PlaneId::face(face)))
             .collect();
         let planes = Planes::of(tree.records.iter().map(|record| faces[record.face as usize]));
-        // Children are stored after their parents, so in reverse order they are complete before their
-        // parents.
+        // Children are stored after their parents. So in reverse order, all children of a node are complete
+        // before the node.
         for node in tree.nodes().rev() {
             let index = node.index();
             let parts = [node.front(), Child::Leaf(node.on()), node.back()];
@@ -244,8 +245,8 @@ pub(crate) const BLOCK: usize = 16;
 /// The number of boxes that are compared with a plane at once.
 const GROUP: usize = 4;
 
-/// [`BLOCK`] boxes in groups of four: the least x of four of them, their least y, and so on. The last block
-/// of a list is filled up with zeros.
+/// [`BLOCK`] boxes in groups of four: the least x of the four boxes, the least y of the four, and so on. The
+/// last block of a list is filled up with zeros.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Block([[Vec4; 6]; BLOCK / GROUP]);
 
@@ -301,7 +302,8 @@ pub(crate) struct HalfSpace {
     normal: [f32; 3],
     /// Less than the offset, by more than the rounding error of all compared values.
     offset: f32,
-    /// The coordinates of a box's furthest corner along the normal, and of its nearest corner.
+    /// The indices, in a box, of the coordinates of two corners: the furthest corner along the normal, and
+    /// the nearest.
     far: [usize; 3],
     near: [usize; 3],
 }
@@ -309,7 +311,8 @@ pub(crate) struct HalfSpace {
 /// Error bound of a scalar product with a corner of a box, as a share of the sum of the normal's magnitudes.
 /// Coordinates are at most 1.014, and the normal, products and sums are rounded, by 4 · 1.014 · 2⁻²⁴ in
 /// total. The rest of the bound is more than a step of the scene's grid, by which the eye may be off. Too
-/// small: boxes that reach over the plane count as behind. Too large: boxes behind it, but near it, do not.
+/// small: boxes that reach over the plane count as behind. Too large: boxes behind the plane, but near it, do
+/// not count as behind.
 const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 
 /// Error bound of the plane's position in `f64`, as a share of the sum of its terms' magnitudes.
@@ -337,8 +340,8 @@ impl HalfSpace {
         let margin = (sum * ROUNDINGS + f64::MIN_POSITIVE) / unit;
         let margin = margin + normal.abs().element_sum() * DISTANCE_ERROR;
         let least = ((offset - normal.dot(middle)) / unit - margin).clamp(-OUTSIDE, OUTSIDE);
-        // The margin is the same for all boxes. So if a box is behind a plane, no box inside it counts as in
-        // front of that plane.
+        // The margin is the same for all boxes. So if a box is behind a plane, no smaller box inside that box
+        // counts as in front of the plane.
         let offset = if least.is_nan() { f32::NEG_INFINITY } else { (least as f32).next_down() };
         let normal = if least.is_nan() { [0.0; 3] } else { normal.as_vec3().to_array() };
         let sides = |is_far| [0, 1, 2].map(|i| if (normal[i] > 0.0) == is_far { i + 3 } else { i });
@@ -385,11 +388,11 @@ pub(in crate::tree) struct Normals {
     high: [f32; 3],
 }
 
-/// A bound on the error of a unit normal's coordinate in `f32`, and of adding this bound to it. With ε =
-/// 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is less
-/// than ε / 1000. A coordinate of at most 1 is rounded to `f32` by ε / 4, and a sum of more than 1 by ε / 2.
-/// So this is more than twice the error. Too small: a box may not contain the exact normal. Too large: fewer
-/// subtrees are decided at once.
+/// Bounds the total error of rounding a unit normal's coordinate to `f32` and then adding this constant. With
+/// ε = 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is
+/// less than ε / 1000. Rounding to `f32` moves a coordinate of at most 1 by ε / 4, and a sum of more than 1
+/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal. Too
+/// large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {
@@ -412,10 +415,11 @@ impl Normals {
     }
 
     /// The side that all polygons with such normals and with vertices in a box show to an eye; `None` if the
-    /// normals and the box do not decide it.
+    /// normals and the box do not decide the side.
     ///
     /// The distance of the eye e from a polygon's plane is n·(e − p), where n is the plane's normal and p is
-    /// any point of the plane. The bounds of n and p bound each product, and so the sum.
+    /// any point of the plane. The bounds of n and p bound each product, and therefore the sum of the
+    /// products.
     fn facing(&self, arms: &Arms, bounds: &Flat) -> Option<Ordering> {
         let [least, most] = arms.to(bounds);
         let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);

@@ -13,8 +13,8 @@ use crate::Error;
 use crate::exact::{Faces, Plane, PlaneId, StoredVertex};
 use crate::faces::Preparation;
 
-/// A binary space partition of polygons. It returns their exact back-to-front or front-to-back order for any
-/// viewpoint.
+/// A binary space partition of polygons. The tree returns the exact back-to-front or front-to-back order of
+/// the polygons for any viewpoint.
 ///
 /// # Use
 ///
@@ -43,17 +43,18 @@ use crate::faces::Preparation;
 /// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
 /// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, and its vertices with
-/// their weights over the polygon's corners. It also returns which of its edges are edges of the polygon, and
-/// the side that [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from 0 to
-/// [`len`](Self::len) − 1. A number is valid for its own tree only.
+/// their weights over the polygon's corners. It also returns which edges of the fragment are edges of the
+/// polygon, and which side of the fragment [faces](crate::Fragment::facing) a viewpoint. Fragments are
+/// numbered from 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
 ///
 /// # Order
 ///
 /// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. In
 /// back-to-front order, coplanar polygons follow each other in input order, from whichever side they are
-/// seen. So the later of two decals is painted over the earlier. A third polygon that lies almost in their
-/// plane can cause an [exception](#exactness). An eye on a plane may count as on either side of it.
-/// [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or a zero direction.
+/// seen. So the later of two decals is painted over the earlier decal. A third polygon that lies almost in
+/// the plane of two coplanar polygons can cause an [exception](#exactness). An eye on a plane may count as on
+/// either side of the plane. [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or
+/// a zero direction.
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
@@ -69,7 +70,7 @@ use crate::faces::Preparation;
 ///
 /// # Drawing a frame
 ///
-/// A [`Mesh`](crate::mesh::Mesh) contains the fragments as vertices and triangles. Upload its vertices once.
+/// A [`Mesh`](crate::mesh::Mesh) contains the fragments as vertices and triangles. Upload the vertices once.
 /// Every frame, write the indices back to front into a reused buffer or mapped memory:
 ///
 /// ```
@@ -104,10 +105,10 @@ use crate::faces::Preparation;
 /// # Culling
 ///
 /// A [culled](crate::Order::culled) order leaves out fragments that are outside a camera's
-/// [`Frustum`](crate::Frustum) or seen from the wrong side. It takes time proportional to the number of
-/// remaining fragments. A [walk](crate::Order::walk) skips the subtrees that you choose, for instance by
-/// their [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for occlusion.
-/// The first call that needs boxes computes them for the whole tree.
+/// [`Frustum`](crate::Frustum) or seen from the wrong side. A culled order takes time proportional to the
+/// number of remaining fragments. A [walk](crate::Order::walk) skips the subtrees that you choose, for
+/// instance by their [boxes](crate::Node::bounds). With the feature `raster`, a coverage mask tests boxes for
+/// occlusion. The first call that needs boxes computes them for the whole tree.
 ///
 /// # Rays, lines of sight and points
 ///
@@ -116,8 +117,8 @@ use crate::faces::Preparation;
 /// [`winding_number`](Self::winding_number) returns whether a point is inside a closed body, and
 /// [`locate`](Self::locate) returns the leaf of a point. [`fragments_in`](Self::fragments_in) finds the
 /// fragments in a box or in front of planes. All these queries decide exactly for the given numbers: a ray
-/// through an edge or a corner never slips between two polygons that share it (unless one of the two was
-/// [flattened](crate::Preparation::flattened)).
+/// through an edge or a corner never slips between two polygons that share that edge or corner (unless one of
+/// the two polygons was [flattened](crate::Preparation::flattened)).
 ///
 /// ```
 /// use binspace::{BspTree, Ray};
@@ -136,7 +137,7 @@ use crate::faces::Preparation;
 ///
 /// A vertex made by a cut needs texture coordinates, colours or normals like a corner.
 /// [`Fragment::weights`](crate::Fragment::weights) returns the weights of each vertex over the corners of the
-/// polygon. Each [`MeshVertex`](crate::mesh::MeshVertex) stores them too:
+/// polygon. Each [`MeshVertex`](crate::mesh::MeshVertex) also stores weights:
 ///
 /// ```
 /// # let flat = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
@@ -158,9 +159,9 @@ use crate::faces::Preparation;
 /// # Exactness
 ///
 /// The corners are rounded once, to a grid of 2⁻⁵² of the scene's extent (the longest side of its bounding
-/// box). After that, every decision is exact, however often a polygon is cut. Only the vertices that you read
-/// are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of nodes,
-/// fragments and hits return the exact numbers.
+/// box). After this rounding, every decision is exact, however often a polygon is cut. Only the vertices that
+/// you read are rounded again, to `f64`; no decision uses them. [`grid`](Self::grid) and the `grid_points` of
+/// nodes, fragments and hits return the exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
 /// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). The parts of polygons that reach across a
@@ -171,8 +172,8 @@ use crate::faces::Preparation;
 /// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
 /// - polygons seen along a plane can be exchanged at any distance from each other;
 /// - polygons in exactly one plane can lose their input order where they overlap, if the whole overlap is
-///   within τ of a partition plane that crosses their plane. One polygon is then treated as in front of the
-///   partition plane, and the other as behind it or on it.
+///   within τ of a partition plane that crosses the plane of the polygons. One polygon is then treated as in
+///   front of the partition plane, and the other polygon as behind the partition plane or on it.
 ///
 /// With a tolerance of 0 the order is exactly right.
 ///
@@ -200,13 +201,14 @@ use crate::faces::Preparation;
 /// # T-junctions
 ///
 /// A plane cuts only the polygons that span it. If the cut ends on an edge that a *neighbouring* polygon
-/// shares, the neighbour may not be cut, and then it has no vertex there. Two fragments of one polygon can
-/// differ in this way if only one is cut further. A rasteriser can miss pixels at such a T-junction, because
-/// the rounded vertex is not exactly on the neighbour's edge. If both polygons have the vertex, their
-/// coordinates for it are bit for bit equal, unless the tolerance moved a corner of one polygon.
+/// shares, the neighbour may not be cut, and then the neighbour has no vertex at the end of the cut. Two
+/// fragments of one polygon can differ in this way if only one fragment is cut further. A rasteriser can miss
+/// pixels at such a T-junction, because the rounded vertex is not exactly on the neighbour's edge. If both
+/// polygons have the vertex, its coordinates are bit for bit equal in both polygons, unless the tolerance
+/// moved a corner of one polygon.
 ///
-/// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: it inserts the missing vertex into
-/// the neighbour, so a closed body stays closed. Fragments themselves are never changed.
+/// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: the mesh has the missing vertex in
+/// the neighbour too, so a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///
@@ -231,14 +233,14 @@ use crate::faces::Preparation;
 ///
 /// # Limits
 ///
-/// - Not a renderer: it computes an order, and you draw. (The feature `raster` has a painter that checks
-///   orders.)
+/// - Not a renderer: the tree computes an order, and you draw. (The feature `raster` has a painter that
+///   checks orders.)
 /// - Not dynamic: polygons cannot be moved or removed, and [`extend`](Self::extend), which adds polygons,
 ///   builds the tree again. An [`Overlay`](crate::overlay::Overlay) puts moving polygons, lines and points in
 ///   one order with the tree's polygons.
 /// - Not a spatial index: for overlaps, nearest neighbours or only ray casts, use a bounding volume
 ///   hierarchy, which is much faster to build.
-/// - Not for solids: it does no Boolean operations.
+/// - Not for solids: the library has no Boolean operations.
 #[derive(Clone)]
 pub struct BspTree {
     pub(crate) faces: Faces,
@@ -253,12 +255,13 @@ pub struct BspTree {
     pub(super) positions: Vec<[f64; 3]>,
     /// The number of times that the builder cut a piece in two.
     pub(super) cuts: usize,
-    /// Identifies the tree, so that overlays and meshes of other trees are rejected. Clones share it.
+    /// Identifies the tree, so that overlays and meshes of other trees are rejected. Clones share this
+    /// number.
     pub(crate) generation: u64,
-    /// The boxes; computed by the first query that needs them.
+    /// The boxes; computed by the first query that needs boxes.
     pub(super) bounds: OnceLock<Bounds>,
-    /// The open edges of bodies: for each, its face and its number in the face. Computed by the first query
-    /// that needs them.
+    /// The open edges of bodies: for each edge, the face and the edge's number in the face. Computed by the
+    /// first query that needs open edges.
     pub(crate) open_edges: OnceLock<Vec<[u32; 2]>>,
 }
 
@@ -347,8 +350,8 @@ impl BspTree {
     /// triangle. O(1).
     ///
     /// If [`len`](Self::len) is the same number, no face was cut: each face is drawn whole, and no face
-    /// crosses another by more than the tolerance. (If [`len`](Self::len) is larger, faces need not cross: a
-    /// partition plane may have cut them.)
+    /// crosses another face by more than the tolerance. (If [`len`](Self::len) is larger, faces need not
+    /// cross: a partition plane may cut a face that crosses no other face.)
     pub fn face_count(&self) -> usize {
         self.faces.len()
     }
@@ -372,12 +375,12 @@ impl BspTree {
 
     /// Counts the polygons that have the same corners as an earlier polygon, rounded to the
     /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all duplicates. Like all
-    /// coplanar polygons they are painted in input order.
+    /// coplanar polygons, duplicates are painted in input order.
     ///
-    /// It takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners
-    /// of its faces. So the comparison ignores a corner of a triangulated polygon that no triangle has, such
-    /// as a corner on a straight side. In the tree of a cell it ignores the corners of triangles outside the
-    /// cell.
+    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners of
+    /// its faces. So the comparison ignores a corner of a triangulated polygon that no triangle has, such as
+    /// a corner on a straight side. In the tree of a cell, the comparison ignores the corners of triangles
+    /// outside the cell.
     pub fn duplicates(&self) -> usize {
         self.faces.duplicates()
     }
@@ -400,8 +403,7 @@ impl fmt::Debug for BspTree {
     }
 }
 
-/// Statistics of a tree: [`BspTree::stats`]. For the preparation of its polygons see
-/// [`BspTree::preparation`].
+/// Statistics of a tree: [`BspTree::stats`]. [`BspTree::preparation`] returns statistics of the polygons.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stats {
@@ -418,15 +420,16 @@ pub struct Stats {
     pub depth_mean: f64,
     /// The number of times that the builder cut a piece in two.
     pub splits: usize,
-    /// The size of the tree in bytes, with its boxes if they have been computed: [`BspTree::memory_usage`].
+    /// The size of the tree in bytes, including the boxes if a query has computed them:
+    /// [`BspTree::memory_usage`].
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
     /// Faces that count as on a partition plane only because of the tolerance. Faces on one plane are painted
     /// in input order.
     pub nearly_coplanar: usize,
-    /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from its
-    /// partition plane, a length.
+    /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from the
+    /// partition plane that the face counts as on, a length.
     pub nearly_coplanar_by: f64,
 }
 
@@ -464,8 +467,8 @@ impl BspTree {
         }
     }
 
-    /// The largest distance of a face's corners from a plane in lattice units, rounded; 0 only if all lie
-    /// exactly on it.
+    /// The largest distance of a face's corners from a plane in lattice units, rounded; 0 only if all corners
+    /// lie exactly on the plane.
     fn off(&self, face: u32, plane: &Plane) -> f64 {
         let values = self.faces.corners(face).iter().map(|corner| plane.at(corner).to_f64().abs());
         values.fold(0.0, f64::max) / plane.normal_f64().length()

@@ -41,11 +41,12 @@ impl Culling {
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
     /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
-    /// plane of a frustum. Only the first 32 planes are used. Testing only boxes is fast;
-    /// [`BspTree::fragments_in`] is exact.
+    /// plane of a frustum. Only the first 32 planes are used. Testing only boxes is fast.
+    /// [`BspTree::fragments_in`] is exact, but slower.
     ///
-    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate: more
-    /// than the rounding errors of the test and of an eye in the apex of the frustum.
+    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate. This
+    /// margin exceeds the rounding error of the test, and the rounding error of the frustum's apex if the eye
+    /// is there.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }
@@ -163,7 +164,8 @@ impl<'t> Cull<'t> {
         }
     }
 
-    /// The two sides of a subtree's first node and the fragments on its plane: front, plane, back.
+    /// The three parts of a subtree, divided by the plane of its first node: front, fragments on the plane,
+    /// back.
     pub(crate) fn divide(&self, subtree: &Subtree) -> [Subtree; 3] {
         let Subtree { nodes, fragments } = subtree.clone();
         let record = &self.tree.nodes[nodes.start as usize];
@@ -282,8 +284,8 @@ const LEVELS: usize = 8;
 /// The bits of a fully marked block.
 const ALL: u32 = (1 << BLOCK) - 1;
 
-/// A bit for each fragment and each block in [`Bounds`], in the same layout. A fragment or block is *marked*,
-/// its bit set, if its box reaches into a region.
+/// A bit for each fragment and each block in [`Bounds`], in the same layout. A fragment or block is *marked*
+/// (the bit is set) if its box reaches into a region.
 struct Marks {
     /// For each level, a word for each block, and one more word to read past the end.
     words: Vec<u16>,

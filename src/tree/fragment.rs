@@ -20,7 +20,7 @@ pub struct Fragment<'t> {
     index: u32,
     pub(super) face: u32,
     stored: &'t [StoredVertex],
-    /// The rounded positions of these vertices, if stored.
+    /// The rounded positions of the vertices, if stored.
     positions: &'t [[f64; 3]],
 }
 
@@ -58,21 +58,20 @@ impl<'t> Fragment<'t> {
         self.index
     }
 
-    /// Returns the index, in input order, of the polygon that this is a piece of.
+    /// Returns the index, in input order, of the polygon that this fragment is a piece of.
     pub fn polygon(&self) -> usize {
         self.faces.polygon(self.face)
     }
 
-    /// Returns the face that this is a piece of, one of [`BspTree::faces`]: the polygon, or one of its
-    /// triangles.
+    /// Returns the face that this fragment is a piece of, one of [`BspTree::faces`]. The face is the polygon,
+    /// or a triangle of the triangulated polygon.
     #[doc(hidden)]
     pub fn face(&self) -> u32 {
         self.face
     }
 
-    /// Returns the unit normal of the plane. It points to the front, the side from which vertices are
-    /// counter-clockwise. It is bit for bit the same for all fragments of a polygon, or of a triangle if the
-    /// polygon was triangulated.
+    /// Returns the unit normal of the plane. The normal points to the front, the side from which vertices are
+    /// counter-clockwise. All fragments of a face have the same normal, bit for bit.
     ///
     /// Each coordinate is within 2⁻⁵⁰ of the exact plane's normal, however thin the polygon.
     /// [`grid_points`](Self::grid_points) returns the plane exactly.
@@ -81,17 +80,17 @@ impl<'t> Fragment<'t> {
     }
 
     /// Returns the distance of the plane from the origin along the normal, in the polygons' unit. The plane
-    /// contains the points p with `normal().dot(p) == offset()`. Its front contains the points with
-    /// `normal().dot(p) > offset()`.
+    /// contains the points p with `normal().dot(p) == offset()`. The front of the plane contains the points
+    /// with `normal().dot(p) > offset()`.
     ///
-    /// The distance is rounded to within 2⁻⁴⁸ of the largest coordinate of the polygon, and infinite if it is
-    /// too large for `f64`.
+    /// The distance is rounded to within 2⁻⁴⁸ of the largest coordinate of the polygon. A distance that is
+    /// too large for `f64` is infinite.
     pub fn offset(&self) -> f64 {
         offset(self.faces, PlaneId::face(self.face))
     }
 
-    /// Returns the exact plane of the polygon, or of one of its triangles if it was triangulated: three
-    /// points of the tree's [grid](BspTree::grid), counter-clockwise seen from the front.
+    /// Returns the exact plane of the fragment's face: three points of the tree's [grid](BspTree::grid),
+    /// counter-clockwise seen from the front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
     }
@@ -107,15 +106,17 @@ impl<'t> Fragment<'t> {
         if self.is_whole() { self.faces.corners(self.face).len() } else { self.stored.len() }
     }
 
-    /// Returns the vertices in the polygon's own orientation: counter-clockwise seen from its front.
+    /// Returns the vertices in the polygon's own orientation: counter-clockwise seen from the polygon's
+    /// front.
     ///
-    /// The polygon's corners are rounded to the grid, and moved onto the polygon's plane if they were off it
-    /// by less than the tolerance. Other vertices are rounded: the error of each coordinate is at most 2⁻⁵¹
-    /// of the scene's extent plus one step of `f64`. Pieces of one polygon that share a vertex have the same
-    /// bits for it, except that they may differ by one rounding where three cuts meet in a point.
+    /// The polygon's corners are rounded to the grid, and moved onto the polygon's plane if they were off the
+    /// plane by less than the tolerance. Other vertices are rounded: the error of each coordinate is at most
+    /// 2⁻⁵¹ of the scene's extent plus one step of `f64`. Pieces of one polygon that share a vertex have the
+    /// same bits for that vertex. Exception: where three cuts meet in a point, the pieces' coordinates may
+    /// differ by one rounding.
     ///
     /// Each call computes the vertices made by cuts from their exact definition, in about 0.1 µs per vertex.
-    /// Trees of a [`FrameBuilder`](crate::FrameBuilder) store them instead.
+    /// Trees of a [`FrameBuilder`](crate::FrameBuilder) store all vertices instead.
     pub fn vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
@@ -139,12 +140,12 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns, for each edge from a vertex to the next, the polygon's edge that it lies on; `None` if a cut
-    /// or triangulation made it.
+    /// Returns, for each edge of the fragment (from a vertex to the next), the polygon's edge that contains
+    /// the fragment's edge; `None` if a cut or triangulation made the fragment's edge.
     ///
     /// An edge of the polygon has the number of the corner at which it begins. If the polygon repeats that
     /// corner, the edge has the number of the last of the equal corners. If triangulation joined collinear
-    /// edges, the joined edge has the number of the first of them.
+    /// edges, the joined edge has the number of the first edge.
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
@@ -152,7 +153,7 @@ impl<'t> Fragment<'t> {
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
-    /// Returns, for each edge from a vertex to the next, the line that bounds the fragment there.
+    /// Returns, for each edge from a vertex to the next, the line along which the edge bounds the fragment.
     #[doc(hidden)]
     pub fn lines(
         &self,
@@ -164,7 +165,7 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns, for each vertex, its exact definition on its face.
+    /// Returns, for each vertex, the exact definition on the fragment's face.
     #[doc(hidden)]
     pub fn vertex_ids(
         &self,
@@ -174,8 +175,8 @@ impl<'t> Fragment<'t> {
             .map(move |i| stored.get(i).map_or(VertexId::corner(i as u32), StoredVertex::vertex_id))
     }
 
-    /// Returns, for each vertex, weights over the polygon's corners: pairs of a corner's number and its
-    /// weight. The weights of a vertex sum to 1, up to rounding.
+    /// Returns, for each vertex, weights over the polygon's corners: pairs of a corner's number and the
+    /// corner's weight. The weights of a vertex sum to 1, up to rounding.
     ///
     /// A corner has one pair, a vertex on an edge of the polygon (or of one of its triangles) has two pairs,
     /// and an interior vertex three. To interpolate an attribute of the corners, such as a texture
@@ -192,12 +193,12 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns the side of the fragment that a viewpoint sees: its front, from which its vertices are
-    /// counter-clockwise; its back; or neither, if the eye lies on its plane or the direction of view is
-    /// parallel to the plane.
+    /// Returns the side of the fragment that a viewpoint sees: the front, from which the vertices are
+    /// counter-clockwise; the back; or neither, if the eye lies on the fragment's plane or the direction of
+    /// view is parallel to the plane.
     ///
-    /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]), so it is the same for
-    /// all fragments of a face. The triangles of a non-planar polygon are faces with separate planes. O(1).
+    /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]). So all fragments of a
+    /// face have the same result. The triangles of a non-planar polygon are faces with separate planes. O(1).
     ///
     /// To leave out fragments seen from behind, such as the walls between the eye and the inside of a room:
     ///
@@ -246,9 +247,10 @@ impl BspTree {
 /// Error bound: a rounded distance is off by at most `ERROR` times the sum of the magnitudes of all
 /// its terms.
 ///
-/// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of its two
-/// products. The rounded eye minus a corner is off by 2u of both terms (a direction is exact). The products
-/// and sums add 3u. Too small: wrong signs pass. Too large: more faces are decided by integers.
+/// With u = 2⁻⁵³: differences of corners are exact, so a component of the normal is off by 2u of the
+/// component's two products. The rounded eye minus a corner is off by 2u of both terms (a direction is
+/// exact). The products and sums add 3u. Too small: wrong signs pass. Too large: more faces are decided by
+/// integers.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The side of a face that an eye sees: by floats where the bound allows, otherwise exactly.
@@ -271,9 +273,9 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
-/// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This is exact,
-/// except for scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times their size: in such
-/// scenes, `base` cannot store all digits.
+/// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This position is
+/// exact, except in scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times the scene's
+/// size: in such scenes, `base` cannot store all digits.
 ///
 /// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions. The
 /// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
@@ -321,7 +323,7 @@ pub(super) fn offset(faces: &Faces, plane: PlaneId) -> f64 {
     unit_normal(faces, plane).dot(faces.lattice().to_world(faces.corner(corner)))
 }
 
-/// Three lattice points of a plane, counter-clockwise seen from its front.
+/// Three lattice points of a plane, counter-clockwise seen from the plane's front.
 pub(crate) fn plane_points(faces: &Faces, plane: PlaneId) -> [[i64; 3]; 3] {
     match plane.kind() {
         PlaneKind::Face(face) => faces.triangle(face).map(integers),
@@ -345,9 +347,9 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 /// `weight_offsets[v]..weight_offsets[v + 1]`. All values are the same as [`Fragment`] returns.
 ///
 /// Both lists of offsets have the form of compressed sparse rows (CSR). The weights are a sparse matrix that
-/// maps attributes of corners to attributes of vertices. It has a row for each vertex, and a column for each
-/// corner of all polygons. The column is the number in `weight_corners` plus the number of corners of all
-/// earlier polygons:
+/// maps attributes of corners to attributes of vertices. The matrix has a row for each vertex, and a column
+/// for each corner of all polygons. The column is the number in `weight_corners` plus the number of corners
+/// of all earlier polygons:
 ///
 /// ```
 /// use binspace::BspTree;
@@ -372,7 +374,8 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 /// # Ok::<(), binspace::Error>(())
 /// ```
 ///
-/// To draw translucent polygons on a GPU, use a [`Mesh`](crate::mesh::Mesh): its fragments share vertices.
+/// To draw translucent polygons on a GPU, use a [`Mesh`](crate::mesh::Mesh): the fragments in a mesh share
+/// vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FragmentArrays<T> {
@@ -384,13 +387,15 @@ pub struct FragmentArrays<T> {
     /// For each fragment, the index of its polygon in input order.
     pub polygons: Vec<u32>,
     /// For each vertex, the polygon's edge that contains the edge from this vertex to the next. The polygon's
-    /// edge has the number of the corner where it begins; −1 if a cut or triangulation made the edge.
+    /// edge has the number of the corner where that edge begins; −1 if a cut or triangulation made the
+    /// fragment's edge.
     pub edges: Vec<i32>,
     /// For each vertex, the number of its first weight; at the end, the number of all weights.
     pub weight_offsets: Vec<u32>,
-    /// For each weight, the number of the corner in its polygon.
+    /// For each weight, the number of the weighted corner in the polygon.
     pub weight_corners: Vec<u32>,
-    /// Weights over the polygon's corners, one to three for a vertex. They sum to 1, up to rounding.
+    /// Weights over the polygon's corners, one to three for a vertex. The weights of a vertex sum to 1, up to
+    /// rounding.
     pub weights: Vec<T>,
 }
 

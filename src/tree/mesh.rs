@@ -19,7 +19,7 @@ pub use triangles::Triangles;
 
 /// The fragments of a tree as vertices and triangles, for a renderer's buffers.
 ///
-/// A mesh is separate from the tree: [`BspTree::mesh`] or [`BspTree::welded_mesh`] makes it. Upload the
+/// A mesh is separate from the tree: [`BspTree::mesh`] or [`BspTree::welded_mesh`] makes a mesh. Upload the
 /// vertices once; every frame, write the indices in the order of the viewpoint
 /// ([`Triangles::write_back_to_front`]).
 ///
@@ -52,10 +52,10 @@ pub use triangles::Triangles;
 ///
 /// # Points and vertices
 ///
-/// A *point* is a place where fragments meet. Two fragments share a point if both define it in the same way,
-/// whatever the rounded coordinates are. The definition is one of these: a given corner; an edge and a plane
-/// that cuts it; a polygon and two planes that cut it. Whether several planes cut an edge in one point is
-/// decided exactly.
+/// A *point* is a place where fragments meet. Two fragments share a point if both define the point in the
+/// same way, whatever the rounded coordinates are. A point is defined by a given corner, by an edge and a
+/// plane that cuts the edge, or by a polygon and two planes that cut the polygon. Whether several planes cut
+/// an edge in one point is decided exactly.
 ///
 /// A *vertex* is a point that is a corner of fragments of one polygon. The vertex has weights over the
 /// polygon's corners, which interpolate attributes. So polygons share points, and fragments of one polygon
@@ -63,10 +63,11 @@ pub use triangles::Triangles;
 ///
 /// # Welded
 ///
-/// A cut that ends on an edge makes a vertex there in the polygon that is cut, but not in its neighbour. This
-/// is a T-junction, where a renderer may miss pixels. A welded mesh has that vertex in the neighbour too, and
-/// likewise between the fragments of one polygon. Then a closed body stays closed: if its polygons traverse
-/// every edge once in each direction, so do its triangles, from point to point.
+/// A cut that ends on an edge makes a vertex on the edge in the polygon that is cut, but not in the
+/// neighbour. Such a vertex is a T-junction, where a renderer may miss pixels. A welded mesh has that vertex
+/// in the neighbour too, and likewise between the fragments of one polygon. Then a closed body stays closed:
+/// if the body's polygons traverse every edge once in each direction, so do the body's triangles, from point
+/// to point.
 ///
 /// Edges whose given corners are collinear are welded, even if a corner of one edge is inside the other edge.
 /// Two cases are not welded, because there is no common edge: a corner inside a polygon, and polygons that
@@ -81,14 +82,14 @@ pub struct Mesh {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct MeshVertex<'m> {
-    /// The number of the vertex's point. All polygons that meet at the point share it.
+    /// The number of the vertex's point. All polygons that meet at the point share this number.
     pub point: u32,
     /// The position of that point.
     pub position: DVec3,
     /// The index of the vertex's polygon, in input order.
     pub polygon: usize,
-    /// Weights over the polygon's corners: up to three pairs of a corner's number and its weight.
-    /// They sum to 1, up to rounding.
+    /// Weights over the polygon's corners: up to three pairs of a corner's number and the corner's weight.
+    /// The weights sum to 1, up to rounding.
     pub weights: &'m [(u32, f64)],
 }
 
@@ -115,8 +116,8 @@ impl BspTree {
     /// Returns a [`mesh`](Self::mesh) without T-junctions: a vertex inside an edge that polygons share, or
     /// inside a cut between fragments, is a vertex of all these polygons or fragments.
     ///
-    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge and each is
-    /// cut at other places, n² vertices are inserted.)
+    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge and each
+    /// polygon is cut at other places, n² vertices are inserted.)
     ///
     /// # Errors
     ///
@@ -212,7 +213,7 @@ impl Mesh {
 struct Assembled {
     /// The position of each point.
     positions: Vec<DVec3>,
-    /// For each vertex, its point, its polygon, and the end of its weights.
+    /// For each vertex, the point, the polygon, and the end of the vertex's weights.
     vertices: Vec<Record>,
     weights: Vec<(u32, f64)>,
 }
@@ -259,8 +260,8 @@ fn assemble(source: Source<'_>, weld: bool) -> Result<(Assembled, Triangles), Er
 /// Stands for no point and for no corner.
 const NONE: u32 = u32::MAX;
 
-/// Identifies a vertex of a polygon: the point, and the corners that have weights there. (A polygon that
-/// touches itself has several corners at one point.)
+/// Identifies a vertex of a polygon: the point, and the corners that have weights at the vertex. (A polygon
+/// that touches itself has several corners at one point.)
 type Key = (u32, [u32; 3]);
 
 struct Assembler<'s, 't> {

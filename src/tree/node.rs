@@ -15,18 +15,18 @@ use crate::exact::{Eye, PlaneId, PlaneKind};
 use crate::memory::reserve;
 use crate::viewpoint::{Facing, Viewpoint};
 
-/// A node of a tree: a partition plane, the fragments on it, and its two sides.
+/// A node of a tree: a partition plane, the fragments on the plane, and the two sides of the plane.
 ///
 /// [`BspTree::root`] and [`front`](Self::front) return single nodes, and [`BspTree::nodes`] all nodes.
 /// [`Order::walk`](crate::Order::walk) visits nodes in the order of a viewpoint. A node is as cheap to copy
 /// as a reference.
 ///
-/// The plane contains the points p with `normal().dot(p) == offset()`, and its front the points with
+/// The plane contains the points p with `normal().dot(p) == offset()`. The front contains the points with
 /// `normal().dot(p) > offset()`. Normal and offset are rounded. Decisions use the exact plane, see
 /// [`grid_points`](Self::grid_points).
 ///
-/// The fragments of a subtree have consecutive numbers, so the fragments on a node's plane and on each of
-/// its sides are ranges.
+/// The fragments of a subtree have consecutive numbers, so the fragments on a node's plane and the fragments
+/// on each side of the plane are ranges.
 #[derive(Clone, Copy)]
 pub struct Node<'t> {
     pub(super) tree: &'t BspTree,
@@ -63,23 +63,23 @@ impl<'t> Node<'t> {
         fragment::unit_normal(&self.tree.faces, self.plane())
     }
 
-    /// Returns the distance of the plane from the origin along the normal, in the polygons' unit. It is
-    /// infinite if it is too large for `f64`.
+    /// Returns the distance of the plane from the origin along the normal, in the polygons' unit. A distance
+    /// that is too large for `f64` is infinite.
     pub fn offset(&self) -> f64 {
         fragment::offset(&self.tree.faces, self.plane())
     }
 
-    /// Returns the exact plane: three points of the tree's [grid](BspTree::grid) on it, counter-clockwise
-    /// seen from its front.
+    /// Returns the exact plane: three points of the plane on the tree's [grid](BspTree::grid),
+    /// counter-clockwise seen from the plane's front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         fragment::plane_points(&self.tree.faces, self.plane())
     }
 
-    /// Returns the index, in input order, of the polygon whose plane this is. If that polygon was
-    /// triangulated, this is the plane of one of its triangles.
+    /// Returns the index, in input order, of the polygon in the node's plane. If that polygon was
+    /// triangulated, the node's plane is the plane of one of its triangles.
     ///
-    /// `None` for a plane perpendicular to an axis. Then `normal` and `offset` are exact, except that corners
-    /// are rounded once to the grid.
+    /// `None` for a plane perpendicular to an axis. For such a plane, `normal` and `offset` are exact, except
+    /// that corners are rounded once to the grid.
     pub fn polygon(&self) -> Option<usize> {
         match self.plane().kind() {
             PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
@@ -94,7 +94,7 @@ impl<'t> Node<'t> {
     }
 
     /// Returns the side of the plane that a viewpoint sees, exactly. Back-to-front orders begin with the
-    /// other side. If the plane is seen edge-on, they begin with either side.
+    /// other side. If the plane is seen edge-on, orders begin with either side.
     pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
         self.tree.faces.plane(self.plane()).facing(&eye).into()
@@ -286,13 +286,13 @@ impl NodeRecord {
         self.own & BACK_IS_NODE != 0
     }
 
-    /// The number of the node in front, given this node's number; `None` if the front is a leaf.
+    /// The number of the child node in front, given this node's number; `None` if the front is a leaf.
     #[inline]
     pub(crate) fn front_node(&self, index: usize) -> Option<usize> {
         (self.front_nodes > 0).then_some(index + 1)
     }
 
-    /// The number of the node behind, given this node's number; `None` if the back is a leaf.
+    /// The number of the child node behind, given this node's number; `None` if the back is a leaf.
     #[inline]
     pub(crate) fn back_node(&self, index: usize) -> Option<usize> {
         self.back_is_node().then_some(index + 1 + self.front_nodes as usize)
@@ -302,8 +302,8 @@ impl NodeRecord {
     #[inline]
     pub(crate) fn ranges(&self, all: Range<u32>) -> Ranges {
         let own = all.start..all.start + self.own();
-        // Leaves are numbered before subtrees. So the back precedes the front only if it is a leaf and the
-        // front is not.
+        // Leaves are numbered before subtrees. So the back precedes the front only if the back is a leaf and
+        // the front is not.
         if self.front_nodes > 0 && !self.back_is_node() {
             let middle = all.end - self.front_len;
             return Ranges { front: middle..all.end, back: own.end..middle, own };
@@ -313,8 +313,8 @@ impl NodeRecord {
     }
 }
 
-/// The fragments of a subtree by their side of the root's plane: on it, in front and behind, down to the
-/// leaves.
+/// The fragments of a subtree, divided by the root's plane: on the plane, in front and behind, including all
+/// fragments of the nodes below.
 #[derive(Clone, Debug)]
 pub(crate) struct Ranges {
     pub(crate) own: Range<u32>,
@@ -376,7 +376,7 @@ pub(super) struct Visit {
     pub(super) node: usize,
     /// The number of nodes on the path to this node, itself included.
     pub(super) depth: usize,
-    /// The fragments on its plane.
+    /// The fragments on the node's plane.
     pub(super) own: Range<u32>,
     /// The fragments of a front leaf.
     pub(super) front: Range<u32>,
@@ -394,13 +394,13 @@ impl Visit {
         self.own.start..self.in_front.end.max(self.behind.end)
     }
 
-    /// The number of fragments in its leaves.
+    /// The number of fragments in the node's leaves.
     pub(super) fn leaves(&self) -> usize {
         self.front.len() + self.back.len()
     }
 }
 
-/// A subtree still to be walked, or its root alone.
+/// A subtree still to be walked, or only the subtree's root.
 #[derive(Clone, Debug)]
 struct Subtree {
     node: usize,
@@ -486,7 +486,7 @@ fn below(tree: &BspTree, subtree: &Subtree, root: &Visit) -> [Option<Subtree>; 2
 
 impl BspTree {
     /// Returns the partition plane that separates two fragments, or that both fragments lie on. `None` if
-    /// both are in one leaf. That includes the case that both are the same fragment of a leaf. O(depth).
+    /// both fragments are in one leaf; then both are the same fragment. O(depth).
     ///
     /// # Panics
     ///
@@ -529,12 +529,12 @@ mod between_tests {
     use crate::random::SplitMix64;
     use crate::{BuildOptions, Heuristic, scene};
 
-    /// For a pair of fragments: the plane between them, and the side of each.
+    /// For a pair of fragments: the plane between the two fragments, and the side of each fragment.
     type Entry = Option<(PlaneId, [Ordering; 2])>;
 
     /// A table of the planes between any two fragments, from the ranges of all nodes. A node's plane is
-    /// between two fragments of its subtree unless both lie on the same side of it. No pair of fragments has
-    /// two such planes.
+    /// between two fragments of the node's subtree unless both fragments lie on the same side of the plane.
+    /// No pair of fragments has two such planes.
     fn table(tree: &BspTree) -> Vec<Vec<Entry>> {
         let mut table = vec![vec![None; tree.len()]; tree.len()];
         for node in tree.nodes() {

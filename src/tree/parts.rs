@@ -18,7 +18,7 @@ pub(crate) struct RawNode {
 /// One side of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RawChild {
-    /// A leaf with this number of fragments. [`Parts`] states where they are stored.
+    /// A leaf with this number of fragments. [`Parts`] states where the fragments are stored.
     Leaf(u32),
     /// Another node.
     Node,
@@ -44,7 +44,7 @@ pub(crate) struct Stored<'t> {
 }
 
 /// Nodes and fragments, both depth first and the front before the back. The fragments of a node are stored in
-/// this order: on its plane, in a front leaf, in a back leaf, in the nodes below.
+/// this order: on the node's plane, in a front leaf, in a back leaf, in the nodes below.
 #[derive(Debug, Default)]
 pub(crate) struct Parts {
     /// The nodes.

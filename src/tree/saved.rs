@@ -23,13 +23,13 @@ const KIND: Kind = Kind { name: *b"tree", version: 3 };
 const FOR_ONE_VIEW: u32 = 1;
 /// Set in the flags of a tree of a cell.
 const OF_CELL: u32 = 2;
-/// Trees with more fragments are checked by two threads. Too small: waking a thread takes longer than its
-/// work. Too large: one thread works while the other is idle.
+/// Trees with more fragments are checked by two threads. Too small: waking a thread takes longer than the
+/// thread's work. Too large: one thread works while the other is idle.
 const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
     /// Writes the tree. [`read`](Self::read) returns an equal tree: the fragments, their numbers and bits,
-    /// and the orders are the same. This includes trees of a [`FrameBuilder`](crate::FrameBuilder).
+    /// and the orders are the same. Trees of a [`FrameBuilder`](crate::FrameBuilder) can be written too.
     ///
     /// Takes O(n) time, and O(depth) memory plus 64 kB. `output` need not be a `BufWriter`.
     ///
@@ -117,24 +117,25 @@ impl BspTree {
     /// follow.
     ///
     /// Reading splits the faces by the stored planes again. That takes O(n · mean depth) time, like building,
-    /// but no plane has to be chosen. So reading takes a quarter to a half of the build time. It takes nine
-    /// tenths of the build time if choosing takes no time and most faces are split, as with
-    /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` makes it no faster.
+    /// but no plane has to be chosen. So reading takes a quarter to a half of the build time. Reading takes
+    /// nine tenths of the build time if choosing takes no time and most faces are split, as with
+    /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` does not make reading faster.
     ///
     /// # Untrusted files
     ///
-    /// The file may contain anything. If `read` returns a tree, its faces are convex, planar and within the
-    /// grid. Each fragment lies on its side of every plane above it, and the fragments of each face cover the
-    /// face once. No method panics or takes more time or memory than documented. A forged file can choose the
-    /// faces and the planes. So its tree may be deep, and its polygons may be in many pieces, but never in
-    /// more pieces than the file lists. Memory grows with the bytes read, so a false length cannot reserve
-    /// more than a small multiple of the file's size. Corner numbers ([`weights`](crate::Fragment::weights),
-    /// [`edges`](crate::Fragment::edges)) may be larger than the numbers of your polygons' corners.
+    /// The file may contain anything. If `read` returns a tree, the tree's faces are convex, planar and
+    /// within the grid. Each fragment lies on the correct side of the planes of all nodes above the fragment,
+    /// and the fragments of each face cover the face once. No method panics or takes more time or memory than
+    /// documented. A forged file can choose the faces and the planes. So the tree may be deep, and the
+    /// polygons may be in many pieces, but never in more pieces than the file lists. Memory grows with the
+    /// bytes read, so a false length cannot reserve more than a small multiple of the file's size. Corner
+    /// numbers ([`weights`](crate::Fragment::weights), [`edges`](crate::Fragment::edges)) may be larger than
+    /// the numbers of your polygons' corners.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read; if they are not a tree, have another version, or are truncated or damaged;
-    /// if the library could not have built such a tree; or if memory runs out. The message says which.
+    /// If the data cannot be read, are not a tree, have another version, or are truncated or damaged; if the
+    /// library could not have built such a tree; or if memory runs out. The message says which.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;
@@ -226,7 +227,7 @@ fn raw(&[plane, shape]: &[u32; 2]) -> RawNode {
 }
 
 /// Reads the nodes of a tree; an error unless they form one tree of `fragments` fragments, and each plane has
-/// fragments on it or on both of its sides.
+/// fragments on the plane itself or on both sides.
 fn read_nodes(
     bits: &[[u32; 2]],
     fragments: usize,

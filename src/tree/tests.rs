@@ -6,7 +6,7 @@ use crate::exact::PlaneId;
 use crate::{Facing, Frustum, Viewpoint, scene};
 use glam::DVec3;
 
-/// Squares one behind the other; each plane has all later squares behind it.
+/// A tree of squares one behind the other: all later squares are behind the plane of each square.
 fn list(count: u32) -> BspTree {
     let chain = BspTree::build(scene::chain(count).polygons()).unwrap();
     let node = |face| RawNode {

@@ -1,4 +1,4 @@
-//! Checks a tree against its guarantees, for tests and fuzzers.
+//! Checks the guarantees of a tree, for tests and fuzzers.
 
 mod cover;
 #[cfg(test)]
@@ -15,7 +15,7 @@ use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Side, StoredVertex, Vertex,
 
 const COUNTS: &str = "the sizes of its subtrees contradict each other";
 
-/// A fault, and its node, counted depth first.
+/// The message of a fault at a node. Nodes are counted depth first.
 fn fault(node: usize, what: impl Display) -> String {
     format!("node {node}: {what}")
 }
@@ -25,17 +25,17 @@ impl BspTree {
     ///
     /// - the sizes of subtrees add up, a leaf has at most one fragment, every plane separates
     ///   fragments, and planes and vertices refer to existing geometry;
-    /// - each fragment lies on its side of every plane above it, up to the tolerance, which is a length;
-    ///   and fragments on a plane are in input order;
-    /// - the fragments of each face cover it exactly once: glued together along the cuts, from the leaves up,
-    ///   they form the face with all its corners, and the number of cuts is
+    /// - each fragment lies on the correct side of the planes of all nodes above the fragment, up to the
+    ///   tolerance (a length); and fragments on a plane are in input order;
+    /// - the fragments of each face cover the face exactly once: glued together along the cuts, from the
+    ///   leaves up, the fragments form the face with all its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);
     /// - the data from which orders are written matches the nodes, and stored positions match the vertices.
     ///
     /// All checks are exact. A tree that the library built or read is always valid; this method is for tests
     /// and fuzzers.
     ///
-    /// It takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
+    /// Takes O(n · mean depth + n log² n) time for fragments of few vertices, and O(n) memory.
     ///
     /// # Errors
     ///
@@ -52,7 +52,7 @@ impl BspTree {
     /// Returns the nodes in memory order. Returns an error unless each node and each fragment is visited
     /// exactly once, and each node separates fragments.
     ///
-    /// The other checks rely on this: they use every number of a visit as an index.
+    /// The other checks rely on this check, because they use every number of a visit as an index.
     fn check_sizes(&self) -> Result<Vec<Visit>, String> {
         let mut visits: Vec<Visit> = Vec::new();
         let mut walk = Walk::new(self);
@@ -62,8 +62,8 @@ impl BspTree {
             if visit.front.len().max(visit.back.len()) > 1 {
                 return Err(fault(visit.node, "a leaf has more than one fragment"));
             }
-            // With this check the walk ends for any sizes, because each node has fragments on its plane or
-            // divides them. The check also bounds the number of nodes, for which order buffers have room.
+            // With this check the walk ends for any sizes, because each node has fragments on its plane or on
+            // both sides. The check also bounds the number of nodes, for which order buffers have room.
             let has_empty_side = visit.in_front.is_empty() || visit.behind.is_empty();
             if visit.own.is_empty() && has_empty_side {
                 return Err(fault(visit.node, "its plane separates no fragments"));
@@ -153,7 +153,8 @@ impl BspTree {
         stored.iter().all(knows) && (stored.is_empty() || stored.len() >= 3)
     }
 
-    /// Tests each fragment against every plane above it, and the fragments on a plane for input order.
+    /// Tests each fragment against the planes of all nodes above the fragment, and the fragments on a plane
+    /// for input order.
     fn check_sides(&self, visits: &[Visit]) -> Result<(), String> {
         let mut path: Vec<(PreparedPlane, Side)> = Vec::new();
         // The fragments in front of each node of the path.

@@ -26,8 +26,8 @@ impl Camera {
     }
 }
 
-/// Creates `count` cameras, alternately around a bounding box and inside it. The same seed creates the same
-/// cameras.
+/// Creates `count` cameras, alternately around a bounding box and inside the box. The same seed creates the
+/// same cameras.
 ///
 /// # Errors
 ///
@@ -93,7 +93,7 @@ fn around(
 }
 
 /// Three perpendicular unit vectors. The first is along `up`, the second points to the right, and the third
-/// to the front. For up = z they are z, x and −y; for up = y they are y, x and z.
+/// to the front. For up = z, the vectors are z, x and −y; for up = y, the vectors are y, x and z.
 fn axes(up: DVec3) -> [DVec3; 3] {
     let up = unit(up).unwrap_or(DVec3::ZERO);
     let reference = if up.z.abs() > 0.9 { DVec3::NEG_Y } else { DVec3::Z };

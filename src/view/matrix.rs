@@ -9,15 +9,16 @@ use super::{Camera, NON_FINITE, Projection, checked, refused, unit};
 /// rounded has an eye, very far away. Too large: eyes of narrow views are lost.
 /// ([`Rays`](crate::raster::Rays) reject views as narrow as this.)
 const PARALLEL: f64 = 1.0 / (1u64 << 45) as f64;
-/// Rows of a matrix, each as a unit vector, that span less than this volume count as dependent. Too small:
-/// rounding decides where the eye is. Too large: skewed pictures are rejected as singular.
+/// Three rows of a matrix, each scaled to length 1, count as dependent if they span less than this volume.
+/// Too small: rounding decides where the eye is. Too large: skewed pictures are rejected as singular.
 const SINGULAR: f64 = 1e-10;
 /// The sine of the least angle between the sides of a pixel, and between the picture and the line of sight to
-/// its middle. Too small: rounding decides where points appear. Too large: steep off-axis views are rejected.
+/// the picture's middle. Too small: rounding decides where points appear. Too large: steep off-axis views are
+/// rejected.
 const LEAST_ANGLE: f64 = 1e-3;
 /// The direction of a parallel matrix is the direction of increasing depth. If depth changes along the rays
-/// by less than this share of its largest change, the depth does not determine the direction. Too small:
-/// rounding decides. Too large: mirrored pictures are shown from behind.
+/// by less than this share of the largest change along any direction, depth does not determine the direction.
+/// Too small: rounding decides. Too large: mirrored pictures are shown from behind.
 const FLAT: f64 = 1e-9;
 
 impl Camera {
@@ -34,9 +35,10 @@ impl Camera {
     /// | is one positive number | parallel: it looks along the direction in which x and y do not change |
     ///
     /// The row of z, the depth, may have any finite numbers, and may depend on the other rows. There is no
-    /// near and no far plane. Only a parallel matrix needs the depth. There it must increase away from the
-    /// viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along the rays. If depths are
-    /// reversed ("reversed z"), negate that row: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
+    /// near and no far plane. Only a parallel matrix needs the depth. In a parallel matrix, the depth must
+    /// increase away from the viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along
+    /// the rays. If depths are reversed ("reversed z"), negate the row of z:
+    /// `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
     /// Mirrored pictures are rejected. In a mirrored picture, the directions right, up and towards the viewer
     /// form a left-handed frame, as in plots with one inverted axis. Negate the first row, and mirror the
@@ -133,8 +135,8 @@ impl Camera {
     /// Returns the view-projection matrix, from the world to clip coordinates. In clip coordinates, x points
     /// right, y points upwards, and depths are from 0 at the distance `near` to 1 at `far`, as in WebGPU,
     /// Vulkan (except for y), Metal and Direct3D. Distances are measured along [`forward`](Self::forward)
-    /// from the eye. For a parallel camera they are measured from its centre and may be negative. The two
-    /// distances must be finite and different.
+    /// from the eye, or from the centre of a parallel camera. Distances of a parallel camera may be negative.
+    /// The two distances must be finite and different.
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -185,8 +187,8 @@ const SKEWED: &str = "the sides of a pixel, or the picture and the line of sight
 const TOO_FAR: &str =
     "the eye, the middle or the size of the matrix's picture is beyond the range of f64";
 
-/// Rows times a power of two that makes their largest number about 1. The scale of clip coordinates does not
-/// matter.
+/// The rows multiplied by the power of two that makes the largest number about 1. The scale of clip
+/// coordinates does not matter.
 fn scaled(rows: [DVec4; 3]) -> [DVec4; 3] {
     let [x, y, w] = rows.map(|row| row.abs().max_element());
     let exponent = x.max(y).max(w).log2().floor().clamp(-1000.0, 1000.0);

@@ -1,4 +1,4 @@
-//! Cameras: the viewpoint of a picture, and the place of world points in it.
+//! Cameras: the viewpoint of a picture, and the place of world points in the picture.
 //!
 //! A picture is `width` × `height` pixels; x points right, and y points down. Pixel (0, 0) is at the top
 //! left. It covers the square from (0, 0) to (1, 1), so its centre is at (0.5, 0.5).
@@ -34,10 +34,10 @@ pub struct Camera {
     up: DVec3,
     /// The unit normal of the picture's plane.
     forward: DVec3,
-    /// The vector from the eye to the middle of the picture at distance 1, measured along `forward`. It
-    /// equals `forward` unless the camera is off-axis.
+    /// The vector from the eye to the middle of the picture at distance 1, measured along `forward`. The
+    /// vector equals `forward` unless the camera is off-axis.
     middle: DVec3,
-    /// The width of a pixel as a multiple of its height.
+    /// The ratio of a pixel's width to its height.
     aspect: f64,
     size: [u32; 2],
 }
@@ -117,8 +117,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite, `direction` is zero, `up` is along it, `height` is not positive,
-    /// or the size is zero or beyond the limits.
+    /// If a number is not finite, `direction` is zero, `up` is parallel to `direction`, `height` is not
+    /// positive, or the size is zero or beyond the limits.
     pub fn parallel(
         direction: DVec3,
         up: DVec3,
@@ -194,20 +194,21 @@ impl Camera {
         self.right
     }
 
-    /// Returns the unit vector upwards in the picture: from a pixel to the pixel above it. It is
+    /// Returns the unit vector upwards in the picture: from a pixel to the pixel above it. The vector is
     /// perpendicular to [`right`](Self::right) unless the camera is made from a matrix that skews.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
     /// Returns the unit vector in the direction in which the camera looks: the normal of the picture's plane.
-    /// For a perspective camera it points at the middle of the picture, unless the camera is off-axis.
+    /// For a perspective camera, the vector points at the middle of the picture, unless the camera is
+    /// off-axis.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
     /// Returns the width and the height of a pixel: at distance 1 from the eye, or, for a parallel camera, at
-    /// any distance. They are equal unless the camera is made from a matrix.
+    /// any distance. Width and height are equal unless the camera is made from a matrix.
     pub fn pixel_size(&self) -> [f64; 2] {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
@@ -247,10 +248,10 @@ impl Camera {
         }
     }
 
-    /// Two vectors, one for [`right`](Self::right) and one for [`up`](Self::up). The scalar product of each
-    /// with the vector from the [origin](Self::origin) to a point is the point's distance from the middle of
-    /// the picture in that direction. For a perspective camera, it is that distance times the point's
-    /// distance along [`forward`](Self::forward).
+    /// Two vectors, one for [`right`](Self::right) and one for [`up`](Self::up). The scalar product of such a
+    /// vector and the vector from the [origin](Self::origin) to a point is the point's distance from the
+    /// middle of the picture to the right or upwards. For a perspective camera, the product is that distance
+    /// times the point's distance along [`forward`](Self::forward).
     fn rows(&self) -> [DVec3; 2] {
         let Self { right, up, forward, middle, .. } = *self;
         let sine = up.cross(right).dot(forward);
@@ -272,7 +273,7 @@ impl Camera {
         )
     }
 
-    /// Returns the position of a point in the picture, in pixels; it may be outside the picture. `None` for a
+    /// Returns the projection of a point, in pixels. The projection may be outside the picture. `None` for a
     /// point that is not in front of the eye.
     pub fn project(&self, point: DVec3) -> Option<[f64; 2]> {
         let [x, y, w] = self.homogeneous(point).to_array();
@@ -281,9 +282,9 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// Returns the region that the picture shows, up to its borders. On each side it is half a pixel wider
-    /// than the rays through the pixels' centres. That is more than the rounding of the camera, unless a
-    /// pixel is smaller than 2⁻³⁰ of its distance (for a parallel camera, of the scene).
+    /// Returns the region that the picture shows, up to its borders. On each side, the region is half a pixel
+    /// wider than the rays through the pixels' centres. Half a pixel is more than the rounding of the camera,
+    /// unless a pixel is smaller than 2⁻³⁰ of the pixel's distance (for a parallel camera, of the scene).
     ///
     /// There is no near and no far plane; a perspective camera sees everything ahead of its eye.
     pub fn frustum(&self) -> Frustum {
@@ -329,7 +330,7 @@ impl Camera {
     }
 }
 
-/// A picture's size, if it is within the limits.
+/// Returns a picture's size; an error if the size is zero or beyond the limits.
 fn checked([width, height]: [u32; 2]) -> Result<[u32; 2], Error> {
     let sides = 1..=Camera::MAX_SIDE;
     let pixels = u64::from(width) * u64::from(height);

@@ -56,7 +56,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
         }
         if seen.comparison.wrong() > 0 {
             let view = reproduce(args, camera);
-            let advice = "run `binspace render --difference` with your options and these";
+            let advice = "run `binspace render --difference` with the options of this command and";
             progress.suspend(|| note(&format!("to see view {number}, {advice}:\n  {view}")));
         }
         add(&mut total, &seen.comparison);

@@ -151,7 +151,7 @@ function resize() {
 
 // Moving.
 
-/** Turns what is in front to the right and down, by angles. */
+/** Turns the near side to the right and down, by angles. */
 function turn(right, down) {
   camera.yaw -= right;
   camera.pitch = clamp(camera.pitch - down, -Math.PI / 2, Math.PI / 2);

@@ -38,7 +38,7 @@ function viewpointOf(tree, camera) {
 
 /** Pixels a unit of slope, or, of a parallel view, a unit of length. */
 function scaleOf(camera, { width, height }) {
-  // What is seen in a picture of 16:9 is seen in those of other shapes.
+  // A picture of any other shape shows everything that a 16:9 picture shows.
   const slope = camera.slope * Math.max(1, (16 / 9) * height / width);
   return height / 2 / (camera.isParallel ? slope * camera.distance : slope);
 }

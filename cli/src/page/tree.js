@@ -116,7 +116,7 @@ function addSizes(tree) {
   tree.order = Uint32Array.from({ length: tree.fragments }, (_, i) => i);
 }
 
-/** Room for what is found of an eye: about planes, and about vertices as they are seen. */
+/** Allocates the results for one eye: for each plane, and for each projected vertex. */
 function addRoom(tree) {
   tree.signs = new Uint8Array(tree.planes);
   for (const name of ["distances", "shades"]) tree[name] = new Float64Array(tree.planes);

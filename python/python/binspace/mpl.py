@@ -607,7 +607,7 @@ def _camera(matrix, to_display, size):
 
 
 class _Built:
-    """A tree of polygons, with an overlay of lines and points. It is reused while these are unchanged."""
+    """A tree of polygons, with an overlay of lines and points. The tree is reused while polygons, lines and points are unchanged."""
 
     def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
@@ -800,7 +800,7 @@ class _Shown:
         self.kinds, self.numbers = self.kinds[order], self.numbers[order]
 
     def strokes(self, numbers):
-        """Returns paths along those sides of areas that are edges of their polygons."""
+        """Returns the paths of those sides of each area that are edges of its polygon."""
         raise NotImplementedError
 
 
@@ -897,7 +897,7 @@ class _Ordered(_Shown):
 
 
 def _before_eye(points, own, depth, near, place):
-    """Returns the path of the part of an outline in front of the eye, and the path of its strokes."""
+    """Clips an outline in front of the eye. Returns the clipped outline, and the path to stroke."""
     corners, edges = [], []
     for i in range(len(points)):
         j = (i + 1) % len(points)
@@ -1233,7 +1233,7 @@ class _Composite(martist.Artist):
         return position[first], paths, face, look.edge[line], look.widths[line], look.smooth[line], dashes
 
     def _dash(self, line, segment, start, dash, place):
-        """Returns the dashes of a part of a line, with the offset that they have if the whole line is drawn at once."""
+        """Returns the dashes of a part of a line, with the dash offset of the part's start within the whole line."""
         offset, pattern = dash
         if pattern is None:
             return dash
@@ -1490,5 +1490,5 @@ def install():
 
 
 def uninstall():
-    """Makes the projection ``"3d"`` mplot3d's own again."""
+    """Registers mplot3d's axes as the projection ``"3d"`` again."""
     mprojections.register_projection(Axes3D)

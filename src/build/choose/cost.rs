@@ -37,9 +37,10 @@ impl AddAssign for Counts {
 
 /// The cost of dividing a set by a plane. A lower cost is better.
 ///
-/// A plane that cuts nothing costs less than any plane that cuts: it adds no fragment, now or later. (Any
-/// tree of a set, restricted to one side of a plane, is a tree of that side.) For large sets, cuts are
-/// ignored here (see `CostModel::large`).
+/// A plane that cuts nothing costs less than any plane that cuts, because such a plane adds no fragment, now
+/// or later. (Proof: restrict the smallest tree of the set to each side of the plane. The two restricted
+/// trees together have no more fragments.) Exception: costs of large sets ignore cuts (see
+/// `CostModel::large`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cost {
     pub(super) cuts: bool,

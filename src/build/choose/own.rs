@@ -150,7 +150,7 @@ impl Candidates {
     }
 }
 
-/// Tries own planes; its lists are reused.
+/// A chooser among the planes of the set's pieces. Its buffers are reused.
 #[derive(Debug, Default)]
 pub(super) struct Scored {
     sketch: PackedPieces,

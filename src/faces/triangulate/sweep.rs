@@ -103,7 +103,7 @@ pub(super) struct Sweep<'a> {
     starting: Vec<Edge>,
     /// The same edges before overlapping edges are merged.
     unmerged: Vec<Edge>,
-    /// The edges through the current point.
+    /// The edges that the current point ends or divides.
     ended: Vec<u32>,
     /// Pairs of edges that cross. They are no longer on the line, and `triangles` is incomplete.
     pub(super) crossings: Vec<[Edge; 2]>,
@@ -284,8 +284,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Merges edges that begin at a point in the same direction, given in the order of their ends, into one
-    /// edge up to the nearest end. Returns `None` if they cancel. Their further parts wait for the points
-    /// where they begin.
+    /// edge up to the nearest end. Returns `None` if the edges cancel. The parts beyond the nearest end are
+    /// queued at the points where they begin.
     fn merge_alike(&mut self, point: u32, edges: &[Edge]) -> Option<Edge> {
         let (mut weight, mut from, mut kept) = (edges.iter().map(|e| e.weight).sum(), point, None);
         let mut corner = shared_corner(edges, 0, weight);

@@ -222,7 +222,7 @@ mod tests {
         }
     }
 
-    /// A thousand numbers of three decimals, and some others.
+    /// Adds a few other numbers to 1000 numbers with three decimals, and checks the unit.
     #[test]
     fn a_few_long_numbers_do_not_decide_for_all() {
         let three: Vec<String> = (0..1000).map(|k| format!("{}.{:03}", k % 7, k)).collect();

@@ -8,7 +8,7 @@ use super::statements::{Lines, behind_keyword, decode, text, words};
 use crate::error::Problem;
 use crate::scene::Material;
 
-/// Materials by the bytes of their names, in the order of a library.
+/// Pairs of a material's name (bytes) and the material, in the order of the library file.
 type Materials = Vec<(Vec<u8>, Material)>;
 
 /// The reason why a library is not read. The greater value is the worse fault.

@@ -1,4 +1,4 @@
-//! Finds the vertices of fragments that are one point, and the edges that are collinear.
+//! Finds vertices of fragments that are the same point, and collinear edges of fragments.
 
 use std::cmp::Ordering;
 use std::collections::{HashMap, TryReserveError};
@@ -15,7 +15,7 @@ use crate::union::Union;
 /// the corners of all faces; the other nodes are the items of [`Survey::cuts`].
 pub(super) type Node = u32;
 
-/// An edge of a fragment. It ends where the fragment's next edge begins.
+/// An edge of a fragment. The edge ends where the fragment's next edge begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FragmentEdge {
     pub(super) carrier: u32,
@@ -56,7 +56,7 @@ pub(super) struct Survey<'t> {
     /// The first edge of each of `fragments`, and the end of the last fragment's edges.
     pub(super) starts: Vec<u32>,
     pub(super) edges: Vec<FragmentEdge>,
-    /// Nodes that are not corners: a face, and the vertex on it.
+    /// Nodes that are not corners, each as a face and a vertex on the face.
     pub(super) cuts: Vec<(u32, VertexId)>,
     pub(super) carriers: Vec<Carrier>,
 }
@@ -138,7 +138,7 @@ impl<'t> Survey<'t> {
         })
     }
 
-    /// The face and vertex of a node, unless it is a corner.
+    /// The face and vertex of a node; `None` for a corner.
     pub(super) fn cut(&self, node: Node) -> Option<(u32, VertexId)> {
         let at = (node as usize).checked_sub(self.faces.corner_count())?;
         self.cuts.get(at).copied()
@@ -150,7 +150,7 @@ impl<'t> Survey<'t> {
     }
 }
 
-/// The ends of a face's edge, as they were given.
+/// The ends of a face's edge: the given corners, before the tolerance moved them.
 pub(super) fn ends(faces: &Faces, face: u32, k: u32) -> [[f64; 3]; 2] {
     let range = faces.corner_range(face);
     let next = if k as usize + 1 == range.len() { 0 } else { k + 1 };
@@ -211,8 +211,8 @@ fn by_face(source: Source<'_>) -> Result<Vec<u32>, Error> {
     Ok(fragments)
 }
 
-/// A line that contains edges of fragments. It is either the line of a given edge, which all faces share, or
-/// the line in which a plane cuts one face.
+/// A line that contains edges of fragments: either the line of a given edge, which all faces share, or the
+/// line in which a plane cuts one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier {
     /// An axis along which the line is not constant.
@@ -221,8 +221,8 @@ pub(super) struct Carrier {
     pub(super) face: Option<u32>,
 }
 
-/// The numbers of the lines of edges. The key of a line is its shortest integer direction, whose first
-/// nonzero coordinate is positive, and its moment.
+/// The numbers of the lines of edges. The key of a line consists of the line's shortest integer direction
+/// whose first nonzero coordinate is positive, and of the line's moment.
 #[derive(Default)]
 pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
 
@@ -276,15 +276,16 @@ pub(super) struct OutlineVertex {
 }
 
 /// Calls `triangle` n − 2 times for an outline of n vertices. The triangles have the outline's orientation
-/// and fill it. No triangle has all its vertices on one side of the outline, so each has area.
+/// and fill the outline. No triangle has all its vertices on one side of the outline, so each triangle has
+/// area.
 ///
 /// Each edge of the outline belongs to one triangle. An outline of two vertices or fewer has no triangles.
 pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u32; 3])) {
     let n = outline.len();
     let at = |k: usize| outline[k % n];
     let mut emit = |a: usize, b: usize, c: usize| triangle([a, b, c].map(|k| at(k).vertex));
-    // A fan from any true corner would have flat triangles on the adjacent sides, if these contain vertices.
-    // A fan from a vertex inside a side has flat triangles only on that side.
+    // A fan from a true corner would have flat triangles on an adjacent side that contains vertices. A fan
+    // from a vertex inside a side has flat triangles only on that side.
     let first = (0..n).find(|&k| at(k).straight && !at(k + n - 1).straight);
     let apex = first.unwrap_or(0);
     // The number of edges to the end of the apex's side.
@@ -298,9 +299,10 @@ pub(super) fn triangulate(outline: &[OutlineVertex], mut triangle: impl FnMut([u
     (next + 1..apex + n).for_each(|k| emit(apex, k - 1, k));
 }
 
-/// Rounded coordinates that differ by more than this share of the larger one, plus [`POSITION_OFF`] for each,
-/// are in their true order. Each coordinate is off by at most three roundings of its own size, and the
-/// difference by one rounding. Too small: wrong orders. Too large: integers decide more cases.
+/// Two rounded coordinates are in their true order if they differ by more than this share of the larger
+/// coordinate, plus [`POSITION_OFF`] for each coordinate. Each coordinate is off by at most three roundings
+/// of its own size, and the difference by one rounding. Too small: wrong orders. Too large: integers decide
+/// more cases.
 const ERROR: f64 = 5.0 * f64::EPSILON;
 
 /// The points of all lines.
@@ -317,7 +319,7 @@ pub(super) struct Points {
 #[derive(Clone, Copy, Default)]
 struct End {
     node: Node,
-    /// Twice the edge's number; plus 1 for its second end.
+    /// Twice the edge's number; plus 1 for the edge's second end.
     slot: u32,
     rounded: f64,
 }
@@ -331,8 +333,8 @@ impl Points {
         reserve(&mut points.ends, survey.edges.len())?;
         points.ends.resize(survey.edges.len(), [0; 2]);
         reserve(&mut points.on_lines, all.len() / 2)?;
-        // Lines shared by faces come first: if corners were moved, the given edge decides and not the faces
-        // at it.
+        // Lines shared by faces come first: if corners were moved, the given edge decides, and not the faces
+        // that share the edge.
         for shared in [true, false] {
             for (line, range) in starts.windows(2).enumerate() {
                 if survey.carriers[line].face.is_none() == shared {
@@ -344,8 +346,8 @@ impl Points {
         Ok(points)
     }
 
-    /// The node that represents a node's point: the least node of that point. This is a corner if one of the
-    /// nodes is a corner.
+    /// The node that represents a node's point: the least node of that point. It is a corner if any node of
+    /// the point is a corner.
     pub(super) fn root(&self, node: Node) -> Node {
         self.same.root(node)
     }
@@ -362,7 +364,7 @@ impl Points {
         Ok(())
     }
 
-    /// Sorts the ends on one line, unites ends in one place, and stores the places.
+    /// Sorts the ends on one line, unites ends at the same place, and stores the places.
     fn order(&mut self, survey: &Survey<'_>, line: usize, ends: &mut [End]) -> Result<(), Error> {
         ends.sort_unstable_by(|a, b| compare(survey, line, a, b));
         reserve(&mut self.on_lines, ends.len())?;
@@ -387,8 +389,8 @@ impl Points {
     }
 }
 
-/// Compares two ends on a line by their [`coordinate`]s on that line, even if they are one point. So the
-/// order is total.
+/// Compares two ends on a line by their [`coordinate`]s on that line, even if both ends are the same point.
+/// So the order is total.
 fn compare(survey: &Survey<'_>, line: usize, a: &End, b: &End) -> Ordering {
     let slack = ERROR * a.rounded.abs().max(b.rounded.abs()) + 2.0 * POSITION_OFF;
     // An unreliable rounded coordinate is NaN, and then no difference is large.
@@ -490,7 +492,7 @@ fn by_line(survey: &Survey<'_>) -> Result<(Vec<End>, Vec<u32>), Error> {
     Ok((all, starts))
 }
 
-/// The rounded position of each item of [`Survey::cuts`] on its face.
+/// The rounded position of each item of [`Survey::cuts`] on the item's face.
 fn rounded_places(survey: &Survey<'_>) -> Result<Vec<[f64; 3]>, Error> {
     let mut places = Vec::new();
     reserve(&mut places, survey.cuts.len())?;

@@ -1,4 +1,4 @@
-//! Triangles of fragments as indices, and their order for a viewpoint.
+//! Triangles of fragments as indices, and the order of the triangles for a viewpoint.
 
 use std::ops::Range;
 
@@ -23,9 +23,9 @@ pub struct Triangles {
     pub(super) vertices: u32,
     /// The first index of each fragment, and the end of the last fragment's indices.
     starts: Vec<u32>,
-    /// All indices, and then [`CHUNK`] unused ones.
+    /// All indices, and then [`CHUNK`] unused entries.
     indices: Vec<u32>,
-    /// The number of triangles of each fragment, if it is the same for all.
+    /// The number of triangles of each fragment, if all fragments have the same number.
     each: Option<u32>,
 }
 
@@ -103,11 +103,11 @@ impl Triangles {
         size_of_val(&*self.starts) + size_of_val(&*self.indices)
     }
 
-    /// Writes the indices back to front and returns their number: always the length of
+    /// Writes the indices back to front and returns the number of indices: always the length of
     /// [`indices`](Self::indices).
     ///
-    /// `tree` must be the tree that the mesh was made of, or a clone of it. The triangles of one fragment
-    /// keep their order.
+    /// `tree` must be the tree that the mesh was made of, or a clone of that tree. The triangles of one
+    /// fragment keep their order.
     ///
     /// `indices` may be mapped device memory: each place is written once, in increasing order, and never
     /// read. Places beyond the end are not changed. `order` is working space and finally contains the order
@@ -139,8 +139,8 @@ impl Triangles {
     }
 
     /// Writes the indices of some fragments in a given order, such as a list from
-    /// [`Order::write_into`](crate::Order::write_into), and returns their number. It writes memory like
-    /// [`write_back_to_front`](Self::write_back_to_front).
+    /// [`Order::write_into`](crate::Order::write_into), and returns the number of indices. Memory is written
+    /// as in [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
@@ -162,13 +162,14 @@ impl Triangles {
     }
 
     /// Writes the indices of a tree's fragments and of an overlay's pieces in one common order, such as a
-    /// list from [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns their
-    /// number. `pieces` are triangles of [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
+    /// list from [`OverlayOrder::write_into`](crate::overlay::OverlayOrder::write_into), and returns the
+    /// number of indices. `pieces` are triangles of
+    /// [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
-    /// The vertices of the pieces are numbered after the vertices of the tree's mesh: put both into one
-    /// vertex buffer, the vertices of the pieces after the vertices of the tree's mesh. Lines and points in
-    /// the order have no triangles. After each [`replace`](crate::overlay::Overlay::replace) of the overlay,
-    /// make its mesh again: the triangles of an earlier mesh do not fit the new order.
+    /// The vertices of the pieces are numbered after the vertices of the tree's mesh: put the vertices of the
+    /// pieces into the same vertex buffer, after the vertices of the tree's mesh. Lines and points in the
+    /// order have no triangles. After each [`replace`](crate::overlay::Overlay::replace) of the overlay, make
+    /// the overlay's mesh again: the triangles of an earlier mesh do not fit the new order.
     ///
     /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
     ///
@@ -228,7 +229,8 @@ impl Triangles {
         }
     }
 
-    /// Writes the indices if each fragment has N of them: their place is computed from the fragment's number.
+    /// Writes the indices if each fragment has N indices: the place of the indices is computed from the
+    /// fragment's number.
     fn write_equal<const N: usize>(&self, order: &[u32], places: &mut [u32]) {
         // Excludes the unused indices at the end, so that too large a number panics.
         let all = &self.indices.as_chunks::<N>().0[..self.starts.len() - 1];
@@ -238,9 +240,10 @@ impl Triangles {
         }
     }
 
-    /// Copies each fragment's indices into a small buffer. It always copies [`CHUNK`] indices, and the next
-    /// fragment overwrites the excess. That is faster than a branch on the number of indices, which no
-    /// processor can predict. The buffer is necessary because the caller's memory may be written only once.
+    /// Copies each fragment's indices into a small buffer. Each copy has [`CHUNK`] indices, and the next
+    /// fragment overwrites the excess. This is faster than a branch on the number of indices, because no
+    /// processor can predict that number. The buffer is necessary because the caller's memory may be written
+    /// only once.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;

@@ -20,11 +20,11 @@ use crate::{Error, parallel_map};
 /// Let u = 2⁻²⁴, n the unit normal, o ≤ √3 the offset, T = Σ |nᵢpᵢ|, and N = n·p. For a wrong sign, N is ow
 /// up to rounding. Normal, eye and their products are off by 3uT. Offset, w and their product are off by
 /// 3u|N|. The sums are off by u|n₀p₀ + n₁p₁| ≤ uT and u|N|, and their difference by almost nothing. The
-/// coordinate that is 1 and its product are not rounded, so 2u of that product is subtracted.
+/// coordinate that is 1 is not rounded, and neither is its product, so 2u of that product is subtracted.
 ///
 /// - If w is 1: 4T + 2|N| ≤ 6T ≤ 6 √|p| ≤ 3(|p| + 1).
-/// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w, it is
-///   2|nₖ| + 4T' + 4|N| ≤ 2 + 3(|p| − 1) + 6.93 w.
+/// - If pₖ is 1: with T' the rest of T, at most √(1 − nₖ²) times the rest of |p|, and N ≤ √3 w: 2|nₖ| + 4T' +
+///   4|N| ≤ 2 + 3(|p| − 1) + 6.93 w.
 ///
 /// So the error is at most 3u(|p| + 2w), and less than 0.01u(|p| + 2w) more because normals are off by 2⁻³⁴
 /// before they are rounded to `f32`, and offsets by as much. Too small: wrong signs pass. Too large:
@@ -71,8 +71,8 @@ impl View {
         if distance.abs() > self.bound { distance > 0.0 } else { self.decide(tree, node) }
     }
 
-    /// Whether the eye is in front of a plane. `rounded` is that plane as the function
-    /// [`rounded`](fn@rounded) returns it.
+    /// Whether the eye is in front of a plane. `rounded` is the result of the function
+    /// [`rounded`](fn@rounded) for that plane.
     pub(crate) fn is_in_front_of(&self, faces: &Faces, plane: PlaneId, rounded: Vec4) -> bool {
         let [x, y, z, offset] = rounded.to_array();
         let p = self.point;
@@ -97,7 +97,7 @@ impl View {
         [front, behind].map(|bits| bits >> (run.start as usize % GROUP))
     }
 
-    /// Like [`is_in_front`](Self::is_in_front), for all nodes: a bit for each.
+    /// Writes the result of [`is_in_front`](Self::is_in_front) for all nodes: a bit for each node.
     pub(in crate::tree) fn write_signs(&self, tree: &BspTree, words: &mut [u32]) {
         let groups = tree.planes.0.chunks(WORD / GROUP);
         for (w, (word, groups)) in words.iter_mut().zip(groups).enumerate() {
@@ -149,14 +149,14 @@ impl View {
 
 impl BspTree {
     /// Returns whether no partition plane lies between two viewpoints. If so, the complete order is the same
-    /// for both and need not be written or uploaded again. (The orders may be the same even if a plane
-    /// lies between.)
+    /// for both viewpoints and need not be written or uploaded again. (The orders may be the same even if a
+    /// plane lies between.)
     ///
     /// [Culled](crate::Order::culled) orders also depend on the facing of polygons and on the frustum:
     /// compare their lists instead. For an overlay use
     /// [`Overlay::same_order`](crate::overlay::Overlay::same_order).
     ///
-    /// Stops at the first plane between the two viewpoints; O(nodes) if no plane lies between them. Allocates
+    /// Stops at the first plane between the two viewpoints; O(nodes) if there is no such plane. Allocates
     /// nothing.
     ///
     /// ```
@@ -182,8 +182,8 @@ pub(super) const WORD: usize = 32;
 const GROUPS_A_THREAD: usize = 1024;
 
 /// The rounded planes of a tree's nodes, or of its fragments, in order and in groups of four: the three
-/// coordinates of their unit normals, and their distances from the lattice's origin in 2⁵¹ lattice units.
-/// The last group is filled up with zeros.
+/// coordinates of the planes' unit normals, and the planes' distances from the lattice's origin in 2⁵¹
+/// lattice units. The last group is filled up with zeros.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Planes(pub(super) Vec<[Vec4; 4]>);
 
@@ -247,7 +247,8 @@ impl Planes {
     }
 }
 
-/// A plane, rounded: its unit normal, and its distance from the lattice's origin in 2⁵¹ lattice units.
+/// A plane, rounded: the unit normal, and the distance of the plane from the lattice's origin in 2⁵¹ lattice
+/// units.
 pub(crate) fn rounded(faces: &Faces, id: PlaneId) -> Vec4 {
     let plane = match id.kind() {
         // Computes the same numbers as for a face, but without integers and a square root.

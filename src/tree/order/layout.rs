@@ -25,8 +25,8 @@ impl OrderLayout {
         Ok(layout)
     }
 
-    /// Replaces the numbers of parts within their kind by part numbers. The number of parts of each kind must
-    /// be known.
+    /// Replaces the number of a part within its kind by the part number, for all links to parts. The number
+    /// of parts of each kind must be known.
     fn number(&mut self) {
         let blocks = ROOT + self.inner.len() as u32;
         let spans = blocks + self.blocks.len() as u32;
@@ -44,8 +44,8 @@ impl OrderLayout {
     }
 }
 
-/// The bits for the kind of a part while parts are numbered within their kind. They are free because a tree
-/// has fewer than 2²⁹ fragments.
+/// The bits for the kind of a part while parts are numbered within their kind. These bits are free because a
+/// tree has fewer than 2²⁹ fragments.
 const KIND: u32 = BLOCK | SPAN;
 const BLOCK: u32 = 1 << 31;
 const SPAN: u32 = 1 << 30;
@@ -90,9 +90,9 @@ impl LayoutBuilder<'_> {
                 self.inner(&subtree, &mut stack)?
             };
             if let Some((inner, side)) = subtree.parent {
-                // Parents are laid out before their children, so the parent gets the number here. A child
-                // directly after its parent gets `NEXT`, which the writing loop can recognise without
-                // reading memory.
+                // Parents are laid out before their children, so the child's number is stored in the parent
+                // only now. A child directly after its parent gets `NEXT`, which the writing loop can
+                // recognise without reading memory.
                 let part = if part == ROOT + inner as u32 + 1 { NEXT } else { part };
                 let inner = &mut self.layout.inner[inner];
                 match side {
@@ -110,7 +110,7 @@ impl LayoutBuilder<'_> {
         let first = self.next;
         if links >= SHORTEST_CHAIN {
             // The parts below a chain depend only on the chain's last node. The other nodes have one fragment
-            // each, with consecutive numbers, so it is enough to count them.
+            // each, with consecutive numbers, so it is enough to count these nodes.
             self.next += links as u32 - 1;
         } else {
             links = 1;
@@ -224,13 +224,15 @@ pub(in crate::tree) const ROOT: u32 = 2;
 /// that are alone on the plane of an inner node. Each end has a different fragment, so there are at most as
 /// many ends as fragments. A node has fragments on its plane or on both sides, so an inner node contains at
 /// least two ends or inner nodes. So there are fewer inner nodes than ends. The exception is an inner node
-/// with both sides empty; it contains one span, which has more than [`FRAGMENTS`](FRAGMENTS) fragments.
+/// with both sides empty. Such an inner node contains one span, which has more than [`FRAGMENTS`](FRAGMENTS)
+/// fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::tree) struct OrderLayout {
     pub(in crate::tree) inner: Vec<Inner>,
     pub(in crate::tree) blocks: Vec<Block>,
     pub(in crate::tree) spans: Vec<Span>,
-    /// For each shape of block, the permutation of its fragments for all signs of its nodes.
+    /// For each shape of block, the permutation of the block's fragments for every combination of signs of
+    /// the block's nodes.
     pub(in crate::tree) permutations: Vec<Permutations>,
 }
 
@@ -250,10 +252,10 @@ pub(in crate::tree) struct Inner {
     pub(in crate::tree) node: u32,
     pub(in crate::tree) own: u32,
     /// The numbers of fragments in front of the node and behind it, at all levels below. For a chain, the
-    /// node is its last node.
+    /// node is the chain's last node.
     pub(in crate::tree) front: u32,
     pub(in crate::tree) back: u32,
-    /// The part numbers of the two sides. For a chain, one of the two is [`NOBODY`].
+    /// The part numbers of the two sides. For a chain, the part number of one side is [`NOBODY`].
     pub(in crate::tree) front_part: u32,
     pub(in crate::tree) back_part: u32,
     pub(in crate::tree) own_first: u32,
@@ -262,9 +264,9 @@ pub(in crate::tree) struct Inner {
 /// Marks an [`Inner`] that is a chain.
 pub(super) const CHAIN: u32 = 1 << 31;
 
-/// Consecutive nodes. Each has one fragment on its plane, and all other fragments of its subtree are below a
-/// single child, always on the same side. The order is written from both ends inwards; the fragments below
-/// the last node are in the middle.
+/// Consecutive nodes. Each node has one fragment on its plane, and a single child with all other fragments of
+/// the node's subtree, always on the same side. The order is written from both ends inwards; the fragments
+/// below the last node are in the middle.
 pub(in crate::tree) struct Chain {
     pub(in crate::tree) first_node: u32,
     pub(in crate::tree) nodes: u32,
@@ -327,16 +329,16 @@ pub(in crate::tree) const FRAGMENTS: usize = 4;
 /// The largest number of nodes of a block: the builder divides only sets of two pieces or more.
 pub(in crate::tree) const NODES: usize = FRAGMENTS - 1;
 
-/// The places of a block's fragments for every combination of signs of its nodes.
+/// The places of a block's fragments for every combination of signs of the block's nodes.
 ///
 /// Bit k of the index is 1 if the eye is in front of node k. Bits 2k and 2k + 1 of the value are the place of
 /// fragment k. Missing fragments share the place of the first fragment.
 pub(in crate::tree) type Permutations = [u8; 1 << NODES];
 
 /// The data that, together with the signs, decide the places of a block's fragments. For each node: the
-/// numbers of fragments on its plane and in front, the number of nodes in front, and whether the back is a
-/// node. For the block: the numbers of nodes (0 for a leaf) and of fragments. Blocks of the same shape share
-/// a row of the table.
+/// numbers of fragments on the node's plane and in front, the number of nodes in front, and whether the back
+/// is a node. For the block: the numbers of nodes (0 for a leaf) and of fragments. Blocks of the same shape
+/// share a row of the table.
 ///
 /// The data are packed into an integer, because the shape of every block is looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

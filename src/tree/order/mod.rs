@@ -61,8 +61,8 @@ impl BspTree {
 }
 
 impl<'t> Order<'t> {
-    /// Reverses the order to front to back: no later fragment hides an earlier one. It is the exact reverse
-    /// of back to front.
+    /// Reverses the order to front to back: no later fragment hides an earlier fragment. Front to back is the
+    /// exact reverse of back to front.
     pub fn front_to_back(self) -> Self {
         Self { is_front_to_back: true, ..self }
     }
@@ -76,13 +76,13 @@ impl<'t> Order<'t> {
     ///
     /// O(n). Every node stores the number of fragments on each of its sides. So a subtree's place in the
     /// order is known before the subtree is read, and each number is written directly to its final place. The
-    /// buffer also serves as working space. Its capacity grows to one or two numbers per fragment, at most
-    /// four per fragment plus sixteen; after that, nothing is allocated.
+    /// buffer also serves as working space. The buffer's capacity grows to one or two numbers per fragment,
+    /// at most four per fragment plus sixteen; after that, nothing is allocated.
     ///
-    /// A culled order skips subtrees outside the frustum and subtrees seen only from the wrong side. Its
-    /// time is proportional to the number of remaining fragments plus the number of fragments close to the
-    /// frustum's boundary. It takes O(depth) memory, plus a bit for each fragment and for each block of 16
-    /// fragments.
+    /// A culled order skips subtrees outside the frustum and subtrees seen only from the wrong side. The time
+    /// of a culled order is proportional to the number of remaining fragments plus the number of fragments
+    /// close to the frustum's boundary. A culled order takes O(depth) memory, plus a bit for each fragment
+    /// and for each block of 16 fragments.
     ///
     /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) converts the list into indices of
     /// triangles.
@@ -102,10 +102,10 @@ impl<'t> Order<'t> {
     /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns [`Flow::Skip`].
     /// Returns the value of [`Flow::Break`], if any.
     ///
-    /// A subtree is visited after all parts that precede it in the order, and before its own parts. Front to
-    /// back, it is therefore visited after all fragments that may hide it. The walk takes O(parts visited)
-    /// time and O(depth) memory, and does not recurse. A culled order also takes a bit for each fragment, and
-    /// first tests the boxes against the frustum.
+    /// A subtree is visited after all parts that precede the subtree in the order, and before its own parts.
+    /// So in a front-to-back walk, a subtree is visited after all fragments that may hide the subtree. The
+    /// walk takes O(parts visited) time and O(depth) memory, and does not recurse. A culled order also takes
+    /// a bit for each fragment, and first tests the boxes against the frustum.
     ///
     /// ```
     /// use binspace::{BspTree, Flow, Part, Viewpoint};
@@ -223,8 +223,8 @@ pub struct Ordered<'t> {
     is_front_to_back: bool,
     /// The furthest fragments, behind all of `parts`.
     far: Range<u32>,
-    /// The parts that neither end has reached, back to front. Each end opens subtrees only as far as
-    /// necessary.
+    /// The parts that the iterator has reached from neither end, back to front. Each end opens subtrees only
+    /// as far as necessary.
     parts: VecDeque<Child<'t>>,
     /// The nearest fragments, in front of all of `parts`.
     near: Range<u32>,
@@ -396,11 +396,11 @@ fn write_order(
     order.truncate(fragments);
 }
 
-/// Writes the fragments on the planes of inner nodes, and stores the first places of the parts on their
-/// sides.
+/// Writes the fragments on the planes of inner nodes, and stores the first places of the parts on the sides
+/// of these nodes.
 ///
-/// The loop does not branch on the eye's side, which no processor can predict. Missing parts and fragments
-/// write to dummy places.
+/// The loop does not branch on the eye's side, because no processor can predict that branch. Missing parts
+/// and fragments write to dummy places.
 fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut [u32]) {
     let nowhere = numbers.len() - 1;
     let mut begin = 0;
@@ -413,8 +413,8 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
         let to_own = select_unpredictable(is_in_front, back, front);
         if own <= 1 {
             let place = select_unpredictable(own == 1, (begin + to_own) as usize, nowhere);
-            // Without an own fragment, this writes to a spare place behind the order. That is cheaper than a
-            // branch that is taken for every other node.
+            // For an inner node without a fragment of its own, this writes to a spare place behind the order.
+            // The write is cheaper than a branch that is taken for every other node.
             numbers[place] = inner.own_first;
         } else if let Some(chain) = inner.chain() {
             let to_rest = write_chain(&chain, signs, begin, numbers);
@@ -425,15 +425,15 @@ fn write_inner(inner: &[Inner], signs: &[u32], begins: &mut [u32], numbers: &mut
         }
         begins[inner.front_part as usize] = begin + to_front;
         begins[inner.back_part as usize] = begin + to_back;
-        // The next inner node mostly is a child of this node, and its place has just been computed. Passing
-        // the place on in a register saves the loop from waiting for a store to be read back.
+        // The next inner node mostly is a child of this node, and the child's place has just been computed.
+        // Passing the place on in a register saves the loop from waiting for a store to be read back.
         let stored = begins[next];
         let from_back = select_unpredictable(inner.back_part == NEXT, begin + to_back, stored);
         begin = select_unpredictable(inner.front_part == NEXT, begin + to_front, from_back);
     }
 }
 
-/// Writes subtrees of up to four fragments, each by one table look-up.
+/// Writes the fragments of blocks. Each block takes one look-up in a table.
 fn write_blocks(layout: &OrderLayout, signs: &[u32], begins: &[u32], numbers: &mut [u32]) {
     for (block, &begin) in layout.blocks.iter().zip(begins) {
         let word = block.node as usize / 32;
@@ -460,13 +460,13 @@ fn write_spans(spans: &[Span], begins: &[u32], numbers: &mut [u32]) {
 }
 
 /// Writes the fragments of a chain from both ends inwards. Returns the number of the chain's fragments that
-/// precede the fragments below its last node.
+/// precede the fragments below the chain's last node.
 fn write_chain(chain: &Chain, signs: &[u32], begin: u32, numbers: &mut [u32]) -> u32 {
     let places = &mut numbers[begin as usize..][..(chain.nodes + chain.rest) as usize];
     let (mut far, mut near) = (0, places.len() - 1);
     for (node, number) in (chain.first_node..).zip(chain.first..).take(chain.nodes as usize) {
-        // The node's fragment is further than the remaining fragments if these and the eye are on the same
-        // side.
+        // The node's fragment is further than the remaining fragments if the remaining fragments and the eye
+        // are on the same side.
         let is_far = is_in_front(signs, node) == chain.rest_is_front;
         places[select_unpredictable(is_far, far, near)] = number;
         far += usize::from(is_far);

@@ -134,8 +134,8 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// All trees of `fragments` fragments, at least one. Each node has fragments on its plane or on both of its
-/// sides.
+/// All trees of `fragments` fragments, at least one. Each node has fragments on its plane or on both sides of
+/// the plane.
 fn trees(fragments: u32) -> Vec<Tree> {
     let mut all = Vec::new();
     for own in 0..=fragments {
@@ -285,8 +285,8 @@ fn trees_by_chance_come_by_any_signs() {
     }
 }
 
-/// No plane has a fragment on it, and each plane has one fragment on one side. So each makes an inner node
-/// and a block.
+/// No fragment lies on a plane, and each plane has a single fragment on one side. So each node makes an inner
+/// node and a block.
 #[test]
 fn the_most_parts_are_nearly_two_to_a_fragment() {
     let mut tree = Tree::new(0, Leaf(1), Leaf(1));

@@ -1,8 +1,8 @@
 //! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
-//! A file contains no vertices, so a forged file cannot make wrong pieces: for any planes, each piece is on
-//! its side of every plane above it, and the pieces of each face cover the face. The file's numbers of
-//! fragments only limit the number of pieces.
+//! A file contains no vertices, so a forged file cannot make wrong pieces: whatever planes the file has, each
+//! piece is on the correct side of all planes above the piece, and the pieces of each face cover the face. The
+//! file's numbers of fragments only limit the number of pieces.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -23,8 +23,8 @@ const JOBS: usize = 32;
 /// Subtrees of less than 1/`MOST_JOBS` of the fragments are not worth handing over.
 const MOST_JOBS: usize = 512;
 
-/// A *list* is a sequence of nodes that each have one node below. This is the number of pieces in a list that
-/// share a bounding box. Too small: more boxes are tested. Too large: more pieces are tested near the plane.
+/// The number of pieces in a list that share a bounding box. (A *list* is a sequence of nodes with one child
+/// node each.) Too small: more boxes are tested. Too large: more pieces are tested near the plane.
 const BLOCK: usize = 16;
 /// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
 /// save. Too large: all pieces are tested against each plane.
@@ -43,7 +43,7 @@ fn union([low, high]: Bounds, other: Bounds) -> Bounds {
     [std::array::from_fn(least), std::array::from_fn(most)]
 }
 
-/// A piece of a face that has not reached its node yet.
+/// A piece of a face that has not yet reached the node or leaf where it stays.
 struct Piece {
     face: u32,
     /// Empty for a whole face.
@@ -96,10 +96,10 @@ struct Job {
     pieces: Vec<Piece>,
 }
 
-/// Splits the faces of a tree by its planes into fragments. With `keeps_positions`, also computes the
-/// positions of their vertices.
+/// Splits the faces of a tree by the tree's planes into fragments. With `keeps_positions`, also computes the
+/// positions of the fragments' vertices.
 ///
-/// Returns an error unless each node has as many fragments on its plane and in its leaves as it states, and
+/// Returns an error unless each node has the stated numbers of fragments on its plane and in its leaves, and
 /// the fragments belong to the `listed` faces.
 pub(super) fn replay(
     faces: &Faces,
@@ -162,7 +162,7 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    /// The job of the root: all faces, or their parts in the cell.
+    /// The job of the root: all faces, or the parts of all faces inside the cell.
     fn root(&self, fragments: u32) -> Result<Job, Error> {
         let mut clipper = Clipper::new(self.faces);
         let mut pieces = Vec::new();
@@ -176,14 +176,14 @@ impl Replay<'_> {
         Ok(Job { node: 0, fragments: 0..fragments, pieces })
     }
 
-    /// Splits the pieces of a subtree. Subtrees whose number of fragments is in `jobs` are not split. They
-    /// are returned as jobs, each with the fragments before it. The fragments after the last job are returned
-    /// separately.
+    /// Splits the pieces of a subtree. Subtrees whose number of fragments is in `jobs` are not split, but
+    /// returned as jobs, each with the fragments before the subtree. The fragments after the last job are
+    /// returned separately.
     fn run(&self, job: Job, jobs: Range<usize>) -> Result<(Vec<(Parts, Job)>, Parts), Error> {
         let (mut handed_over, mut parts) = (Vec::new(), Parts::default());
         let (mut own, mut others, mut scratch) = (Vec::new(), Vec::new(), Default::default());
-        // In a list, such as peeled layers, most pieces go on to the node below. They stay in their places,
-        // in blocks with boxes. The other pieces leave gaps.
+        // In a list, such as peeled layers, most pieces go on to the node below. Such pieces stay in their
+        // places, in blocks with boxes. The other pieces leave gaps.
         let (mut boxes, mut gaps): (Vec<Bounds>, _) = (Vec::new(), 0);
         // The sets of pieces still to be split, the next one on top, and the start of each.
         let mut pieces = job.pieces;

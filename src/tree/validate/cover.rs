@@ -1,17 +1,19 @@
-//! Checks that the fragments of each face cover it once, by undoing the cuts from the leaves up.
+//! Checks that the fragments of each face cover the face once, by undoing the cuts from the leaves up.
 //!
 //! Each set of the builder has at most one piece of a face: at the root the face, and on each side of a plane
 //! one part of every piece that the plane cuts. So the parts of a face on the two sides of a node must belong
-//! to one piece. Their outlines share the cut: they traverse it in opposite directions between the same two
-//! vertices, and the lines of these edges name the plane and the side. The piece is then the two outlines
-//! without the cut, and without the vertices that the plane made on a line that continues behind it. At the
-//! root, the result must be each face as given.
+//! to one piece. The outlines of both parts share the cut. Both outlines traverse the cut, in opposite
+//! directions between the same two vertices, and the lines of these edges name the plane and the side. The
+//! piece's outline then consists of the two outlines without the cut, and without the vertices that the plane
+//! made on a line that continues on the other side of the plane. At the root, the result must be each face as
+//! given.
 //!
-//! This check is complete. Suppose that a convex piece is right, and that two outlines with vertices on their
-//! sides of a plane glue to it. Then the two outlines are the two parts of that piece. Every vertex is a
-//! vertex of the piece or the point where its line crosses the plane. Vertices of both parts lie on the
-//! plane, because they are on neither side of it. By induction from the root, the fragments are exactly the
-//! pieces that the planes make of the faces: convex, in the face's orientation, each once.
+//! This check is complete. Suppose that a convex piece is right, and that gluing two outlines, one with
+//! vertices in front of a plane and one with vertices behind the plane, gives this piece. Then the two
+//! outlines are the two parts of the piece. Every vertex is a vertex of the piece or the point where a side
+//! of the piece crosses the plane. A vertex of both parts lies on the plane, because it is neither in front
+//! of the plane nor behind it. By induction from the root, the fragments are exactly the pieces that the
+//! planes make of the faces: convex, in the face's orientation, each once.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -22,7 +24,7 @@ use crate::exact::{EdgeLine, PlaneId, PreparedPlane, Vertex, VertexId};
 use crate::tree::BspTree;
 use crate::tree::node::Visit;
 
-/// The pieces of a node's set, by face: their outlines, empty for a whole face.
+/// The pieces of a node's set: for each face, the outline of the piece, empty for a whole face.
 type Set = BTreeMap<u32, Vec<Vertex>>;
 
 impl BspTree {
@@ -91,7 +93,7 @@ impl BspTree {
         Ok(large)
     }
 
-    /// Compares the set of the root with the faces, or with their parts in their cell.
+    /// Compares the set of the root with the faces, or with the parts of the faces in the tree's cell.
     fn check_faces(&self, set: &Set) -> Result<(), String> {
         let incomplete =
             |face| Err(format!("the pieces of {} do not add up to it", self.culprit(face)));
@@ -121,13 +123,13 @@ impl BspTree {
         Ok(())
     }
 
-    /// The polygon of a face whose pieces do not cover it once.
+    /// A message that names the polygon of a face that its pieces do not cover once.
     fn culprit(&self, face: u32) -> String {
         format!("polygon {} (face {face})", self.faces.polygon(face))
     }
 }
 
-/// Whether two outlines are the same, up to their start.
+/// Whether two outlines are the same cycle of vertices; the first vertex may differ.
 fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
     let name = |vertex: &Vertex| (vertex.vertex_id(), vertex.line());
     let Some(first) = other.first().map(name) else { return outline.is_empty() };
@@ -138,8 +140,8 @@ fn is_same(outline: &[Vertex], other: &[Vertex]) -> bool {
     })
 }
 
-/// The piece that a plane cut into a piece in front and a piece behind; `None` if they were not one convex
-/// piece that the plane crossed, for instance if one piece is the whole face.
+/// The piece that a plane cut into a piece in front and a piece behind. `None` if these two were not one
+/// convex piece that the plane crossed, for instance if one of the two is the whole face.
 fn glue(
     plane: PlaneId,
     [front, back]: [&[Vertex]; 2],
@@ -172,7 +174,7 @@ fn glue(
     Some(outline)
 }
 
-/// An outline rotated so that it begins with its edge on a line. A valid outline has one such edge. A second
+/// An outline, rotated to begin with its edge on the line `cut`. A valid outline has one such edge. A second
 /// such edge would stay in the glued outline and be found at the root.
 fn from_cut(outline: &[Vertex], cut: EdgeLine) -> Option<Vec<Vertex>> {
     // Fragments have three vertices or more, but wrong glueing may leave fewer.

@@ -22,7 +22,7 @@ type Stored = StoredVertex;
 #[derive(Clone)]
 struct Dismantled {
     nodes: Vec<RawNode>,
-    /// The face of each fragment, and its vertices; empty for a whole face.
+    /// For each fragment, the face, and the vertices; no vertices for a whole face.
     pieces: Vec<(u32, Vec<Stored>)>,
     cuts: usize,
 }

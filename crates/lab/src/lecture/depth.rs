@@ -265,8 +265,8 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "Squares of side 1 cover each polygon. The centre of each pixel is judged by fractions of \
-         integers. The largest error is measured in sides of a square.",
+        "Squares of side 1 cover each polygon. The reference value at each pixel centre is computed in \
+         exact rational arithmetic. The largest error is measured in sides of a square.",
     );
     Ok(())
 }

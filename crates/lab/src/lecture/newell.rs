@@ -13,11 +13,11 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
         "The algorithm of M. E. Newell, R. G. Newell and T. L. Sancha (\"A solution to the hidden \
          surface problem\", 1972) sorts polygons by their furthest vertex, and then checks this order. \
-         Let P be the furthest polygon in the list. P may be painted if it hides no polygon Q that \
-         overlaps it in depth. Five tests can show this for a pair, the cheapest first: 1. P and Q do \
-         not overlap from left to right; 2. they do not overlap from top to bottom; 3. P is behind the \
-         plane of Q; 4. Q is in front of the plane of P; 5. the projections of P and Q do not overlap. \
-         If all tests fail, Q takes the place of P in the list. But if Q has been moved before, or if P \
+         Let P be the furthest polygon in the list. P may be painted if P hides no polygon Q whose depth \
+         range overlaps P's. Each of five tests can prove that P does not hide Q, the cheapest first: 1. P \
+         and Q do not overlap from left to right; 2. P and Q do not overlap from top to bottom; 3. P is \
+         behind the plane of Q; 4. Q is in front of the plane of P; 5. the projections of P and Q do not \
+         overlap. If all tests fail, Q takes the place of P in the list. But if Q has been moved before, or if P \
          and Q penetrate each other, one of them is split by the plane of the other.",
     );
     let towards = DVec3::new(0.7, -1.0, 0.5);

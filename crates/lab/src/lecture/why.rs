@@ -101,9 +101,9 @@ fn spaces(chapter: &mut Chapter) {
          Schumacker, \"A characterization of ten hidden-surface algorithms\", 1974). Object-space \
          methods compare polygons of the scene, at any resolution. Image-space methods decide in each \
          pixel. A third kind assigns priorities to polygons, partly in object space and partly in image \
-         space. The table lists the methods that this page and the report compare. In their names, bsp \
-         is a tree. It decides exactly, or in floating-point numbers of 64 or 32 bits (f64, f32) with \
-         the given tolerance. z is a depth buffer with the given number of bits, or with floating-point \
+         space. The table lists the methods that this page and the report compare. In the names, bsp \
+         means a BSP tree that decides exactly, or in f64 or f32 with the given tolerance. z is a \
+         depth buffer with the given number of bits, or with floating-point \
          numbers (f32). w is a depth buffer that stores the depth itself instead of the usual z. The \
          rest of the name says how pixels are found, and which depths count as nearer. The chapters \
          below explain the methods.",
