@@ -89,7 +89,7 @@ pub(crate) fn meets(
 /// A part of a fragment: its vertices, each with the number of the line to the next vertex.
 type Part = SmallVec<[(Weights<6>, usize); 8]>;
 
-/// The part of an outline that is in front of a line or on it; it may be only a point or an edge.
+/// The part of an outline that is in front of a line or on it; this part may be only a point or an edge.
 fn clip(
     outline: Part,
     sides: &[Ordering],

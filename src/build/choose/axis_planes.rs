@@ -22,7 +22,7 @@ const FEWEST_BINS: usize = 64;
 /// first cache.
 const MOST_BINS: usize = 256;
 
-/// Searches for free planes; its lists are reused.
+/// Searches for free planes, with reused lists.
 #[derive(Debug, Default)]
 pub(super) struct FreePlanes {
     bins: Vec<Bin>,
@@ -96,7 +96,7 @@ impl FreePlanes {
     }
 
     /// Searches for the free plane with the lowest cost among the planes that cut nothing. Sorts the set; in
-    /// small sets this takes less time than counting by bins.
+    /// small sets, sorting takes less time than counting by bins.
     pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
@@ -181,7 +181,7 @@ fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
     axes.into_iter().filter(move |&axis| size[axis] > 0.0)
 }
 
-/// The order of numbers that are not NaN: less work than a total order.
+/// Compares numbers that are not NaN, in less time than `total_cmp`.
 #[inline]
 fn compare(a: &f64, b: &f64) -> Ordering {
     if a < b {
