@@ -2,11 +2,11 @@
 //!
 //! A pixel is covered if its ray meets the piece: if the ray passes inside all lines that bound the piece. A
 //! ray that meets a line exactly is treated as moved by an infinitesimal step, the same for all lines (see
-//! [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So the pieces of a face cover each
-//! pixel of the face exactly once, and the faces of a closed surface cover each pixel of the surface's fronts
-//! exactly once. The moved ray lies in no partition plane, not even in a plane that contains the eye, so the
-//! piece that is nearer at the pixel is also later in a back-to-front order. Faces seen exactly edge-on cover
-//! nothing.
+//! [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So each pixel of a face is in
+//! exactly one piece of the face. In the picture of a closed surface, no pixel is missed or covered twice
+//! along the edge between two adjacent faces. The moved ray lies in no partition plane, not even in a plane
+//! that contains the eye, so the piece that is nearer at the pixel is also later in a back-to-front order.
+//! Faces seen exactly edge-on cover nothing.
 //!
 //! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
 //! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).

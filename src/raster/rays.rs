@@ -88,8 +88,8 @@ const REGION: f64 = (1u64 << 60) as f64;
 /// direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h is the distance of the picture's
 /// plane from the eye, and σ the smallest singular value of the matrix with the columns `right` and `down`.
 /// With the angle φ between `right` and `down`, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (For square
-/// pixels both sides are equal.) Here σ is the pixel's size. Too small: rays are off by more than a
-/// thousandth of a pixel. Too large: usable narrow views are rejected.
+/// pixels, equality holds.) Here σ is the pixel's size. Too small: rays are off by more than a thousandth of
+/// a pixel. Too large: usable narrow views are rejected.
 const FINEST: f64 = 1000.0;
 
 impl Rays {

@@ -36,8 +36,8 @@ impl Scene {
     /// that at most one coordinate in 100 has nine significant digits or more *and* more decimals than all
     /// coordinates with fewer digits. Then only the first three digits of such coordinates count. If all
     /// coordinates of nine digits and more (except one in 100) are `f32` numbers up to their written digits,
-    /// the unit is the `f32` step of the largest coordinate. Up is y, because OBJ files do not define a
-    /// direction.
+    /// the unit is the `f32` step of the largest coordinate. Up is y, because OBJ files do not say which
+    /// direction is up.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB. The opacity is the material's `d` or `Tr`.
     /// A missing or unreadable library is not an error: the report lists the library, and its materials

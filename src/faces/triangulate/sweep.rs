@@ -47,7 +47,8 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// An edge between two corners. Each corner is given as its number and the number of its point.
+    /// An edge between two corners. Each corner is a pair: the corner's number, and the number of the point
+    /// at the corner.
     pub(super) fn between(from: (u32, u32), to: (u32, u32)) -> Self {
         let (low, high, weight) = if from.1 < to.1 { (from, to, 1) } else { (to, from, -1) };
         Self { ends: [low.1, high.1], corners: [low.0, high.0], weight }

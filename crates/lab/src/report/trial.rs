@@ -1,4 +1,4 @@
-//! A scene with its views and their truth: the reference of every method.
+//! A scene with views and the true picture of each view: the reference for every method.
 
 use std::panic::resume_unwind;
 use std::thread;
