@@ -16,7 +16,7 @@ const DISTANCES = copies(30, 2, 1);
 const CODES = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
 const LONGEST = 15;
 
-/** For all next bits: 16 times the symbol of the code, plus the code's length; from the lengths of all codes. */
+/** For all next bits, 16 times the symbol of the code, plus the code's length; from the lengths of codes. */
 function symbolsOf(lengths) {
   const symbols = new Uint16Array(1 << LONGEST);
   for (let length = 1, code = 0; length <= LONGEST; length++, code <<= 1) {

@@ -59,13 +59,13 @@ function pointsOf({ points, planePoints }, plane) {
 }
 
 /**
-* The planes in floats: a normal, the normal's length, the product of the normal and a point on the plane, and the
- * error bound of the eye's distance, which is `bounds` times the eye's largest coordinate plus
+ * The planes in floats: a normal, the normal's length, the product of the normal and a point on the plane,
+ * and the error bound of the eye's distance, which is `bounds` times the eye's largest coordinate plus
  * `offsetBounds`.
  *
  * With u = 2^-53: coordinates and their differences are exact. A component of the normal is off by 2u of
- * its two products |a| + |b|. Products with a point, and sums, are off by 4u more: 6u of
- * (|a| + |b|) times the coordinate, summed over the axes. The bound uses 10u.
+ * its two products |a| + |b|. Products with a point, and sums, are off by 4u more: 6u of (|a| + |b|) times
+ * the coordinate, summed over the axes. The bound uses 10u.
  */
 function addPlanes(tree) {
   const count = tree.planePoints.length / 3;
@@ -146,8 +146,8 @@ function eyeTowards(direction) {
 }
 
 /**
- * Sets `distances`, of the eye from each plane times the length of its normal, rounded; and `signs` of the
- * planes of nodes, whether the eye is in front, exactly.
+ * Sets `distances`: for each plane the rounded distance of the eye, times the length of the plane's normal.
+ * Sets `signs`: for each plane of a node whether the eye is in front, exactly.
  */
 function compare(tree, { at, w }) {
   const { nx, ny, nz, offsets, bounds, offsetBounds, distances, signs } = tree;
@@ -165,8 +165,8 @@ function compare(tree, { at, w }) {
 }
 
 /**
-* Whether the eye is in front of a plane, by integers. An eye on the plane counts as behind. For an eye at
-* infinity along the plane, the side of the grid's middle counts. The library has the same rule.
+ * Whether the eye is in front of a plane, by integers. An eye on the plane counts as behind. For an eye at
+ * infinity along the plane, the side of the grid's middle counts. The library has the same rule.
  */
 function isInFront(tree, plane, [x, y, z], w) {
   const { n, offset } = (tree.exactPlanes[plane] ??= exactPlane(tree, plane));
@@ -185,8 +185,8 @@ function exactPlane(tree, plane) {
 }
 
 /**
- * The fragments, back to front, in `tree.order`: no recursion and no stack. As the sizes of subtrees are
- * known, so are the places of both sides of a node before they are walked.
+ * The fragments, back to front, in `tree.order`: no recursion and no stack. The sizes of subtrees are known,
+ * so the places of a node's two sides in the order are known before these sides are walked.
  */
 function backToFront(tree, eye) {
   compare(tree, eye);
