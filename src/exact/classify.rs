@@ -201,7 +201,7 @@ impl PreparedPlane {
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
         let of_face = Side::of(in_front, behind);
         let (Some(vertices), Side::Spanning) = (cut, of_face) else { return of_face };
-        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. They
+        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. The pieces
         // are not coplanar: a convex piece with an area lies in the plane only if its face does.
         let (mut in_front, mut behind) = (false, false);
         for vertex in vertices {

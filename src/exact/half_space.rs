@@ -2,9 +2,9 @@
 //! half-spaces.
 //!
 //! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so the value of a half-space at a
-//! lattice point takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits
-//! if it is a vertex of the fragment (see `vertex`), and up to 364 bits if a half-space made it. With weights
-//! of 364 bits, the weighted sum of three such values takes 548 bits.
+//! lattice point takes 182 bits. A vertex is a combination of lattice points. The weights have up to 320 bits
+//! for a vertex of the fragment (see `vertex`), and up to 364 bits for a vertex that a half-space made. With
+//! weights of 364 bits, the weighted sum of three such values takes 548 bits.
 
 use std::cmp::Ordering;
 

@@ -23,9 +23,9 @@ pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
 
 /// A cubic grid over a scene, so fine that rounding moves no corner by more than 2⁻⁵² of the scene's extent.
 ///
-/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an `f64`, and
-/// so is the difference of two coordinates. The grid's spacing is a power of two, so scenes in `f32`, on
-/// integers, or far from the origin are usually not moved at all.
+/// A lattice coordinate is an integer of magnitude at most 2⁵¹. Such an integer is exact as an `i64` and as
+/// an `f64`, and so is the difference of two such integers. The grid's spacing is a power of two, so scenes
+/// in `f32`, on integers, or far from the origin are usually not moved at all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.

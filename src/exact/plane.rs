@@ -160,8 +160,8 @@ const CANCELLED: f64 = (1u64 << 18) as f64;
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoundedNormal {
-    /// A component is the difference of two products. It is off by at most 2⁻⁵² of the sum of the products'
-    /// magnitudes, because the products and the difference are rounded.
+    /// A component is the difference of two products. The component is off by at most 2⁻⁵² of the sum of the
+    /// products' magnitudes, because the products and the difference are rounded.
     pub(crate) normal: [f64; 3],
     /// The sum, over the three components, of the magnitudes of the component's two products.
     pub(crate) size: f64,

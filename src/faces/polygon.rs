@@ -264,7 +264,7 @@ impl Corners {
         for k in (0..2 * n).rev() {
             let [a, b, c] = [k, k + 1, k + 2].map(|k| self.kept[k % n].0);
             let is_straight = cross(a, b, c) == [0; 3];
-            // This ends, because a polygon with area has corners that are not collinear.
+            // The loop ends, because a polygon with area has corners that are not collinear.
             self.runs[k % n] = if is_straight { self.runs[(k + 1) % n] + 1 } else { 1 };
         }
     }

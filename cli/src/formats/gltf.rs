@@ -218,8 +218,8 @@ fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     read().map_err(|error: io::Error| format!("cannot be read: {error}"))
 }
 
-/// The nodes of the scene, with their transforms. A node with several parents is an error: it might be its
-/// own ancestor.
+/// The nodes of the scene, with their transforms. A node with several parents is an error: such a node might
+/// be its own ancestor.
 fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
     let mut is_child = vec![false; document.nodes().len()];
     document

@@ -194,9 +194,9 @@ fn compare(a: &f64, b: &f64) -> Ordering {
 }
 
 /// Returns two coordinates. A piece reaches behind a plane across the axis by more than the tolerance if the
-/// plane's coordinate is above the first. It reaches in front of the plane by more than the tolerance if the
-/// plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two coordinates
-/// are equal.
+/// plane's coordinate is above the first. The piece reaches in front of the plane by more than the tolerance
+/// if the plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two
+/// coordinates are equal.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];
@@ -246,8 +246,8 @@ struct Bins {
     last: f64,
 }
 
-/// Adding this to a number from 0 to 2³² leaves the nearest integer in the last bits of the sum. That is
-/// faster than a conversion, which would saturate.
+/// Adding this to a number from 0 to 2³² leaves the nearest integer in the last bits of the sum. The addition
+/// is faster than a conversion, which would saturate.
 const TO_INTEGER: f64 = (1_u64 << 52) as f64;
 
 impl Bins {

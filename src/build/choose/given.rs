@@ -89,7 +89,7 @@ impl<'a> PieceSet<'a> {
             .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
     }
 
-    /// Returns the unit normal of the piece's plane, which points to the front. It equals the
+    /// Returns the unit normal of the piece's plane, which points to the front. This normal equals the
     /// [normal](crate::Fragment::normal) of the piece's fragments. O(1).
     pub fn normal(&self, piece: usize) -> DVec3 {
         let plane = PlaneId::face(self.set.pieces[piece].face);
