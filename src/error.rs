@@ -56,8 +56,8 @@ impl Error {
         }
     }
 
-    /// Renumbers the polygon that caused the error, if any. Use it if you built from
-    /// only some of your polygons, such as the polygons of a cell.
+    /// Renumbers the polygon that caused the error, if any. Use this method if you built from only some of
+    /// your polygons, such as the polygons of a cell.
     ///
     /// ```
     /// let error = binspace::BspTree::build([[[f64::NAN; 3]; 3]]).unwrap_err();
@@ -135,7 +135,7 @@ pub enum ErrorKind {
     InvalidInput,
     /// A polygon, line or point of an overlay or a cell lies outside the tree's grid.
     OutOfBounds,
-    /// A body has an open edge, so it has no inside.
+    /// A body has an open edge, so the body has no inside.
     OpenBody,
     /// The input is too large for the integers of a tree.
     TooLarge,
@@ -178,11 +178,11 @@ impl std::error::Error for Error {
     }
 }
 
-/// The reason why a file could not be read. If the error has a polygon's number, it is the number of a face
-/// of the file.
+/// The reason why a file could not be read. A polygon's number in the error is the number of a face of the
+/// file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FileFault {
-    /// The name of the file; empty if the caller knows it.
+    /// The name of the file; empty if the caller knows the name.
     pub(crate) name: String,
     /// The line of the file, counted from 1.
     pub(crate) line: Option<usize>,

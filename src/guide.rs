@@ -1,5 +1,5 @@
-//! The guide: a page for each subject. Its programs are tests. For details see the pages of types, and the
-//! table of [what works together](crate#what-works-together).
+//! The guide: a page for each subject. The programs on the pages are tests. For details see the pages of
+//! types, and the table of [what works together](crate#what-works-together).
 //!
 //! This module has no code. Its pages are the files in `docs/guide/`.
 
@@ -24,7 +24,7 @@ macro_rules! links {
     };
 }
 
-/// Makes the pages: each consists of the links, its own lines, and its file.
+/// Makes the pages. Each page consists of the links, the lines given here, and the page's file.
 macro_rules! pages {
     ($($(#[$doc:meta])* $page:ident)*) => {
         $(

@@ -8,8 +8,8 @@ pub const MAX_CORNERS: usize = 1 << 22;
 
 /// A point of an input polygon.
 pub trait Point: Copy {
-    /// The relative precision of a coordinate: the distance from 1 to the next larger number of its type. Use
-    /// `f32::EPSILON` for `f64` coordinates that were converted from `f32`.
+    /// The relative precision of a coordinate: the distance from 1 to the next larger number of the
+    /// coordinate's type. Use `f32::EPSILON` for `f64` coordinates that were converted from `f32`.
     const PRECISION: f64;
 
     /// Returns the point in `f64`.
@@ -74,11 +74,11 @@ pub trait Polygon {
     /// an endless iterator is an error too.
     fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
-    /// Returns the largest distance of a corner from its intended plane. The default tolerance depends on it,
-    /// within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
+    /// Returns the largest distance of a corner from its intended plane. The default tolerance depends on
+    /// this distance, within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
-    /// By default this is four times [`Point::PRECISION`] times the polygon's largest coordinate: about the
-    /// rounding error of a point multiplied by a matrix.
+    /// By default the result is four times [`Point::PRECISION`] times the polygon's largest coordinate: about
+    /// the rounding error of a point multiplied by a matrix.
     fn precision(&self) -> f64 {
         // Not `f64::max`, which takes more instructions because of NaN.
         let larger = |most: f64, c: f64| if c > most { c } else { most };

@@ -122,7 +122,8 @@ pub mod mesh {
     pub use crate::tree::{FragmentArrays, Mesh, MeshVertex, Triangles};
 }
 
-/// Internals for the project's own programs, tests and benches. They may change in any release.
+/// Internals for the project's own programs, tests and benches. The items of this module may change in any
+/// release.
 #[doc(hidden)]
 pub mod internals {
     pub use crate::build::choose::{FrameTuning, Tuning};

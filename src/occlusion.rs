@@ -15,9 +15,9 @@ use crate::tree::{BspTree, Fragment};
 /// conservative: it never hides a visible fragment, but a subtree may be visited although all its fragments
 /// are hidden.
 ///
-/// The mask may be coarser than the picture. Then its cells are several pixels wide and high, and only a
-/// fragment that covers all pixels of a cell covers the cell. A coarse mask is smaller and faster, and hides
-/// less: along the edge between two walls, neither wall covers a cell.
+/// The mask may be coarser than the picture. Then the mask's cells are several pixels wide and high, and only
+/// a fragment that covers all pixels of a cell covers the cell. A coarse mask is smaller and faster, and
+/// hides less: along the edge between two walls, neither wall covers a cell.
 ///
 /// ```
 /// use binspace::raster::Rays;
@@ -58,7 +58,7 @@ pub struct CoverageMask<'t> {
     open: Vec<u32>,
     /// The number of rows that have an uncovered cell.
     open_rows: usize,
-    /// Working space: for each cell of a row, the number of pixel rows in which it is covered so far.
+    /// Working space: for each cell of a row, the number of pixel rows in which the cell is covered so far.
     rows_covered: Vec<u32>,
 }
 
@@ -66,8 +66,8 @@ pub struct CoverageMask<'t> {
 const WORD: u32 = u64::BITS;
 
 impl<'t> CoverageMask<'t> {
-    /// Creates an empty mask for a tree and the picture that `rays` define. Its cells are `cell` pixels wide
-    /// and high; 0 counts as 1.
+    /// Creates an empty mask for a tree and the picture that `rays` define. The mask's cells are `cell`
+    /// pixels wide and high; 0 counts as 1.
     ///
     /// # Panics
     ///

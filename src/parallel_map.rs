@@ -50,8 +50,8 @@ fn for_each_number(count: usize, function: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(function);
 }
 
-/// Calls `here` on this thread and `other` on a second thread at the same time, if waking a thread is worth
-/// it. If not, calls `other` and then `here`.
+/// Calls `here` on this thread and `other` on a second thread at the same time, if the work is worth waking a
+/// thread. If not, calls `other` and then `here`.
 #[cfg(feature = "save")]
 #[cfg_attr(not(feature = "parallel"), expect(unused_variables, reason = "there is one thread"))]
 pub(crate) fn beside<T>(
@@ -72,8 +72,8 @@ pub(crate) fn beside<T>(
 
 /// Whether rayon's threads run; if not, the calling thread does all work.
 ///
-/// The first call starts them. If they cannot be started, for lack of memory or because of a limit on
-/// threads, the result is false; without this test, rayon would panic.
+/// The first call starts the threads. If the threads cannot be started, for lack of memory or because of a
+/// limit on threads, the result is false; without this test, rayon would panic.
 #[cfg(feature = "parallel")]
 pub(crate) fn are_running() -> bool {
     static ARE_RUNNING: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
@@ -81,8 +81,8 @@ pub(crate) fn are_running() -> bool {
     cfg!(target_family = "wasm")
         || rayon::current_thread_index().is_some()
         || *ARE_RUNNING.get_or_init(|| {
-            // An error without a cause means that they run already. (It cannot be distinguished from an
-            // earlier failed attempt of the program itself.)
+            // An error without a cause means that the threads run already. (This error cannot be
+            // distinguished from the error of an earlier failed attempt of the program itself.)
             let started = rayon::ThreadPoolBuilder::new().build_global();
             started.map_or_else(|error| std::error::Error::source(&error).is_none(), |()| true)
         })

@@ -1,4 +1,4 @@
-//! The progress of a build, and its cancellation.
+//! The progress and the cancellation of a build.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -32,11 +32,11 @@ pub struct Progress {
     /// The number of faces stored in the tree so far, rounded down. A piece of a face counts as a fraction of
     /// a face.
     pub done: usize,
-    /// The number of faces, or of polygons while they are read; 0 in the first call.
+    /// The number of faces, or of polygons while polygons are read; 0 in the first call.
     pub total: usize,
 }
 
-/// Serialises calls to the callback, so that the progress it sees never decreases.
+/// Serialises calls to the callback, so that the progress that the callback sees never decreases.
 ///
 /// A thread that finds the callback busy continues without calling it. Waiting could last forever: the
 /// callback may be running in an outer call on this thread's own stack, and may itself wait for the thread
@@ -69,7 +69,7 @@ pub(crate) fn one_at_a_time(
 
 type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
 
-/// Shared by the jobs of a build: counts their work, calls the callback, and stops them.
+/// Shared by the jobs of a build: counts the jobs' work, calls the callback, and stops the jobs.
 #[derive(Default)]
 pub(crate) struct Watch<'a> {
     callback: Option<Callback<'a>>,

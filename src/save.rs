@@ -1,6 +1,7 @@
 //! Reads and writes the parts that all kinds of files share: the head, numbers, lists and the checksum.
 //!
-//! [`BspTree::write`](crate::BspTree::write) documents them in a table. Another file may follow directly.
+//! [`BspTree::write`](crate::BspTree::write) documents these parts in a table. Another file may follow
+//! directly.
 
 use std::io::{self, Read, Write};
 
@@ -55,7 +56,7 @@ impl<R: Read> Reader<R> {
         Ok(reader)
     }
 
-    /// Reads bytes. Errors refer to them as `what`.
+    /// Reads bytes. Errors call these bytes `what`.
     pub(crate) fn bytes<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], Error> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes).map_err(|error| failed(error, what))?;
@@ -97,7 +98,7 @@ impl<R: Read> Reader<R> {
         self.items(what, len, item)
     }
 
-    /// Reads the items of a list, each from `N` bytes, given their number.
+    /// Reads the items of a list, each from `N` bytes, given the number of items.
     pub(crate) fn items<T, const N: usize>(
         &mut self,
         what: &'static str,
@@ -200,7 +201,7 @@ impl<W: Write> Writer<W> {
         self.items(items, write)
     }
 
-    /// Writes the items of a list without their number, which follows from earlier data.
+    /// Writes the items of a list, but not the number of items, which follows from earlier data.
     pub(crate) fn items<T>(
         &mut self,
         mut items: impl Iterator<Item = T>,

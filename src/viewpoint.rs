@@ -48,7 +48,7 @@ pub enum Facing {
     Front,
     /// The back.
     Back,
-    /// Neither: the eye lies in the plane, or the direction is parallel to it.
+    /// Neither: the eye lies in the plane, or the direction is parallel to the plane.
     EdgeOn,
 }
 
@@ -76,8 +76,8 @@ impl From<Facing> for Ordering {
 
 /// A ray, or the segment between two points, as for [`BspTree::hits`](crate::BspTree::hits).
 ///
-/// Its points are `from + t * direction`, where `t` is the *parameter*. A segment's direction is the
-/// difference of its ends, so its parameters are 0 to 1, both included.
+/// The points of the ray are `from + t * direction`, where `t` is the *parameter*. A segment's direction is
+/// the difference of its ends, so its parameters are 0 to 1, both included.
 ///
 /// Coordinates are in the polygons' unit. Decisions about a ray are exact for the given coordinates, except
 /// for their smallest digits. The ignored digits of a point are below 2⁻¹²⁰ of the largest of these lengths:
@@ -199,8 +199,8 @@ impl Frustum {
     /// Returns whether a box, given by its least and largest coordinates, may have points in the region:
     /// whether no plane has the whole box behind it.
     ///
-    /// Rounding never makes the result false: the test enlarges the box by about 10⁻¹⁵ of its distance from
-    /// the origin. The result is also true for a box that lies outside the region, but behind no single
+    /// Rounding never makes the result false: the test enlarges the box by about 10⁻¹⁵ of the box's distance
+    /// from the origin. The result is also true for a box that lies outside the region, but behind no single
     /// plane.
     pub fn meets(&self, [low, high]: [DVec3; 2]) -> bool {
         let reach = low.abs().max(high.abs());
@@ -212,7 +212,7 @@ impl Frustum {
     }
 }
 
-/// A bound on the roundings of a scalar product of three terms, of its comparison, and of the bound itself,
+/// A bound on the roundings of a scalar product of three terms, of the comparison, and of the bound itself,
 /// as a share of the sum of the terms' magnitudes.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 

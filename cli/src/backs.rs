@@ -15,8 +15,8 @@ const SIDE: u32 = 128;
 /// fronts. Too small: notes on those scenes. Too large: rooms are missed.
 const MOSTLY: [usize; 2] = [4, 3];
 
-/// Notes that a picture from outside a scene shows mostly backs of faces, as of a room whose walls
-/// hide it.
+/// Notes that a picture from outside a scene shows mostly backs of faces, for example because a room's near
+/// walls hide the room's inside.
 pub(crate) fn note_backs(scene: &Scene, tree: &BspTree, camera: &Camera) {
     if camera::is_inside(camera, scene) {
         return;

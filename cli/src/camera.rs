@@ -149,8 +149,8 @@ pub(crate) fn around_and_inside(
     cameras.map_err(|error| about(scene, &error))
 }
 
-/// Makes a camera with the up vector from the options. By default it is the scene's, or another if the view
-/// is along that.
+/// Makes a camera with the up vector from the options. By default the up vector is the scene's, or another
+/// vector if the view is parallel to the scene's up vector.
 fn upright(
     scene: &Scene,
     up: Option<DVec3>,
@@ -200,7 +200,7 @@ mod tests {
     /// Opposite corners of the block.
     const CORNERS: [DVec3; 2] = [DVec3::new(0.0, -0.5, 0.0), DVec3::new(2.0, 0.5, 3.0)];
 
-    /// A block of 2 by 1 by 3 units in an OBJ file. It stands on z = 0.
+    /// A block of 2 by 1 by 3 units that stands on z = 0, in an OBJ file.
     fn block() -> Scene {
         let mut text = String::new();
         for k in 0..8 {
@@ -338,7 +338,7 @@ mod tests {
         );
     }
 
-    /// The block touches the margin at both ends of one direction, and nowhere reaches into it.
+    /// The block touches the margin at both ends of one direction, and nowhere reaches into the margin.
     #[test]
     fn without_a_camera_the_scene_fills_the_picture_up_to_the_margin() {
         for (options, fov, margin) in [

@@ -22,7 +22,7 @@ pub enum Colouring {
 pub struct Colours<'a> {
     scene: &'a Scene,
     by: Colouring,
-    /// The numbers of its polygons in a scene that it is a part of.
+    /// The numbers of the scene's polygons in the whole scene, if the scene is a part.
     numbers: Option<&'a [usize]>,
 }
 
@@ -32,7 +32,8 @@ impl<'a> Colours<'a> {
         Self { scene, by, numbers: None }
     }
 
-    /// The same for a part of a scene, with the numbers of its polygons.
+    /// The colours for a part of a scene. `numbers` are the numbers of the part's polygons in the whole
+    /// scene.
     pub fn numbered(self, numbers: &'a [usize]) -> Self {
         Self { numbers: Some(numbers), ..self }
     }

@@ -1,9 +1,10 @@
 //! Pictures of pixels by exact coverage: each visible polygon contributes its colour by its share of the
 //! pixel's area. Where polygons are translucent, each region contributes its blended colour.
 //!
-//! Coverage comes from the sides of cells and regions. Each side adds, in the pixels that it crosses, the
-//! area between it and the right end of its row, counted up or down. (The sum along a row is then the cell's
-//! coverage, as in font rasterizers.) Time is proportional to the number of pixels of the cells.
+//! Coverage comes from the sides of cells and regions. In the pixels that a side crosses, it adds the area
+//! between the side and the right end of the row of pixels. The area counts as positive or negative,
+//! depending on whether the side goes up or down. (The sum along a row is then the cell's coverage, as in
+//! font rasterizers.) Time is proportional to the number of pixels of the cells.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -16,9 +17,9 @@ use crate::drawn::Style;
 /// time, as all cells are visited for each part of a picture.
 const AT_ONCE: usize = 1 << 21;
 
-/// The pixels of a map, row by row, with the colours of its polygons.
+/// The pixels of a map, row by row, with the colours of the map's polygons.
 ///
-/// Colours are blended by their numbers, as viewers of vector pictures do, not by their light.
+/// Colours are blended as sRGB numbers, as viewers of vector pictures do, not as amounts of light.
 pub(crate) fn picture(
     map: &VisibilityMap<'_>,
     background: [u8; 3],
@@ -37,7 +38,7 @@ pub(crate) fn picture(
     pixels(map.size(), background, add)
 }
 
-/// The same where polygons are translucent.
+/// Like [`picture`], for translucent polygons.
 pub(crate) fn blended(
     size: [u32; 2],
     background: [u8; 3],
@@ -129,8 +130,8 @@ impl Band {
         }
     }
 
-    /// Adds the changes that a side makes, and returns their rows. Where the side goes up, the cell is on its
-    /// right.
+    /// Adds the changes that a side makes, and returns the rows that it crosses. Where the side goes up, the
+    /// cell is on the right.
     fn add_side(&mut self, from: [f64; 2], to: [f64; 2]) -> Range<usize> {
         let (low, high, sign) = if from[1] < to[1] { (from, to, -1.0) } else { (to, from, 1.0) };
         let [low_y, high_y] = [low, high].map(|end| end[1] - self.top as f64);
@@ -179,7 +180,8 @@ impl Band {
 mod tests {
     use super::*;
 
-    /// The area of a convex outline in a pixel, by clipping it to the pixel's sides one after another.
+    /// The area of a convex outline in a pixel, by clipping the outline to the pixel's sides one after
+    /// another.
     fn clipped(outline: &[[f64; 2]], column: usize, row: usize) -> f64 {
         let mut points = outline.to_vec();
         for (axis, at, sign) in [

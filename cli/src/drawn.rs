@@ -9,11 +9,10 @@ use crate::colours::Colours;
 use crate::shading::shaded;
 use crate::strokes::Strokes;
 
-/// The width of hidden lines, as a share of the width of visible ones.
+/// The width of hidden lines, as a share of the width of visible lines.
 pub(crate) const HIDDEN_WIDTH: f64 = 0.6;
 
-/// The lengths of the dashes of hidden lines and of their gaps, by the lines' depth, for visible lines of a
-/// width.
+/// The lengths of dashes and of gaps in hidden lines of a depth. `width` is the width of visible lines.
 pub(crate) fn dashes(depth: u32, width: f64) -> [f64; 2] {
     let lengths = match depth {
         0 | 1 => [3.0, 2.0],

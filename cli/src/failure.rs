@@ -10,7 +10,7 @@ pub enum Failure {
     Message(String),
     /// A wrong command line; the message has already been printed.
     Usage,
-    /// The reader of standard output has closed it, so that the rest is not needed.
+    /// The reader of standard output has closed the pipe, so the rest of the output is not needed.
     ClosedPipe,
 }
 

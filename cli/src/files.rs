@@ -1,10 +1,10 @@
 //! Files that are written completely or not at all.
 //!
-//! Until it is complete, a file has no name. So if the program ends earlier, by a signal, by lack of memory or
-//! killed, it leaves nothing behind. A complete file gets a hidden name beside its place, `.binspace-….part`, and
-//! then replaces an existing file at once. Linux links the name to the file. Other systems, and file systems
-//! without such links, copy the file. Signals wait while a file has a hidden name. The name remains only if the
-//! program is killed meanwhile, or the machine stops.
+//! A file has no name until the file is complete. So a program that ends earlier, by a signal, by lack of
+//! memory or killed, leaves nothing behind. A complete file gets a hidden name beside its place,
+//! `.binspace-….part`, and then replaces an existing file at once. Linux links the name to the file. Other
+//! systems, and file systems without such links, copy the file. Signals wait while a file has a hidden name.
+//! The hidden name remains only if the program is killed meanwhile, or the machine stops.
 
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, IntoInnerError, IsTerminal, Seek, StdoutLock, Write};
@@ -28,7 +28,7 @@ pub(crate) enum Output {
     File(NewFile),
 }
 
-/// A file that replaces an existing one only when it is complete.
+/// A new file, which replaces an existing file only when the new file is complete.
 #[derive(Debug)]
 pub struct NewFile {
     writer: BufWriter<File>,
@@ -39,9 +39,9 @@ pub struct NewFile {
 /// The way of a complete file to its place.
 #[derive(Debug)]
 enum Place {
-    /// It is written in place: it is not a regular file, but one such as /dev/null.
+    /// The output is written in place, because the target is not a regular file, such as /dev/null.
     Same,
-    /// It is moved there when it is complete, with the permissions of the file that it replaces.
+    /// The complete file is moved to the target, with the permissions of the replaced file.
     Later(Option<Permissions>),
 }
 
@@ -57,7 +57,7 @@ impl Output {
         NewFile::create(path).map(Self::File)
     }
 
-    /// The same for something that a terminal cannot show.
+    /// Like [`open`](Self::open), for content that a terminal cannot show.
     pub(crate) fn open_binary(path: &Path, what: &str) -> Result<Self, Failure> {
         let output = Self::open(path)?;
         let is_terminal = match &output {
@@ -151,8 +151,8 @@ pub(crate) fn unnamed(folder: &Path) -> io::Result<File> {
     tempfile::tempfile_in(folder)
 }
 
-/// Puts a complete file in its place, with the given permissions, or the usual ones if there are none. A file
-/// with a hidden name in a folder replaces the existing one.
+/// Puts a complete file in its place, with the given permissions, or the usual permissions if none are given.
+/// The file gets a hidden name in a folder, and then replaces the existing file.
 fn put(
     file: File,
     folder: &Path,
@@ -190,7 +190,7 @@ fn linked(_: &File, _: &Path) -> io::Result<NamedTempFile<()>> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Copies a file to one with a hidden name in a folder.
+/// Copies a file to a file with a hidden name in a folder.
 fn copied(
     mut file: File,
     folder: &Path,
@@ -205,7 +205,8 @@ fn copied(
     Ok(part)
 }
 
-/// Puts complete files into a new folder with their names; all or none of them. The folder is in another.
+/// Puts complete files, with their names, into the new folder `target`: all files or none. `folder` contains
+/// the new folder.
 pub(crate) fn place_all(
     files: Vec<(String, File)>,
     folder: &Path,
@@ -224,7 +225,8 @@ pub(crate) fn place_all(
     })
 }
 
-/// A hidden file or folder. Its name is short, as the name of the replaced file may have the maximal length.
+/// A hidden file or folder. The hidden name is short, because the name of the replaced file may have the
+/// maximal length.
 fn hidden(permissions: Option<Permissions>) -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".binspace-").suffix(".part");
@@ -234,7 +236,7 @@ fn hidden(permissions: Option<Permissions>) -> tempfile::Builder<'static, 'stati
     builder
 }
 
-/// Permissions, from which the system removes those that the user's mask excludes.
+/// Permissions, from which the system removes the permissions that the user's mask excludes.
 #[cfg(unix)]
 fn mode(bits: u32) -> Option<Permissions> {
     Some(std::os::unix::fs::PermissionsExt::from_mode(bits))

@@ -1,17 +1,16 @@
-//! Cameras that show all of a scene, as large as it fits.
+//! Cameras that show all of a scene, as large as the picture allows.
 
 use binspace::Error;
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-/// A perspective camera with the direction of another, moved so that the scene just fills the
-/// picture.
+/// A perspective camera with the direction of another camera, moved so that the scene just fills the picture.
 ///
-/// The eye sees all corners p if, for each side of the picture, they lie on the inner side of the
-/// plane through the eye and that side. With r, u, b the directions right, up and back, and t the
-/// tangent of half the width: ±(p − eye)·r ≤ t (eye − p)·b, so that eye·b must be at least
-/// (max(p·r + t p·b) + max(−p·r + t p·b)) / 2t; the same holds up and down.
+/// The eye sees all corners p if, for each side of the picture, all p lie on the inner side of the plane
+/// through the eye and that side. With r, u, b the directions right, up and back, and t the tangent of half
+/// the width: ±(p − eye)·r ≤ t (eye − p)·b, so that eye·b must be at least (max(p·r + t p·b) + max(−p·r + t
+/// p·b)) / 2t; the same holds up and down.
 pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64, margin: f64) -> Result<Camera, Error> {
     let [width, height] = like.size().map(f64::from);
     let tangent = (0.5 * fov).tan() * (1.0 - 2.0 * margin);

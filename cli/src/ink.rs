@@ -17,7 +17,7 @@ enum Part {
     Disc { centre: [f64; 2], radius: f64 },
 }
 
-/// Draws lines in black over RGB pixels. Lines of each depth are drawn together, so that they are no darker
+/// Draws lines in black over RGB pixels. Lines of each depth are drawn together, so that lines are no darker
 /// where they meet.
 pub(crate) fn draw(pixels: &mut [u8], size: [u32; 2], strokes: &[Strokes], width: f64) {
     for alike in strokes.chunk_by(|a, b| a.depth == b.depth) {
@@ -67,7 +67,7 @@ fn add_bands(points: &[[f64; 2]], radius: f64, parts: &mut Vec<Part>) {
     }
 }
 
-/// The dashes of a line: their length and distance.
+/// The dashes of a line, given the lengths of a dash and of a gap.
 fn dashed(points: &[[f64; 2]], [dash, gap]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let Some(&first) = points.first() else { return vec![] };
     let mut dashes = vec![vec![first]];
@@ -98,7 +98,7 @@ fn dashed(points: &[[f64; 2]], [dash, gap]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 impl Part {
-    /// Its lower and upper end.
+    /// The lower and the upper end of the part.
     fn rows(&self) -> [f64; 2] {
         match self {
             Self::Disc { centre: [_, y], radius } => [y - radius, y + radius],
@@ -112,7 +112,7 @@ impl Part {
         }
     }
 
-    /// From where to where it covers a level.
+    /// The range in which the part covers a level.
     fn span(&self, level: f64) -> Option<[f64; 2]> {
         match *self {
             Self::Disc { centre: [x, y], radius } => {
@@ -134,7 +134,7 @@ impl Part {
     }
 }
 
-/// Calls a function with each pixel that some parts cover, and the joint coverage of all of them.
+/// Calls a function with each pixel that some parts cover, and the joint coverage of all these parts.
 fn cover(mut parts: Vec<Part>, [width, height]: [u32; 2], mut see: impl FnMut(usize, f64)) {
     let width = width as usize;
     parts.sort_by(|a, b| a.rows()[0].total_cmp(&b.rows()[0]));
@@ -170,7 +170,7 @@ fn cover(mut parts: Vec<Part>, [width, height]: [u32; 2], mut see: impl FnMut(us
     }
 }
 
-/// Adds a part of a level to the pixels that it is in.
+/// Adds a range of a level to the pixels that the range crosses.
 fn add([from, to]: [f64; 2], covered: &mut [f64]) {
     let mut at = from;
     while at < to {

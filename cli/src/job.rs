@@ -25,7 +25,7 @@ pub(crate) struct Made {
     pub(crate) tree: BspTree,
     /// The time to build the tree, or to read its file.
     pub(crate) seconds: f64,
-    /// How the tree was built; `None` if it was read.
+    /// How the tree was built; `None` if the tree was read.
     pub(crate) heuristic: Option<Heuristic>,
     /// The scene's name in a file of `binspace build`.
     pub(crate) stored_name: String,
@@ -60,7 +60,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if build options are given for a tree in a file, even if they are the default ones.
+/// An error if build options are given for a tree in a file, even with default values.
 pub(crate) fn refuse_options(
     name: impl Display,
     IsGiven(is_given): IsGiven,
@@ -73,7 +73,7 @@ pub(crate) fn refuse_options(
     Err(Failure::about(name, problem))
 }
 
-/// A failure to build a scene's tree. It names the program's options, not the library's.
+/// A failure to build a scene's tree. The message names the program's options, not the library's.
 pub fn about(scene: &Scene, error: &Error) -> Failure {
     let problem = error.to_string().replace("`max_fragments`", "`--max-fragments`");
     Failure::about(scene.name(), problem)
@@ -108,15 +108,15 @@ pub(crate) fn note_found(scene: &Scene, dropped: impl Iterator<Item = usize>, fo
     }
 }
 
-/// Notes that the tolerance is too small for the faces; otherwise which one was taken, if it is more than the
-/// usual 1e-9 of the extent because of the file's decimals.
+/// Notes that the tolerance is too small for the faces; otherwise the tolerance, if the file's decimals make
+/// it larger than the usual 1e-9 of the extent.
 pub(crate) fn note_tolerance(scene: &Scene, limits: &LimitArgs, tree: &BspTree) {
     let quads = scene.polygons().filter(|polygon| polygon.points().len() > 3).count();
     let tolerance = tree.faces().lattice().length_to_world(tree.faces().tolerance());
     note_length(scene, limits, tolerance, tree.preparation(), quads);
 }
 
-/// The same with a tolerance, for faces of which `quads` have four corners or more.
+/// Like [`note_tolerance`], for the given tolerance, and faces of which `quads` have four corners or more.
 pub(crate) fn note_length(
     scene: &Scene,
     limits: &LimitArgs,

@@ -49,9 +49,9 @@ use failure::Failure;
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// As it should.
+    /// The command has done its work.
     Done,
-    /// An image differs from the expected one.
+    /// An image differs from the expected image.
     Differs,
 }
 
@@ -60,8 +60,8 @@ pub fn main() -> ExitCode {
     program(run)
 }
 
-/// Reads the command line, runs a command, and reports failures. Without a command it prints help. The
-/// exit status is 1 if an image differs, and 2 after a failure.
+/// Reads the command line, runs a command, and reports failures. Without a command, prints help. The exit
+/// status is 1 if an image differs, and 2 after a failure.
 pub fn program<Arguments: Parser>(
     run: impl FnOnce(&Arguments) -> Result<Outcome, Failure>,
 ) -> ExitCode {

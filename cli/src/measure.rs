@@ -25,8 +25,8 @@ fn build_shown(scene: &Scene, options: &BuildOptions, shown: &Progress) -> Resul
     })
 }
 
-/// Builds a tree of a scene, and returns the seconds it took: the median, if there was time to
-/// build it more than once.
+/// Builds a tree of a scene, and returns the seconds that the build took: the median, if there was time for
+/// several builds.
 pub(crate) fn timed_build(scene: &Scene, options: &BuildOptions) -> Result<(BspTree, f64), Error> {
     let progress = Progress::share(format!("building {}", options.heuristic));
     let begin = Instant::now();

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::units::{bytes, count};
 
 /// Memory that a scene and its tree take per polygon, with a margin: some 480 bytes were measured for scenes
-/// in which nothing is cut. Too small: the program ends without a message. Too large: it refuses scenes that
-/// would fit.
+/// in which nothing is cut. Too small: the program ends without a message. Too large: the program refuses
+/// scenes that would fit.
 const BYTES_EACH: usize = 800;
 
 /// The least memory that reading a file takes, per byte of the file. For files of triangles 6 to 9 bytes were

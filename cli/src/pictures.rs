@@ -24,7 +24,7 @@ pub(crate) enum Kind {
     Painter,
     /// The picture of a depth buffer.
     ZBuffer,
-    /// Where the two differ.
+    /// The pixels in which painter and depth buffer differ.
     Difference,
     /// The depth of every pixel.
     Depth(Bright),
@@ -61,7 +61,7 @@ pub(crate) struct Drawing<'a> {
 }
 
 impl Kind {
-    /// All, in the order in which to write them.
+    /// All kinds, in the order in which pictures are written.
     pub(crate) const ALL: [Self; 4] =
         [Self::Painter, Self::ZBuffer, Self::Difference, Self::Depth(Bright::Near)];
 
@@ -75,7 +75,7 @@ impl Kind {
         }
     }
 
-    /// Its name in file names and on the command line.
+    /// The kind's name in file names and on the command line.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Painter => "painter",
@@ -93,7 +93,8 @@ pub(crate) fn rows_at_once([columns, rows]: [u32; 2], samples: u32) -> u32 {
 }
 
 impl Drawing<'_> {
-    /// Its pixels. Transparency shows only in the painter's picture. A difference comes with its figures.
+    /// The pixels of a picture of a kind. Transparency shows only in the painter's picture. A difference
+    /// comes with its figures.
     pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), Error> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),

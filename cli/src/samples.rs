@@ -4,15 +4,16 @@
 /// already give 256 levels along an edge.
 pub(crate) const MOST: u32 = 16;
 
-/// The light of full white. Too large: it does not fit `u32`. Too small: two dark colours are the same light.
+/// The light of full white. Too large: an amount of light does not fit `u32`. Too small: two dark colours are
+/// the same light.
 const FULL: f64 = (1u32 << 24) as f64;
 
-/// Between the 8-bit numbers of colours (sRGB) and amounts of light.
+/// Converts between the 8-bit numbers of colours (sRGB) and amounts of light.
 #[derive(Debug)]
 struct Light {
     /// The light of each number.
     of: [u32; 256],
-    /// From which light on a number is nearer to the next.
+    /// For each number, the light above which the next number is nearer.
     above: [u32; 255],
 }
 

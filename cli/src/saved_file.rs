@@ -56,8 +56,8 @@ pub(crate) fn read_pair(name: &str, mut input: impl Read) -> Result<(Scene, BspT
     Ok((scene, tree))
 }
 
-/// Whether a tree fits a scene: they have the same number of polygons, and the tree uses only corners of
-/// these.
+/// Whether a tree fits a scene: they have the same number of polygons, and the tree uses only corners of the
+/// scene's polygons.
 fn belong_together(tree: &BspTree, scene: &Scene) -> bool {
     let faces = tree.faces();
     let has_corners = |face: u32| {

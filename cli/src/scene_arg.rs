@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::saved_file;
 use crate::terminal::{note, remark};
 
-/// A scene under the user's name for it, and its tree if the file holds one.
+/// A scene under the name that the user gave, and the scene's tree if the file holds a tree.
 #[derive(Debug)]
 pub struct Loaded {
     /// The scene.
@@ -100,7 +100,7 @@ pub(crate) fn kind(path: &Path) -> (Kind, Vec<u8>) {
     beginning().unwrap_or((Kind::Obj, Vec::new()))
 }
 
-/// Reads a file that is neither an OBJ file nor one of `binspace build`.
+/// Reads a file that is neither an OBJ file nor a file of `binspace build`.
 fn mesh(kind: MeshKind, path: &Path) -> Result<Scene, Failure> {
     let name = path.display().to_string();
     let unreadable = |error| Failure::about(&name, format!("cannot be read: {error}"));
@@ -166,7 +166,8 @@ fn standard_input() -> Result<Loaded, Failure> {
     }
 }
 
-/// Notes that material libraries beside standard input are not found, in place of their materials.
+/// Notes that material libraries are not found if a scene comes from standard input. This note replaces the
+/// notes on missing materials.
 fn note_libraries(name: &str, report: &mut ObjReport) {
     let mut libraries = std::mem::take(&mut report.missing_libraries);
     libraries.append(&mut report.outside_libraries);
@@ -181,8 +182,8 @@ fn note_libraries(name: &str, report: &mut ObjReport) {
     }
 }
 
-/// All of standard input. Too little memory for it, or for the scene in it, is an error as soon as it
-/// shows.
+/// All bytes of standard input. Too little memory for the bytes, or for the scene in them, is an error as
+/// soon as it is detected.
 fn standard_input_bytes(name: &str) -> Result<Vec<u8>, Failure> {
     let mut bytes: Vec<u8> = Vec::new();
     let mut input = io::stdin().lock();

@@ -1,22 +1,23 @@
 //! Shades of polygons in vector pictures: one brightness for each plane, so that neither the triangles of a
 //! flat wall nor the pieces of a polygon differ.
 //!
-//! Along a direction it is the brightness of the painter's pictures, lit by a lamp at the eye. From an eye,
-//! such a lamp shades a plane unevenly. So there the lamp is far away, above the viewer's left shoulder.
+//! In a parallel view, the brightness is that of the painter's pictures, lit by a lamp at the eye. In a
+//! perspective, such a lamp would shade a plane unevenly. So the lamp of a perspective is far away, above the
+//! viewer's left shoulder.
 
 use binspace::glam::DVec3;
 use binspace::raster;
 use binspace::view::Camera;
 
-/// A polygon's colour as it is lit.
+/// A polygon's colour under the light.
 pub(crate) fn shaded(colour: [u8; 3], polygon: &[DVec3], camera: &Camera) -> [u8; 3] {
     let share = brightness(normal_to_viewer(polygon, camera), camera);
     colour.map(|channel| (f64::from(channel) * share).round() as u8)
 }
 
-/// The brightness of a plane, given the unit normal on the side that the viewer sees. From an eye it is
-/// 0.5 + 0.5 · (1 + n·l) / (1 + m·l), at most 1 (half-Lambert shading): n is the normal, l points to the lamp, and
-/// m to the viewer. A plane that faces the viewer has full brightness.
+/// The brightness of a plane, given the unit normal on the side that the viewer sees. In a perspective, the
+/// brightness is 0.5 + 0.5 · (1 + n·l) / (1 + m·l), at most 1 (half-Lambert shading): n is the normal, l
+/// points to the lamp, and m to the viewer. A plane that faces the viewer has full brightness.
 fn brightness(normal: DVec3, camera: &Camera) -> f64 {
     if camera.eye().is_none() {
         return raster::brightness(normal, camera.forward());

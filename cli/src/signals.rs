@@ -1,6 +1,6 @@
-//! Delays signals that end the program while it does work that must not be left half done.
+//! Delays signals that end the program, during work that must not be left half done.
 
-/// Runs a function. A signal that would end the program meanwhile ends it afterwards.
+/// Runs a function. A signal that would end the program meanwhile ends the program afterwards.
 #[cfg(not(unix))]
 pub(crate) fn hold_back<T>(act: impl FnOnce() -> T) -> T {
     act()

@@ -45,8 +45,8 @@ impl From<Hidden> for drawing::Hidden {
 /// Lines of one style.
 #[derive(Debug)]
 pub(crate) struct Strokes {
-    /// The number of polygons in front of them, up to [`DEEPEST`]: 0 if they are visible, 1 if they are
-    /// hidden and all have one style.
+    /// The number of polygons in front of the lines, up to [`DEEPEST`]: 0 for visible lines, and 1 for all
+    /// hidden lines if these have one style.
     pub(crate) depth: u32,
     /// The kind of the edges.
     pub(crate) class: &'static str,
@@ -93,7 +93,7 @@ impl EdgeChoice {
 /// Lines behind more polygons are drawn as lines behind this many.
 pub(crate) const DEEPEST: u32 = 4;
 
-/// The names of edges in a file, in the order to draw them.
+/// The names of kinds of edges in a file, in drawing order.
 const CLASSES: [&str; 5] = ["other", "crossing", "crease", "border", "silhouette"];
 
 fn class(kind: EdgeKind) -> &'static str {
@@ -107,9 +107,9 @@ fn class(kind: EdgeKind) -> &'static str {
     }
 }
 
-/// The lines of some edges, hidden ones before visible ones, without lines shorter than a length.
+/// The lines of some edges, hidden lines before visible lines, without lines shorter than a length.
 ///
-/// Lines of a kind are joined before the short ones are left out. The part of an edge seen through a crack is
+/// Lines of a kind are joined before short lines are left out. The part of an edge seen through a crack is
 /// short, but so are the edges of a fine mesh.
 pub(crate) fn strokes(
     runs: &[EdgeRun],

@@ -1,16 +1,17 @@
-//! Tables whose rows are written as they come.
+//! Tables whose rows are written one by one, as soon as they are measured.
 
-/// A table: a column of names, and columns of figures to the right of it.
+/// A table: a column of names, and columns of figures to the right of this column.
 ///
-/// Its widths are fixed before the first row, since rows appear as they are measured, over seconds or minutes.
-/// Crates for tables need all rows first.
+/// Widths are fixed before the first row, because rows appear one by one, over seconds or minutes. Crates for
+/// tables need all rows first.
 #[derive(Debug)]
 pub(crate) struct Table {
     columns: Vec<(&'static str, usize)>,
 }
 
 impl Table {
-    /// A table with these columns. Each is as wide as its title, and at least as wide as its number.
+    /// A table with these columns. Each column is as wide as its title, and at least as wide as the given
+    /// number.
     pub(crate) fn new(columns: &[(&'static str, usize)]) -> Self {
         let width = |&(title, width): &(&'static str, usize)| (title, width.max(title.len()));
         Self { columns: columns.iter().map(width).collect() }

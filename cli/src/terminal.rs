@@ -44,7 +44,7 @@ pub(crate) enum Notes {
     None,
 }
 
-/// Without options that set it, as in `binspace-lab`, each note is printed at once.
+/// The choice of notes. Without options for this choice, as in `binspace-lab`, each note is printed at once.
 static NOTES: AtomicU8 = AtomicU8::new(Notes::Each as u8);
 /// The notes on scenes that are still to be printed.
 static WAITING: Mutex<Vec<Remark>> = Mutex::new(Vec::new());

@@ -1,4 +1,4 @@
-//! Which way is up in files that do not say it.
+//! The up direction of files that do not state which way is up.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
@@ -10,7 +10,7 @@ use crate::terminal::remark;
 /// small: rounded files are missed. Too large: things that hang somewhat above 0 count as well.
 const ON_GROUND: f64 = 0.01;
 /// Things lower than this share of their shorter side are flat. Too large: furniture counts as a building.
-/// Too small: rooms of usual proportions do not.
+/// Too small: rooms of usual proportions do not count.
 const FLAT: f64 = 0.25;
 /// The least share of the bounding box's volume that inward faces span. Too small: open surfaces count as
 /// rooms because of rounding.
@@ -18,14 +18,14 @@ const INWARDS: f64 = 0.05;
 /// The least ratio of the area of a room or town seen from above to the area seen from a side. Too large:
 /// towns of high houses are missed. Too small: blinds count as rooms.
 const SEEN_FROM_ABOVE: f64 = 0.8;
-/// A scene with more of its area than this perpendicular to z is a drawing in layers, which has no up
+/// A scene with more than this share of its area perpendicular to z is a drawing in layers, which has no up
 /// direction.
 const LAYERS: f64 = 0.98;
 /// The sine of the angle within which a face counts as perpendicular to z is below this.
 const PERPENDICULAR: f64 = 0.2;
 
-/// The direction that points up in pictures: the scene's, or z if it is an OBJ file that looks like that. (OBJ
-/// files do not say which way is up.)
+/// The direction that points up in pictures: the scene's up direction, or z for an OBJ file that looks as if
+/// z pointed up. (OBJ files do not say which way is up.)
 pub(crate) fn up_of(scene: &Scene) -> DVec3 {
     taken(scene).map_or(scene.up(), |_| DVec3::Z)
 }
@@ -38,18 +38,18 @@ pub(crate) fn note_up(scene: &Scene, up: &UpArgs) {
     }
 }
 
-/// Why z is taken for the up direction of a file, if it is.
+/// The reason for taking z as the up direction of a file; `None` if z is not taken.
 fn taken(scene: &Scene) -> Option<&'static str> {
     let is_silent = scene.up() == DVec3::Y && !scene.is_empty() && scene.line(0).is_some();
     is_silent.then(|| sign_of_z_up(scene)).flatten()
 }
 
-/// Why a scene looks as if z pointed up, if it does. One of two signs suffices:
+/// The reason why a scene looks as if z pointed up, if there is one. One of two signs suffices:
 ///
-/// - It stands on z = 0: that is its lowest z, while its y reach from below 0 to above. Things that are flat
-///   in z do not count: plates on walls look the same if y is up.
-/// - It is a room, a level or a town: flat in z, with hardly less area seen from above than from a
-///   side, and its faces look inwards, as floors, ceilings and walls do.
+/// - The scene stands on z = 0: its lowest z is 0, while y reaches from below 0 to above 0. Things that are
+///   flat in z do not count: plates on walls look the same if y is up.
+/// - The scene is a room, a level or a town: flat in z, with hardly less area seen from above than from a
+///   side, and with faces that look inwards, as floors, ceilings and walls do.
 ///
 /// Neither counts as a sign if the scene stands on y = 0 in the same way, or is a stack of layers across z.
 ///
@@ -85,9 +85,9 @@ struct Areas {
     total: f64,
     /// The area of faces that are nearly perpendicular to z.
     perpendicular: f64,
-    /// As seen along each axis, from both sides.
+    /// The area seen along each axis, from both sides.
     seen: DVec3,
-    /// Six times the volume between the faces and a point, positive if they look away from it.
+    /// Six times the volume between the faces and a point, positive if the faces look away from the point.
     volume: f64,
 }
 

@@ -48,7 +48,8 @@ pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     Ok(vector)
 }
 
-/// The direction that points up; `None` for the one that [`up_of`](crate::upright::up_of) a scene is.
+/// The direction that points up; `None` for the direction that [`up_of`](crate::upright::up_of) finds for a
+/// scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Up(pub(crate) Option<DVec3>);
 
@@ -72,7 +73,7 @@ pub(crate) fn up(text: &str) -> Result<Up, String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
 
-/// A colour as in SVG and CSS, by its name if it is a usual one, or `none`.
+/// A colour as in SVG and CSS, also by a usual name, or `none`.
 pub(crate) fn background(text: &str) -> Result<Background, String> {
     let digits = match text {
         "none" => return Ok(Background(None)),

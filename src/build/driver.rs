@@ -155,7 +155,7 @@ fn prepared<P: Polygon>(
     Ok((faces, preparation))
 }
 
-/// Builds a tree of prepared faces, with their tolerance instead of the options' tolerance.
+/// Builds a tree of prepared faces, with the faces' tolerance instead of the options' tolerance.
 ///
 /// # Errors
 ///
@@ -201,12 +201,12 @@ pub(super) fn divide_all(
 }
 
 impl BspTree {
-    /// Adds polygons permanently, with the default options. They are numbered after the tree's polygons.
+    /// Adds polygons permanently, with the default options. The new polygons are numbered after the tree's
+    /// polygons.
     ///
-    /// Builds the tree again from its own polygons and the new polygons, on its grid and with its tolerance.
-    /// The numbers of its fragments change, and [overlays](crate::overlay::Overlay) and
-    /// [meshes](crate::mesh::Mesh) have to be made again. Takes as long as a build. For moving polygons, use
-    /// an overlay instead.
+    /// Builds the tree again from the old and the new polygons, with the same grid and tolerance. The numbers
+    /// of the fragments change, and [overlays](crate::overlay::Overlay) and [meshes](crate::mesh::Mesh) have
+    /// to be made again. Takes as long as a build. For moving polygons, use an overlay instead.
     ///
     /// ```
     /// use binspace::{BspTree, BuildOptions, glam::DVec3};
@@ -365,7 +365,7 @@ impl Partition {
     ///
     /// # Errors
     ///
-    /// As for [`build_cell`](BuildOptions::build_cell), except for its budgets.
+    /// As for [`build_cell`](BuildOptions::build_cell), but no budget applies.
     pub fn preparation<P: Polygon>(
         &self,
         polygons: impl IntoIterator<Item = P>,

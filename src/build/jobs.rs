@@ -18,7 +18,7 @@ const JOB: usize = 1024;
 pub(super) struct Job {
     pub(super) pieces: Vec<Piece>,
     pub(super) arena: Vec<Vertex>,
-    /// The number of nodes above it.
+    /// The number of nodes above the subtree.
     pub(super) depth: usize,
 }
 
@@ -33,12 +33,12 @@ pub(super) fn is_worth_a_job(back: usize, front: usize) -> bool {
 #[cfg(feature = "parallel")]
 const ALONE: usize = 2048;
 
-/// The outputs of the jobs so far, by their numbers; the outputs of unfinished jobs are missing.
+/// The outputs of the jobs so far, by the jobs' numbers; the outputs of unfinished jobs are missing.
 #[cfg(feature = "parallel")]
 type Outputs = Mutex<Vec<Option<Result<Output, Error>>>>;
 
-/// Builds a job on a thread of the pool, and spawns the jobs that it hands over. If it fails, all other jobs
-/// stop.
+/// Builds a job on a thread of the pool, and spawns the jobs that this job hands over. If this job fails, all
+/// other jobs stop.
 #[cfg(feature = "parallel")]
 fn build_and_spawn<'s>(
     scope: &rayon::Scope<'s>,
@@ -64,7 +64,7 @@ fn build_and_spawn<'s>(
     outputs.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(output);
 }
 
-/// Builds a job, and all jobs that it and its successors hand over, and joins their outputs.
+/// Builds a job, and then repeatedly the jobs that finished jobs handed over. Joins the outputs of all jobs.
 pub(super) fn run(shared: &Shared<'_>, job: Job, builder: &mut Builder) -> Result<Parts, Error> {
     #[cfg(feature = "parallel")]
     if job.pieces.len() >= JOB && crate::parallel_map::are_running() {
@@ -113,8 +113,8 @@ struct Gap {
 }
 
 impl Output {
-    /// Appends a fragment. `cut` contains its vertices, or is empty if the fragment is a whole face. Their
-    /// positions are stored only if `keeps_positions`.
+    /// Appends a fragment. `cut` contains the fragment's vertices, or is empty if the fragment is a whole
+    /// face. The positions of vertices are stored only if `keeps_positions`.
     pub(super) fn push(
         &mut self,
         face: u32,
@@ -152,13 +152,13 @@ impl Output {
         self.gaps.push(gap);
     }
 
-    /// The end of this output, as a place for the output of a job.
+    /// The end of this output, as a place for the output of another job.
     fn end(&self, job: usize) -> Gap {
         let Parts { nodes, records, vertices, .. } = &self.parts;
         Gap { nodes: nodes.len(), records: records.len(), vertices: vertices.len(), job }
     }
 
-    /// Appends the part of another output between two of its gaps.
+    /// Appends the part of another output between two gaps of that output.
     fn append(&mut self, other: &Self, from: Gap, to: Gap) {
         let shift = self.parts.vertices.len() as u32 - from.vertices as u32;
         self.parts.nodes.extend_from_slice(&other.parts.nodes[from.nodes..to.nodes]);

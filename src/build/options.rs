@@ -28,7 +28,7 @@ use crate::faces::Tolerance;
 pub struct BuildOptions {
     /// How partition planes are chosen. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
-    /// The coplanar tolerance: a polygon counts as lying on a plane if it reaches no further than this from
+    /// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on
     /// the plane. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
     pub tolerance: Tolerance,
     /// The largest number of fragments of a tree, and of input polygons. More fragments or polygons are an
@@ -165,7 +165,8 @@ impl Default for BuildOptions {
 #[non_exhaustive]
 pub enum Heuristic {
     /// The plane of the first polygon in input order, as in the first BSP trees (Fuchs, Kedem and Naylor,
-    /// 1980). It compares no planes, and makes up to 14 times as many fragments as a scored heuristic.
+    /// 1980). This heuristic compares no planes, and makes up to 14 times as many fragments as a scored
+    /// heuristic.
     First,
     /// The plane of a random polygon; the same seed makes the same tree. The expected number of fragments is
     /// O(n log n) for segments in the plane and O(n²) in space (Paterson and Yao, “Efficient binary space
@@ -204,9 +205,9 @@ pub enum Heuristic {
     /// fast construction of SAH-based bounding volume hierarchies”, 2007). A polygon's plane is used if all
     /// polygons of the set lie in one plane, or if no free plane separates any polygons.
     FreePlanes,
-    /// The plane of either kind with the lowest cost. The default, because it makes the fewest fragments on
-    /// most scenes. The cost is the library's own. Polygons' planes are compared by successive halving
-    /// (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
+    /// The plane of either kind with the lowest cost. The default, because this choice makes the fewest
+    /// fragments on most scenes. The cost is the library's own. Polygons' planes are compared by successive
+    /// halving (Karnin, Koren and Somekh, “Almost optimal exploration in multi-armed bandits”, 2013).
     ///
     /// The candidates are free planes and the planes of a sample of the polygons. The cost of a plane
     /// estimates the remaining work: n^1.25 for n polygons in front, plus n^1.25 for n polygons behind. A

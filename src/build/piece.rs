@@ -13,11 +13,11 @@ pub(crate) struct Piece {
     pub(crate) min: [f64; 3],
     pub(crate) max: [f64; 3],
     pub(crate) face: u32,
-    /// The index of its first vertex in the arena, and the number of its vertices. Both are 0 for a whole
-    /// face.
+    /// The index of the piece's first vertex in the arena, and the number of the piece's vertices. Both
+    /// numbers are 0 for a whole face.
     start: u32,
     len: u32,
-    /// The number of times it was cut, at most 255.
+    /// The number of times the piece was cut, at most 255.
     pub(crate) cuts: u8,
     /// The sides of the box that contain a corner of the face: bits 0–2 for the minima along x, y and z, bits
     /// 3–5 for the maxima.
@@ -35,8 +35,8 @@ impl Piece {
         piece
     }
 
-    /// A part of a piece that was cut. `vertices` are the part's vertices, and `start` is their index in the
-    /// arena.
+    /// A part of a piece that was cut. `vertices` are the part's vertices, and `start` is the index of the
+    /// first vertex in the arena.
     pub(crate) fn part(whole: &Self, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(whole.face, start as u32, vertices.len() as u32);
         piece.cuts = whole.cuts.saturating_add(1);
@@ -56,14 +56,15 @@ impl Piece {
     }
 
     /// The painting order of pieces on one plane: the order of their faces. (Pieces of one face do not
-    /// overlap, so their order does not matter. They are sorted by the index of their vertices, so that an
-    /// unstable sort, which needs no memory, has only one result.)
+    /// overlap, so their order does not matter. Such pieces are sorted by the index of their first vertex, so
+    /// that an unstable sort, which needs no memory, has only one result.)
     #[inline]
     pub(crate) fn rank(&self) -> (u32, u32) {
         (self.face, self.start)
     }
 
-    /// A segment or a point. `vertices` are its vertices, and `start` is their index in the arena.
+    /// A segment or a point. `vertices` are the vertices, and `start` is the index of the first vertex in the
+    /// arena.
     pub(crate) fn thin(face: u32, vertices: &[Vertex], start: usize) -> Self {
         let mut piece = Self::empty(face, start as u32, vertices.len() as u32);
         vertices.iter().for_each(|vertex| piece.include(vertex.position()));
@@ -115,8 +116,8 @@ impl Piece {
         }
     }
 
-    /// A point on the plane of its face: a vertex of the piece, because at a distant point the rounding of
-    /// the normal would matter.
+    /// A point on the plane of the piece's face: a vertex of the piece, because at a distant point the
+    /// rounding of the normal would matter.
     pub(crate) fn point(&self, faces: &Faces, arena: &[Vertex]) -> DVec3 {
         DVec3::from_array(match self.cut_vertices(arena) {
             // On the plane, or within half a step of it.
@@ -220,8 +221,8 @@ pub(crate) struct Splitter {
 }
 
 impl Splitter {
-    /// Cuts a piece that spans a plane. Appends the vertices of its parts to the arena, and returns the
-    /// parts in front and behind.
+    /// Cuts a piece that spans a plane. Appends the vertices of the two parts to the arena, and returns the
+    /// part in front and the part behind.
     pub(crate) fn cut(
         &mut self,
         faces: &Faces,

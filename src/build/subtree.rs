@@ -29,7 +29,7 @@ pub(in crate::build) struct Shared<'a> {
     options: &'a BuildOptions,
     rules: ChooseContext<'a>,
     budget: Budget,
-    /// The planes of all faces, if they were prepared in advance.
+    /// The planes of all faces, if the planes were prepared in advance.
     planes: &'a [PreparedPlane],
     /// Whether the rounded positions of vertices go into the output.
     keeps_positions: bool,
@@ -68,14 +68,14 @@ impl<'a> Shared<'a> {
 /// A set of pieces still to be divided: a range of the stack of pieces.
 struct Pending {
     range: Range<usize>,
-    /// The length of the arena that it needs.
+    /// The length of the arena that the set needs.
     arena: usize,
-    /// The number of nodes above it.
+    /// The number of nodes above the set.
     depth: usize,
     /// Whether peeling has just been tried on this set. If so, and the set is small, a plane divides it
     /// first.
     is_peeled: bool,
-    /// The other job that builds it, if any.
+    /// The other job that builds the set's subtree, if any.
     job: Option<usize>,
 }
 
@@ -83,7 +83,7 @@ struct Pending {
 #[derive(Default)]
 pub(in crate::build) struct Builder {
     chooser: Chooser,
-    /// A stack of the sets still to be divided, the next one on top.
+    /// A stack of the sets still to be divided, the next set on top.
     pub(in crate::build) pieces: Vec<Piece>,
     /// The vertices of cut pieces, in the order of the cuts. Vertices of finished sets are truncated from
     /// the end.
@@ -94,7 +94,8 @@ pub(in crate::build) struct Builder {
     pub(in crate::build) output: Output,
     /// The plane that divides the current set, and the sides of the set's pieces.
     division: Division,
-    /// The pieces of the current set that lie on its plane, in front of the plane, and across the plane.
+    /// The pieces of the current set that lie on the dividing plane, in front of this plane, and across this
+    /// plane.
     own: Vec<Piece>,
     front: Vec<Piece>,
     spanning: Vec<Piece>,
@@ -136,7 +137,7 @@ impl Builder {
         self.pending.push(Pending { range, arena, depth, is_peeled, job });
     }
 
-    /// Writes the node of the set on top of the stack, and puts its two sides on the stack.
+    /// Writes the node of the set on top of the stack, and puts the set's two sides on the stack.
     fn step(
         &mut self,
         shared: &Shared<'_>,
@@ -227,8 +228,8 @@ impl Builder {
         piece.map_or(Ok(()), |piece| self.store(shared, &piece))
     }
 
-    /// Divides the set on top of the stack: pieces behind the plane stay on the stack, pieces in front go
-    /// to `front`, and pieces on the plane to `own`. Pieces that span it are cut.
+    /// Divides the set on top of the stack: pieces behind the plane stay on the stack, pieces in front go to
+    /// `front`, and pieces on the plane to `own`. Pieces that span the plane are cut.
     fn divide(&mut self, shared: &Shared<'_>, start: usize) -> Result<(), Error> {
         let Self { division, own, front, spanning, pieces, arena, splitter, .. } = self;
         let Some(plane) = &division.plane else { return Ok(()) };
@@ -268,7 +269,7 @@ impl Builder {
         Ok(())
     }
 
-    /// Writes the node of a set that has been divided, and puts its two sides on the stack.
+    /// Writes the node of a set that has been divided, and puts the set's two sides on the stack.
     fn emit(
         &mut self,
         shared: &Shared<'_>,
@@ -429,7 +430,7 @@ fn size(piece: &Piece) -> f64 {
     (0..3).map(|axis| (piece.max[axis] - piece.min[axis]).powi(2)).sum()
 }
 
-/// Returns the largest of the pieces on whose plane a face lies.
+/// Returns the largest piece whose plane contains a face.
 fn larger<'p>(
     rules: &ChooseContext<'_>,
     set: &Set<'_>,

@@ -7,7 +7,7 @@
 //!
 //! - if no corner is further than τ from the plane, the piece is coplanar;
 //! - if corners are further than τ in front, but no corner is further behind, the piece is in front, and vice
-//!   versa: it is not cut for less than τ;
+//!   versa: a piece is not cut for less than τ;
 //! - otherwise the exact signs of the piece's own vertices decide, and the piece is cut if they differ.
 //!
 //! With τ = 0 every decision equals the decision of real arithmetic.
@@ -51,7 +51,7 @@ pub struct PreparedPlane {
     pub(super) plane: PlaneId,
     normal: [f64; 3],
     offset: f64,
-    /// A rounded distance has the right sign if its magnitude is larger than this.
+    /// The filter's bound: a rounded distance of larger magnitude has the right sign.
     pub(super) bound: f64,
     /// The tolerance times the length of the exact normal, within a share of 10⁻⁹, rounded down to an
     /// integer.
@@ -98,8 +98,8 @@ impl PreparedPlane {
     pub(crate) fn side_of_box(&self, [low, high]: [[f64; 3]; 2]) -> Option<Side> {
         let lowest = std::array::from_fn(|i| if self.normal[i] > 0.0 { low[i] } else { high[i] });
         let highest = std::array::from_fn(|i| if self.normal[i] > 0.0 { high[i] } else { low[i] });
-        // The bound is for a vertex at the corner of the box. Other vertices have larger coordinates, so they
-        // are rounded by more: by three roundings of the largest, a third of another bound.
+        // The bound is for a vertex at the corner of the box. Other vertices of the piece may have larger
+        // coordinates, and so larger errors: three roundings of the largest coordinate, a third of the bound.
         let far = self.band + 2.0 * self.bound;
         if self.distance(lowest) > far {
             Some(Side::Front)
@@ -136,8 +136,8 @@ impl PreparedPlane {
     }
 
     /// Returns the largest error of [`distance`](Self::distance) plus the tolerance, in the same unit. If the
-    /// rounded position of a vertex is further than this from the plane, the sign of the distance certainly
-    /// is the vertex's side.
+    /// rounded position of a vertex is further than this sum from the plane, the sign of the distance
+    /// certainly is the vertex's side.
     pub fn slack(&self) -> f64 {
         self.bound + self.band
     }
@@ -195,13 +195,13 @@ impl PreparedPlane {
         // The third corner of a segment does not belong to it.
         let count = faces.reach(face);
         let band = self.band;
-        // First the whole face decides, so that all its pieces are treated alike: tested one by one, some
-        // would be coplanar and others spanning.
+        // First the whole face decides, so that all pieces of the face are treated alike. Tested one by one,
+        // some pieces would be coplanar and others spanning.
         let in_front = (0..count).any(|k| corner(k, band).is_gt());
         let behind = (0..count).any(|k| corner(k, -band).is_lt());
         let of_face = Side::of(in_front, behind);
         let (Some(vertices), Side::Spanning) = (cut, of_face) else { return of_face };
-        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. They
+        // The face spans the plane by more than the tolerance, so its pieces are decided exactly. The pieces
         // are not coplanar: a convex piece with an area lies in the plane only if its face does.
         let (mut in_front, mut behind) = (false, false);
         for vertex in vertices {
@@ -239,7 +239,7 @@ fn floor(value: f64) -> f64 {
 /// - the rounded normal: Σ (πᵢ + |nᵢ|)|dᵢ|;
 /// - the two scalar products: Σ |nᵢ|(|pᵢ| + |vᵢ|) + |P| + |V| + 2|N|; their difference is exact;
 /// - the vertex, three roundings of each coordinate (see [`Faces::position`]); the rounding of the common
-///   denominator moves it along v: 2 Σ |nᵢ||vᵢ| + |N|. (Truncating its weights adds
+///   denominator moves the vertex along v: 2 Σ |nᵢ||vᵢ| + |N|. (Truncating its weights adds
 ///   [`OFF`](super::vertex::OFF), less than a thirtieth of a rounding of m.)
 ///
 /// Everything except Σ (πᵢ + |nᵢ|)|dᵢ| + 3|N| + |P| + |V| is at most 4πm. That sum is at most 5πm:
@@ -248,8 +248,9 @@ fn floor(value: f64) -> f64 {
 /// Σ |nᵢ||dᵢ| ≤ 2 − 2|N|.
 ///
 /// - If P and V have the same sign, Σ |nᵢ||dᵢ| + |P| + |V| ≤ 2 as well: 4 + |N|.
-/// - Otherwise let x be |n₂|. Of P and V, one has the sign of N: let b be its magnitude, and a the magnitude
-///   of the other. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at most 2(1 − x) − |b − a|, and
+/// - Otherwise let x be |n₂|. Of P and V, one number has the sign of N. Let b be the magnitude of this
+///   number, and a the magnitude of the other number. Then |n₂d₂| = a + b ≤ 2x, the rest of Σ |nᵢ||dᵢ| is at
+///   most 2(1 − x) − |b − a|, and
 ///   |N| ≤ x − a. So the sum is at most
 ///   4 − x − 2|b − a| + 3b, with a and b at most 1 − x. That is at most 4 + 2x and 7 − 4x.
 ///
@@ -258,13 +259,14 @@ fn floor(value: f64) -> f64 {
 /// 1.014 m. Too small: wrong decisions pass. Too large: integers decide cases that floats could have decided.
 const FACE_ERROR: f64 = 9.2 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// The largest distance of a rounded vertex from an axis-aligned plane that can have the wrong sign. It is
-/// the error of the vertex: three roundings of a coordinate of at most 1.014 m, and less than a thirtieth of
-/// a rounding for truncating the vertex's weights. The difference of two numbers this close is exact.
+/// The largest distance of a rounded vertex from an axis-aligned plane that can have the wrong sign. This is
+/// the error of the vertex's coordinate: three roundings of a coordinate of at most 1.014 m, and less than a
+/// thirtieth of a rounding for truncating the vertex's weights. The difference of two numbers this close is
+/// exact.
 const AXIS_ERROR: f64 = 3.1 * (f64::EPSILON / 2.0) * LIMIT;
 
-/// Compares a vertex's distance from a plane with a threshold: by the filter if it is certain, otherwise by
-/// integers.
+/// Compares a vertex's distance from a plane with a threshold: by the filter if the filter is certain,
+/// otherwise by integers.
 #[inline]
 pub(super) fn compare(
     faces: &Faces,
@@ -301,8 +303,8 @@ fn compare_exactly(
     let plane = faces.plane(prepared.plane);
     let threshold = Int::<3>::from_f64(threshold);
     let value = |x: &[f64; 3]| plane.at(x) - threshold;
-    // A vertex on an edge was made between the edge's ends. If both are on one side of the plane, so is the
-    // vertex, and its weights are not needed.
+    // A vertex on an edge was made between the edge's ends. If both ends are on one side of the plane, so is
+    // the vertex, and no weights are needed.
     if let Some([a, b]) = faces.edge_ends(face, vertex) {
         // Not `map`, which calls a function for each end.
         match (value(&a).sign(), value(&b).sign()) {

@@ -1,4 +1,5 @@
-//! A viewpoint on the lattice and its sides of planes; a ray in integers and its intersections with planes.
+//! A viewpoint on the lattice, and the sides of planes on which it lies; a ray in integers and its
+//! intersections with planes.
 
 use std::cmp::Ordering;
 
@@ -7,8 +8,8 @@ use super::plane::Plane;
 use super::{Faces, Int, PlaneId};
 use crate::viewpoint::{Ray, Viewpoint};
 
-/// A viewpoint in lattice units, rounded once: the point integer · 2^shift. Without a shift, it is the
-/// direction in which the eye is infinitely far away.
+/// A viewpoint in lattice units, rounded once: the point integer · 2^shift. Without a shift, the integers are
+/// the direction to an eye at infinity.
 ///
 /// An eye within about 500 extents of the scene is rounded to the lattice, whose step is 2⁻⁵² of the extent.
 /// An eye further away is rounded to one part in 2⁶¹ of its distance. Directions are rounded to one part in
@@ -22,13 +23,13 @@ pub struct Eye {
     float: [f64; 3],
 }
 
-/// The largest magnitude of an eye's integers is two to this power: eyes this near need no shift.
+/// The largest magnitude of an eye's integers is two to this power. Eyes within that distance need no shift.
 const NEAR_BITS: i32 = 61;
 const NEAR: f64 = (1u64 << NEAR_BITS) as f64;
 /// The largest shift. For eyes further away, the planes' offsets do not matter: only the direction does.
 const LARGEST_SHIFT: u32 = 360;
 
-/// The largest component of a direction is scaled to a magnitude from 2 to this power up to twice as much.
+/// The largest component of a direction is scaled to a magnitude from 2ᵏ to 2ᵏ⁺¹, where k is this number.
 const DIRECTION_BITS: i32 = 52;
 
 impl Eye {
@@ -122,8 +123,8 @@ impl Plane {
         }
     }
 
-    /// The side of the plane that an eye sees: `Greater` is the front, and `Equal` is neither. It is the side
-    /// on which the eye lies, but an eye at infinity along the plane sees the plane edge-on.
+    /// The side of the plane that an eye sees: `Greater` is the front, and `Equal` is neither. The eye sees
+    /// the side on which it lies, except that an eye at infinity along the plane sees the plane edge-on.
     pub(crate) fn facing(&self, eye: &Eye) -> Ordering {
         match eye.shift() {
             Some(_) => self.at_eye(eye),
@@ -163,8 +164,8 @@ fn nearest_integer(rounded: f64, lost: f64) -> i64 {
 
 /// A ray on the finest grid that its coordinates allow.
 ///
-/// Its points are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is the
-/// parameter of [`Ray`]; the direction of an endless ray has a separate scale.
+/// The points of the ray are origin + t · direction in units of 2^−`bits` lattice steps. For a segment, t is
+/// the parameter of [`Ray`]; the direction of an endless ray has a separate scale.
 ///
 /// Coordinates of a ray are below 2¹²⁵, and components of a face's normal below 2¹⁰⁸ (see `plane`), so the
 /// value of a plane at a point of the ray, and its slope along the ray, take 236 bits each. A product of two
@@ -241,8 +242,8 @@ impl ExactRay {
         AtRay { start: along(arm), slope: along(self.direction) }
     }
 
-    /// The point of a parameter in lattice units; each coordinate is the nearest `f64`, or its neighbour if
-    /// both are about equally near.
+    /// The point of a parameter in lattice units; each coordinate is the nearest `f64`, or the second nearest
+    /// if the two are about equally near.
     pub(crate) fn point(&self, t: &Parameter) -> [f64; 3] {
         std::array::from_fn(|i| {
             let start = t.denominator.times::<2, 6>(&Int::from(self.origin[i]));
@@ -277,7 +278,7 @@ impl AtRay {
         self.start.sign()
     }
 
-    /// The side of the plane to which the ray leads; `Equal` if it is parallel to the plane.
+    /// The side of the plane to which the ray leads; `Equal` if the ray is parallel to the plane.
     pub(crate) fn slope(&self) -> Ordering {
         self.slope.sign()
     }
@@ -353,8 +354,8 @@ mod tests {
     #[test]
     fn directions_are_rounded_to_the_nearest() {
         let unit = (1_i64 << 52) as f64;
-        // The largest component is a power of two, so these are the other components in units of the last
-        // bit.
+        // The largest component is a power of two, so the expected values are the other components in units
+        // of the last bit.
         for (part, nearest) in [(0.25, 0), (0.75, 1), (-0.75, -1), (6.75, 7), (-6.25, -6)] {
             let eye = Eye::towards([1.0, part / unit, -part / unit]);
             assert_eq!(eye.integer(), [1 << 52, nearest, -nearest], "{part}");

@@ -17,7 +17,7 @@ use super::{Lattice, PlaneId};
 use crate::error::{Error, Kind};
 use crate::memory::{collect, push, reserve};
 
-/// The faces of a scene in lattice coordinates. Each is convex and planar, and belongs to one input
+/// The faces of a scene in lattice coordinates. Each face is convex and planar, and belongs to one input
 /// polygon.
 ///
 /// A polygon that is convex, has at most 32 768 corners, and lies within the tolerance of one plane becomes
@@ -66,7 +66,7 @@ pub(crate) struct Thin {
     pub(crate) points: usize,
 }
 
-/// Marks a corner if the edge from it to the next is not an edge of the polygon.
+/// Marks a corner if the edge from this corner to the next is not an edge of the polygon.
 pub(crate) const INNER: u32 = 1 << 31;
 
 /// The first of a face's corners, its polygon, and the corners that span its plane.
@@ -77,8 +77,8 @@ pub(crate) struct Face {
     pub(crate) frame: Frame,
 }
 
-/// The reference triangle of a face (its corners 0, `second` and `third`), and the axis along which its other
-/// corners are moved onto its plane, if any corner is off the plane.
+/// The reference triangle of a face (the face's corners 0, `second` and `third`), and the axis along which
+/// the face's other corners are moved onto the triangle's plane, if any corner is off that plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Frame(pub(super) u32);
 
@@ -266,8 +266,8 @@ impl Faces {
     }
 
     /// The axis along which the corners of a face are moved onto its plane, or `None` if all corners lie
-    /// exactly on the plane. An edge of a face with moved corners lies in the plane through its two lattice
-    /// points and along that axis.
+    /// exactly on the plane. An edge of a face with moved corners lies in the plane through the edge's two
+    /// lattice points and along that axis.
     #[inline]
     pub(crate) fn moved_axis(&self, face: u32) -> Option<usize> {
         self.faces[face as usize].frame.moved_axis()
@@ -470,17 +470,17 @@ impl Faces {
 
 #[cfg(feature = "layers")]
 impl Faces {
-    /// Puts the faces of some polygons into one plane: the plane through three of their corners that are far
-    /// apart. The other corners are moved onto this plane, like the corners of one polygon onto its own
-    /// plane.
+    /// Puts the faces of some polygons into one plane: the plane through three corners of these polygons that
+    /// are far apart. The other corners are moved onto this plane, like the corners of one polygon onto its
+    /// own plane.
     ///
     /// Corners are rounded, so polygons meant for one plane have different planes. Extended to another
-    /// polygon, the plane of a small polygon is off by the rounding error times the ratio of their sizes.
-    /// Corners that are far apart bound that ratio for all polygons.
+    /// polygon, the plane of a small polygon is off by the rounding error times the ratio of the two
+    /// polygons' sizes. Corners that are far apart bound that ratio for all polygons.
     ///
-    /// A face that is not convex in a projection along the plane's main axis keeps its own plane: it is so
-    /// thin that rounding decides its shape. A tree with common planes has no mesh, no drawing and no file,
-    /// because these support only planes through a face's own corners.
+    /// A face that is not convex in a projection along the plane's main axis keeps its own plane: such a face
+    /// is so thin that rounding decides its shape. A tree with common planes has no mesh, no drawing and no
+    /// file, because meshes, drawings and files support only planes through a face's own corners.
     pub(crate) fn put_into_one_plane(&mut self, polygons: &[u32]) -> Result<(), Error> {
         let Some(triangle) = self.far_apart(polygons) else { return Ok(()) };
         if self.planes.is_empty() {

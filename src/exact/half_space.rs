@@ -2,9 +2,9 @@
 //! half-spaces.
 //!
 //! Normals are at most 2¹¹⁷ and offsets at most 2¹⁸⁰ (see `lattice`), so the value of a half-space at a
-//! lattice point takes 182 bits. A vertex is a combination of lattice points. Its weights have up to 320 bits
-//! if it is a vertex of the fragment (see `vertex`), and up to 364 bits if a half-space made it. With weights
-//! of 364 bits, the weighted sum of three such values takes 548 bits.
+//! lattice point takes 182 bits. A vertex is a combination of lattice points. The weights have up to 320 bits
+//! for a vertex of the fragment (see `vertex`), and up to 364 bits for a vertex that a half-space made. With
+//! weights of 364 bits, the weighted sum of three such values takes 548 bits.
 
 use std::cmp::Ordering;
 
@@ -89,7 +89,7 @@ pub(crate) fn meets(
 /// A part of a fragment: its vertices, each with the number of the line to the next vertex.
 type Part = SmallVec<[(Weights<6>, usize); 8]>;
 
-/// The part of an outline that is in front of a line or on it; it may be only a point or an edge.
+/// The part of an outline that is in front of a line or on it; this part may be only a point or an edge.
 fn clip(
     outline: Part,
     sides: &[Ordering],

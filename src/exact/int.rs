@@ -94,7 +94,7 @@ impl<const N: usize> Int<N> {
         Int(limbs)
     }
 
-    /// The value of an `f64`, rounded towards zero; it must be finite and fit.
+    /// The value of an `f64`, rounded towards zero; the value must be finite and fit.
     pub(crate) fn from_f64(value: f64) -> Self {
         let bits = value.abs().to_bits();
         let exponent = (bits >> 52) as i32 - 1075;
@@ -107,7 +107,7 @@ impl<const N: usize> Int<N> {
         if value < 0.0 { -result } else { result }
     }
 
-    /// The nearest `f64`, ties to even; infinite beyond its range.
+    /// The nearest `f64`, ties to even; infinite beyond the range of `f64`.
     pub(crate) fn to_f64(self) -> f64 {
         let magnitude = self.magnitude();
         let Some(top) = magnitude.iter().rposition(|&limb| limb != 0) else {

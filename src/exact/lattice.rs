@@ -1,5 +1,5 @@
-//! The scene lattice: corners are rounded to it once, and every later step is exact. Points and half-spaces
-//! of queries are rounded more finely.
+//! The scene lattice: corners are rounded to the lattice once, and every later step is exact. Points and
+//! half-spaces of queries are rounded more finely.
 
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -15,7 +15,7 @@ pub const LIMIT: f64 = (1u64 << 51) as f64;
 pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger tolerances are reduced
-/// to it, so that corners moved onto a plane fit the integers of the exact predicates.
+/// to this length, so that corners moved onto a plane fit the integers of the exact predicates.
 pub(crate) const MAX_TOLERANCE: f64 = LIMIT / 128.0;
 /// More than the largest coordinate of any corner or vertex: the largest tolerance moves a corner by at most
 /// √3 of the tolerance, to 1.0136 times the limit.
@@ -23,9 +23,9 @@ pub(crate) const MAX_CORNER: f64 = 1.014 * LIMIT;
 
 /// A cubic grid over a scene, so fine that rounding moves no corner by more than 2⁻⁵² of the scene's extent.
 ///
-/// A lattice coordinate is an integer of magnitude at most 2⁵¹. It is exact as an `i64` and as an `f64`, and
-/// so is the difference of two coordinates. The grid's spacing is a power of two, so scenes in `f32`, on
-/// integers, or far from the origin are usually not moved at all.
+/// A lattice coordinate is an integer of magnitude at most 2⁵¹. Such an integer is exact as an `i64` and as
+/// an `f64`, and so is the difference of two such integers. The grid's spacing is a power of two, so scenes
+/// in `f32`, on integers, or far from the origin are usually not moved at all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lattice {
     /// Lattice coordinate = world coordinate · steps − origin.
@@ -104,8 +104,8 @@ impl Lattice {
         }))
     }
 
-    /// The world coordinates of a box in lattice units, rounded outwards: all its points are inside, also
-    /// after rounding by [`to_world`](Self::to_world).
+    /// The world coordinates of a box in lattice units, rounded outwards: all points of the box are inside,
+    /// also after rounding by [`to_world`](Self::to_world).
     pub(crate) fn enclose(&self, low: [f64; 3], high: [f64; 3]) -> [DVec3; 2] {
         let bound = |lattice: [f64; 3], outwards: fn(f64) -> f64, sign: f64| {
             DVec3::from_array(std::array::from_fn(|axis| {
@@ -149,7 +149,8 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// an instruction for it.
 #[inline]
 pub(super) fn nearest(value: f64) -> f64 {
-    /// Every `f64` of at least this is an integer, and up to twice this they are 1 apart.
+    /// Every `f64` of at least this is an integer; from this number up to twice this number, neighbours are 1
+    /// apart.
     const WHOLE: f64 = (1u64 << 52) as f64;
     let shift = if value.abs() < WHOLE { WHOLE.copysign(value) } else { 0.0 };
     value + shift - shift
@@ -177,7 +178,8 @@ pub(crate) fn scaled(mut value: f64, mut exponent: i32) -> f64 {
     value
 }
 
-/// A power of two that may be beyond the range of `f64`, as two factors inside it, and their inverses.
+/// A power of two that may be beyond the range of `f64`, as two factors inside that range, and the inverses
+/// of the factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PowerOfTwo {
     factors: [f64; 2],
@@ -250,7 +252,7 @@ impl Lattice {
         (exponent_of(largest) < FINE_BITS).then_some(largest)
     }
 
-    /// The exponent of the number of steps in a unit of length: two to this power.
+    /// The exponent e such that a unit of length has 2ᵉ steps.
     pub(crate) fn exponent(&self) -> i32 {
         self.steps.factors.map(exponent_of).iter().sum()
     }
@@ -283,8 +285,8 @@ pub(crate) struct HalfSpaceNumbers {
 const NORMAL_BITS: i32 = 116;
 /// Offsets beyond two to this power are clamped to it: normal·p is below 2¹⁷¹ at all points of a scene.
 const FAR_BITS: u32 = 180;
-/// Offsets beyond this are clamped before the lattice's origin is subtracted. They would stay beyond the
-/// clamp: the origin is below 2¹¹⁰, so its part is below 2²³⁰.
+/// Offsets beyond this are clamped before the lattice's origin is subtracted. Such offsets would stay beyond
+/// the clamp: the origin is below 2¹¹⁰, so the subtracted number is below 2²³⁰.
 const BEYOND: f64 = (1u128 << 120) as f64 * (1u128 << 120) as f64;
 
 impl Lattice {

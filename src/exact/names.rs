@@ -9,7 +9,7 @@ const FACE: u32 = 1;
 const AXIS: u32 = 2;
 const BEHIND: u32 = 1 << 31;
 
-/// Labels can name this many faces, and this many corners of all faces together.
+/// The number of faces, and of corners of all faces together, that labels can name.
 pub(crate) const MAX_NAMES: usize = 1 << TAG_SHIFT;
 
 /// A partition plane, defined by input geometry alone.
@@ -85,7 +85,7 @@ impl EdgeLine {
         if self.0 >> TAG_SHIFT == EDGE { None } else { Some(PlaneId(self.0 & !BEHIND)) }
     }
 
-    /// Returns whether the piece lies behind the plane that cut it here.
+    /// Returns whether the piece lies behind the plane that cut it along this line.
     #[inline]
     pub const fn is_behind(self) -> bool {
         self.0 & BEHIND != 0
@@ -104,7 +104,7 @@ impl fmt::Debug for EdgeLine {
 
 /// A vertex of a piece of a face: the intersection of two lines of that face.
 ///
-/// Its definition uses only input points, so it is as exact after a thousand cuts as after one.
+/// The definition uses only input points, so a vertex is as exact after a thousand cuts as after one cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VertexId {
     a: EdgeLine,
@@ -138,7 +138,8 @@ impl VertexId {
         if line.0 <= cut.0 { Self { a: line, b: cut } } else { Self { a: cut, b: line } }
     }
 
-    /// Returns whether a plane is one of the planes that define the vertex; if so, the vertex lies on it.
+    /// Returns whether a plane is one of the planes that define the vertex; if so, the vertex lies on that
+    /// plane.
     #[inline]
     pub fn is_on(self, plane: PlaneId) -> bool {
         self.a.as_cut() == Some(plane) || self.b.as_cut() == Some(plane)

@@ -1,4 +1,4 @@
-//! Planes of faces, in integers and rounded; moving corners onto them.
+//! Planes of faces, in integers and rounded; moving corners onto planes.
 
 use std::cmp::Ordering;
 
@@ -32,7 +32,8 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The plane through three lattice points; its front is the side from which they are counter-clockwise.
+    /// The plane through three lattice points; its front is the side from which the points are
+    /// counter-clockwise.
     pub(crate) fn through([p, q, r]: [[f64; 3]; 3]) -> Self {
         Self { normal: cross(p, q, r), point: p.map(|c| c as i64) }
     }
@@ -100,8 +101,8 @@ impl Plane {
     #[cfg(feature = "save")]
     #[inline]
     pub(crate) fn is_within(&self, most: u128, rounded: &[f64; 3], x: &[f64; 3]) -> bool {
-        // The products are below 2¹⁵⁸, and the sum of their rounding errors below 2¹¹⁰. So this decides the
-        // cases that do not fit 128 bits.
+        // The products are below 2¹⁵⁸, and the sum of their rounding errors below 2¹¹⁰. So the rounded value
+        // decides the cases that do not fit 128 bits.
         let terms = rounded.iter().zip(x).zip(self.point);
         let off: f64 = terms.map(|((n, x), through)| n * (x - through as f64)).sum();
         off.abs() < (1u128 << 120) as f64 && self.last_bits_at(x).unsigned_abs() <= most
@@ -134,8 +135,8 @@ pub(crate) fn dot(vector: [i128; 3], direction: [i64; 3]) -> Int<3> {
     ])
 }
 
-/// Converts a number below 2¹²⁶ to `f64`, rounded at most twice. It is converted in two parts, because a
-/// conversion of 128 bits calls a function. The parts have the same sign, so nothing cancels.
+/// Converts a number below 2¹²⁶ to `f64`, rounded at most twice. The number is converted in two parts,
+/// because a conversion of 128 bits calls a function. The parts have the same sign, so nothing cancels.
 #[inline]
 pub(super) fn rounded(number: i128) -> f64 {
     let size = number.unsigned_abs();
@@ -159,10 +160,10 @@ const CANCELLED: f64 = (1u64 << 18) as f64;
 /// The vector product (q − p) × (r − p) of three lattice points, in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RoundedNormal {
-    /// Each component is off by at most 2⁻⁵² of its share of `size`: its two products and their
-    /// difference are rounded.
+    /// A component is the difference of two products. The component is off by at most 2⁻⁵² of the sum of the
+    /// products' magnitudes, because the products and the difference are rounded.
     pub(crate) normal: [f64; 3],
-    /// The sum, over the three components, of the magnitudes of both products.
+    /// The sum, over the three components, of the magnitudes of the component's two products.
     pub(crate) size: f64,
 }
 
@@ -244,8 +245,8 @@ fn step(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     [to[0] - from[0], to[1] - from[1]]
 }
 
-/// Whether four corners certainly turn the same way. Then they wind once: each turn is less than half a
-/// turn, and all four together are a whole number of turns.
+/// Whether four corners certainly turn the same way. Then the corners wind once: each turn is less than half
+/// a turn, and all four together are a whole number of turns.
 #[inline]
 pub(crate) fn turns_one_way(points: [[f64; 2]; 4]) -> bool {
     let steps: [_; 4] = std::array::from_fn(|k| step(points[k], points[(k + 1) % 4]));
@@ -349,7 +350,8 @@ impl Flattener {
             return Off { distance: 0.0, steps: 0.0 };
         }
         // The plane is value / slope steps away. Value, slope and quotient are rounded here, but within the
-        // largest tolerance the quotient is below 2⁴⁵, so the nearest integer is this or the next.
+        // largest tolerance the quotient is below 2⁴⁵, so the nearest integer is the rounded quotient or the
+        // next integer.
         let mut steps = nearest(value / normal[*axis]);
         // Less than the slope, so no more bits are needed.
         let rest = last_bits.wrapping_sub(slope.wrapping_mul(i128::from(steps as i64)));

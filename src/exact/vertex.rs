@@ -1,4 +1,4 @@
-//! Vertices of pieces: their sides of planes, decided in integers, and their rounded positions.
+//! Vertices of pieces: the sides of planes on which vertices lie, decided in integers, and rounded positions.
 //!
 //! Lattice coordinates are below 2⁵¹ in magnitude, so the components of a face's normal are below 2¹⁰⁵. The
 //! value of the face's plane at a lattice point is a determinant of differences, below 2¹⁵⁹ (160 bits with
@@ -10,10 +10,10 @@
 //! | edge `ab` cut by h | a, b | −h(b), h(a): 160 bits | h(a)·g(b) − h(b)·g(a): 320 bits |
 //! | h₁ and h₂ in the face's plane | its reference triangle | h₁ × h₂ over A, B, C: 320 bits | 482 bits |
 //!
-//! A corner that only the tolerance puts on its face's plane is defined to lie on it, along the axis `e` in
-//! which the plane is least steep. Its edges then lie in the planes through their two lattice points and
-//! along `e`; such a plane replaces h in the table. The corner's own weights over A, B, C are the areas of
-//! triangles seen along `e`.
+//! A corner that only the tolerance puts on its face's plane is defined to lie on that plane, moved along the
+//! axis `e` in which the plane is least steep. Its edges then lie in the planes through their two lattice
+//! points and along `e`; such a plane replaces h in the table. The corner's own weights over A, B, C are the
+//! areas of triangles seen along `e`.
 
 use std::cmp::Ordering;
 
@@ -265,9 +265,9 @@ impl Faces {
 /// An edge of a face.
 #[derive(Clone, Copy, Debug)]
 struct ExactEdge {
-    /// The lattice points of its two corners.
+    /// The lattice points of the edge's two corners.
     ends: [[f64; 3]; 2],
-    /// The move of the edge's ends onto the face's plane; `None` if both are on it.
+    /// The move of the edge's ends onto the face's plane; `None` if both ends are on the plane.
     moved: Option<Moved>,
 }
 
@@ -282,7 +282,7 @@ struct Moved {
 }
 
 impl Faces {
-    /// The edge of a face that begins at its corner `k`.
+    /// The edge of a face that begins at the face's corner `k`.
     #[inline]
     fn edge(&self, face: u32, k: u32) -> ExactEdge {
         let corners = self.corners(face);
@@ -297,14 +297,14 @@ impl Faces {
             let off = |i: usize| if is_on[i] { 0 } else { own.last_bits_at(&ends[i]) };
             let (offs, slope) = ([off(0), off(1)], own.normal()[axis]);
             // An edge between two corners that are not moved must be treated as an edge, not as a cut by an
-            // upright plane. The neighbour across it may have moved no corner, and both faces must compute
-            // the same bits.
+            // upright plane. The neighbour across the edge may have moved no corner, and both faces must
+            // compute the same bits.
             (offs != [0; 2]).then_some(Moved { axis, offs, slope })
         });
         ExactEdge { ends, moved }
     }
 
-    /// The axis along which a corner is moved onto its face's plane, if it is off the plane.
+    /// The axis along which a corner is moved onto its face's plane, if the corner is off the plane.
     fn axis_of_move(&self, face: u32, k: u32) -> Option<usize> {
         let axis = self.moved_axis(face).filter(|_| !self.is_on_triangle(face, k))?;
         let own = Plane::through(self.triangle(face));
@@ -312,7 +312,7 @@ impl Faces {
     }
 
     /// Whether corner `k` is one of the three corners that define its face's plane. Other corners are within
-    /// half a step of the plane along the axis, so the plane's value at them fits 128 bits.
+    /// half a step of the plane along the axis, so the plane's value at those corners fits 128 bits.
     fn is_on_triangle(&self, face: u32, k: u32) -> bool {
         let first = self.faces[face as usize].start;
         self.reference_triangle(face).contains(&(first + k))
@@ -333,19 +333,19 @@ const UNIT: f64 = (1u64 << HALF) as f64;
 /// The sum of the weights must be 2⁷⁰ times the error of a weight. Too small: positions are off by more. Too
 /// large: more positions are computed in full.
 const MARGIN: u32 = 70;
-/// The margin for vertices on edges. Their two weights do not cancel, so 62 bits of each are enough. A margin
-/// above 62 would never be reached with these bits.
+/// The margin for vertices on edges. The two weights of such a vertex do not cancel, so 62 bits of each
+/// weight are enough. A margin above 62 would never be reached with these bits.
 const EDGE_MARGIN: u32 = 60;
 /// The largest error of a position from truncation, in lattice units: on an edge as long as the lattice is
-/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices it is less: 6 · 2⁻⁷⁰ of the lattice's
-/// size, because three weights are in the numerator and three in the denominator.)
+/// wide, 2 · 2⁻⁶⁰ of twice the lattice's size. (For other vertices the error is less: 6 · 2⁻⁷⁰ of the
+/// lattice's size, because three weights are in the numerator and three in the denominator.)
 pub(crate) const OFF: f64 = 4.0 * LIMIT / (1u64 << EDGE_MARGIN) as f64;
 
 impl Faces {
     /// The rounded position of a vertex in lattice units. Each coordinate is off by at most three of its own
-    /// roundings plus [`OFF`]. It is exact along an axis if a plane perpendicular to that axis defines the
-    /// vertex. All pieces, of any face, that define the vertex by the same points and planes compute the same
-    /// bits, also if their faces have opposite orientations.
+    /// roundings plus [`OFF`]. The position is exact along an axis if a plane perpendicular to that axis
+    /// defines the vertex. All pieces, of any face, that define the vertex by the same points and planes
+    /// compute the same bits, also if their faces have opposite orientations.
     pub(crate) fn position(&self, face: u32, vertex: VertexId) -> [f64; 3] {
         let (leading, planes) = match vertex.kind() {
             VertexKind::Corner(k) => return self.corners(face)[k as usize],

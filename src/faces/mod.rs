@@ -1,5 +1,5 @@
-//! Preparation: turns input polygons into convex planar faces on the lattice. It reads the polygons,
-//! chooses the lattice and the tolerance, and makes the faces.
+//! Preparation: reads the input polygons, chooses the lattice and the tolerance, and makes convex planar
+//! faces on the lattice.
 
 mod polygon;
 mod tolerance;
@@ -39,29 +39,29 @@ pub struct Preparation {
     /// The number of input polygons.
     pub polygons: usize,
     /// The number of polygons without area, which become no face: polygons with fewer than three different
-    /// corners, or with collinear corners. This is decided exactly, after the corners are rounded to the
-    /// lattice. Corners that are collinear as decimal numbers may not be collinear as `f64`. In the tree of a
-    /// cell, polygons outside the cell count too.
+    /// corners, or with collinear corners. The count is exact for the corners rounded to the lattice. Corners
+    /// that are collinear as decimal numbers may not be collinear as `f64`. In the tree of a cell, polygons
+    /// outside the cell count too.
     pub dropped: usize,
     /// The number of polygons that were not convex, or not planar within the tolerance, and became triangles.
     pub triangulated: usize,
     /// The number of triangulated polygons that cross themselves, or whose winding number is not the same
-    /// everywhere inside. This is decided exactly, in a projection along the main axis of the polygon's
-    /// vector area. If the polygon's edges meet only at corners, the triangles cover every point with a
-    /// nonzero winding number. Otherwise each pair of crossing edges is first replaced by two edges between
-    /// the same four ends, which do not cross. Of the two possible replacements, the replacement that changes
-    /// less area is used. Then the triangles cover the inside by the even-odd rule. If the replacements take
-    /// too long, or leave nothing, the triangles fan out from the first corner.
+    /// everywhere inside. The count is exact, in a projection along the main axis of the polygon's vector
+    /// area. If the polygon's edges meet only at corners, the triangles cover every point with a nonzero
+    /// winding number. Otherwise each pair of crossing edges is first replaced by two edges that do not
+    /// cross, between the same four ends. Of the two possible replacements, the replacement that changes less
+    /// area is used. Then the triangles cover the inside by the even-odd rule. If the replacements take too
+    /// long, or leave nothing, the triangles fan out from the first corner.
     pub crossing: usize,
     /// The number of polygons with a corner off the plane of the other corners, but within the tolerance.
     /// These polygons stay whole, and their corners count as on the plane.
     pub flattened: usize,
     /// The largest distance of a flattened polygon's corner from the plane of the other corners, a length.
     pub flattened_by: f64,
-    /// The number of triangulated polygons that are probably planar, but bent by rounding. They are convex. A
-    /// corner is off the plane of the other corners by more than the tolerance, but by no more than a limit.
-    /// The limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's own
-    /// [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
+    /// The number of triangulated polygons that are probably planar, but bent by rounding. Such polygons are
+    /// convex. A corner is off the plane of the other corners by more than the tolerance, but by no more than
+    /// a limit. The limit is the larger of 10⁻⁵ of the grid's width (one to two extents) and the polygon's
+    /// own [`precision`](crate::Polygon::precision), and at most 1/256 of the width. With a tolerance of
     /// `bent_by` these polygons would stay whole.
     pub bent: usize,
     /// The largest distance of a bent polygon's corner from the plane of the other corners, a length.
@@ -117,7 +117,7 @@ impl Faces {
     }
 }
 
-/// Prepares polygons, and keeps its lists for reuse.
+/// Prepares polygons, in reused lists.
 #[derive(Debug, Default)]
 pub(crate) struct Preparer {
     input: InputPolygons,
@@ -211,9 +211,9 @@ impl Preparer {
         Ok(())
     }
 
-    /// Appends the faces of more polygons to a finished scene, on its lattice and with its tolerance. More
-    /// polygons than `limit` are an error. The polygons are numbered from `first` on. After an error, some of
-    /// their faces may have been appended.
+    /// Appends the faces of more polygons to a finished scene, on the scene's lattice and with the scene's
+    /// tolerance. More polygons than `limit` are an error. The polygons are numbered from `first` on. After
+    /// an error, some of the new faces may have been appended.
     pub(crate) fn append<P: Polygon>(
         &mut self,
         faces: &mut Faces,
@@ -294,8 +294,8 @@ impl Preparer {
     }
 }
 
-/// The corner after a segment's end, and the corner before its start. In a closed line, these may lie beyond
-/// the corner where the line closes.
+/// The corner after a segment's end, and the corner before its start. In a closed line, these two corners may
+/// lie beyond the corner where the line closes.
 fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
     let segments = corners.len() - 1;
     let is_closed = corners[0].0 == corners[segments].0;
@@ -312,7 +312,7 @@ fn neighbours(corners: &[Corner], segment: usize) -> [Option<[f64; 3]>; 2] {
 
 /// A lattice point that is not collinear with two others.
 ///
-/// A neighbour is used if it is such a point: then all segments of a planar polyline have the polyline's
+/// A neighbour that is not collinear is preferred: then all segments of a planar polyline have the polyline's
 /// plane, and no segment cuts another.
 fn third_corner([p, q]: [[f64; 3]; 2], neighbours: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     // Without a neighbour, the plane is vertical. Vertical planes cut each other like lines in the plane,
@@ -336,8 +336,8 @@ const TRUSTED: usize = 1 << 16;
 /// hints are errors more often. Too large: an endless iterator is noticed later.
 const DOUBTED: usize = 1 << 20;
 
-/// A polygon is read in one step if its size hint promises at most this many corners. Too large: memory is
-/// reserved because of a wrong hint.
+/// A polygon is read in one step if the polygon's size hint promises at most this many corners. Too large:
+/// memory is reserved because of a wrong hint.
 const READ_AT_ONCE: usize = 64;
 
 /// All corners, and the end of each polygon's corners.
@@ -372,7 +372,7 @@ impl InputPolygons {
         self.precisions[polygon]
     }
 
-    /// The bounding box of the polygons and, if given, of `room`. Without corners and `room`, it is the
+    /// The bounding box of the polygons and, if given, of `room`. Without corners and `room`, the box is the
     /// origin.
     fn bounds(&self, room: Option<[DVec3; 2]>) -> [DVec3; 2] {
         let first = self.points.first().copied().or(room.map(|[corner, _]| corner));

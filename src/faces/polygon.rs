@@ -26,7 +26,7 @@ pub(super) struct FaceBuilder<'a> {
     pub(super) corners: &'a mut Corners,
     pub(super) params: &'a SnapParams,
     pub(super) watch: &'a Watch<'a>,
-    /// The report; its lengths are in lattice units.
+    /// The report, with lengths in lattice units.
     pub(super) report: Preparation,
 }
 
@@ -104,7 +104,8 @@ impl FaceBuilder<'_> {
         Ok(())
     }
 
-    /// Reports a polygon that became one face. Its corners are off its plane by at most `off`.
+    /// Reports a polygon that became one face. The polygon's corners are off the face's plane by at most
+    /// `off`.
     fn report_flat(&mut self, off: f64) {
         self.report.flattened += usize::from(off > 0.0);
         self.report.flattened_by = self.report.flattened_by.max(off);
@@ -160,7 +161,7 @@ impl FaceBuilder<'_> {
         Ok(found.crosses_itself)
     }
 
-    /// Adds a face made of some of the polygon's kept corners, in order around it.
+    /// Adds a face made of some of the polygon's kept corners, in the polygon's order.
     fn push(
         &mut self,
         polygon: usize,
@@ -176,8 +177,8 @@ impl FaceBuilder<'_> {
         Ok(())
     }
 
-    /// Numbers the corners of the last face, unless they are the polygon's first corners in order and all
-    /// edges of the face are edges of the polygon.
+    /// Numbers the corners of the last face, unless these corners are the polygon's first corners in order
+    /// and all edges of the face are edges of the polygon.
     fn number_last(&mut self, kept: impl Iterator<Item = usize> + Clone) -> Result<(), Error> {
         let number = |(from, to): (usize, usize)| {
             self.corners.kept[from].1 | if self.corners.is_outline(from, to) { 0 } else { INNER }
@@ -197,8 +198,8 @@ impl FaceBuilder<'_> {
 /// A corner on the lattice, and its number.
 pub(super) type Corner = ([f64; 3], u32);
 
-/// Replaces `kept` by the corners of an outline or a polyline. Of equal consecutive corners only the last
-/// is kept: its edge leads to the next corner.
+/// Replaces `kept` by the corners of an outline or a polyline. Of equal consecutive corners only the last is
+/// kept, because the edge of the last leads to the next corner.
 pub(super) fn keep_distinct(points: &[DVec3], lattice: &Lattice, kept: &mut Vec<Corner>) {
     kept.clear();
     for (number, &point) in (0..).zip(points) {
@@ -263,7 +264,7 @@ impl Corners {
         for k in (0..2 * n).rev() {
             let [a, b, c] = [k, k + 1, k + 2].map(|k| self.kept[k % n].0);
             let is_straight = cross(a, b, c) == [0; 3];
-            // This ends, because a polygon with area has corners that are not collinear.
+            // The loop ends, because a polygon with area has corners that are not collinear.
             self.runs[k % n] = if is_straight { self.runs[(k + 1) % n] + 1 } else { 1 };
         }
     }

@@ -20,14 +20,15 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// small: polygons bent by coarse rounding are triangulated.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
-/// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on it.
+/// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on that
+/// plane.
 ///
 /// With 0, only exactly coplanar polygons count as coplanar. A negative tolerance or NaN is an error. A
 /// tolerance that is too large, infinity included, is reduced to a fixed share of the extent between 1/256
 /// and 1/128. [`BspTree`](crate::BspTree#which-tolerance) helps to choose a tolerance.
 ///
-/// The extent is the longest side of the bounding box of all corners. One stray vertex makes it larger; if
-/// that can happen, set a length.
+/// The extent is the longest side of the bounding box of all corners. One stray vertex makes the extent
+/// larger. If stray vertices can occur, set a length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Tolerance {
@@ -41,10 +42,10 @@ pub enum Tolerance {
     /// | a scene read from an OBJ file | four units in the last decimal that its coordinates need (trailing zeros do not count), at most 10⁻⁵ of the extent, wherever the scene lies |
     ///
     /// Far from the origin, `f32` and `f64` have coarser steps. There the default is four steps of the
-    /// largest coordinate, however large a share of the extent this is. For `f64`, this is more than 10⁻⁹ of
-    /// the extent if the scene is more than a million extents away from the origin. For example, it is 9·10⁻⁷
-    /// for a cube of side 1 at 10⁹. (Files are treated as `f32` if nearly all their numbers are `f32`,
-    /// written with more digits than an `f32` has.)
+    /// largest coordinate, however large a share of the extent that length is. For `f64`, the default exceeds
+    /// 10⁻⁹ of the extent if the scene is more than a million extents away from the origin. For example, the
+    /// default is 9·10⁻⁷ for a cube of side 1 at 10⁹. (Files are treated as `f32` if nearly all their numbers
+    /// are `f32`, written with more digits than an `f32` has.)
     #[default]
     Default,
     /// A length, in the polygons' unit.
@@ -98,8 +99,8 @@ pub(super) struct SnapParams {
     pub(super) lattice: Lattice,
     /// The tolerance, in lattice units.
     pub(super) tolerance: f64,
-    /// A convex polygon becomes one face if no corner is further than this from the plane of the other
-    /// corners, in lattice units.
+    /// A convex polygon becomes one face if no corner is further than this length, in lattice units, from the
+    /// plane of the other corners.
     pub(super) bend: f64,
 }
 
@@ -134,8 +135,8 @@ impl SnapParams {
     }
 
     /// Whether rounding can be the reason that a corner is off the plane of the other corners, by `off`
-    /// lattice units. The result depends on neither the other polygons nor the extent, so it is the same in
-    /// every part of a scene.
+    /// lattice units. The result depends on neither the other polygons nor the extent, so the result is the
+    /// same in every part of a scene.
     pub(super) fn may_be_rounding(&self, off: f64, precision: f64) -> bool {
         let coarse = self.lattice.length_to_lattice(precision).min(MAX_TOLERANCE);
         off > 0.0 && off <= coarse.max(LARGEST_ROUNDING * 2.0 * LATTICE_LIMIT)

@@ -1,5 +1,5 @@
-//! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search
-//! trees used for associative searching", 1975), along the axis of their largest extent.
+//! Chooses the planes between cells: medians of samples (J. L. Bentley, "Multidimensional binary search trees
+//! used for associative searching", 1975), along the axis of the samples' largest extent.
 
 use super::{CellRange, Extent, Partition, SplitPlane};
 use crate::Error;
@@ -91,8 +91,8 @@ fn split_plane(samples: &mut [[f64; 3]], room: &CellBox, count: usize) -> SplitP
     let place = (samples.len() as u128 * (count / 2) as u128 / count as u128) as usize;
     let by_axis = |a: &[f64; 3], b: &[f64; 3]| a[axis].total_cmp(&b[axis]);
     let at = samples.select_nth_unstable_by(place, by_axis).1[axis];
-    // If many samples are at the lower end, that plane would have nothing behind it: use the next larger
-    // coordinate.
+    // If many samples are at the lower end, a plane at `at` would have no sample behind it: use the next
+    // larger coordinate.
     let next = || {
         let above = samples.iter().map(|sample| sample[axis]).filter(|&c| c > least);
         above.fold(f64::INFINITY, f64::min)

@@ -16,9 +16,9 @@ use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
 ///
-/// Use it for scenes too large for one tree, or for one machine. Each cell has a separate tree of the
-/// polygons' parts in the cell. The tree can be built anywhere and at any time. Concatenate the orders of the
-/// trees in the [order](Self::back_to_front) of the cells for a viewpoint: the result is an order of the
+/// Use a partition for scenes too large for one tree, or for one machine. Each cell has a separate tree of
+/// the polygons' parts in the cell. The tree can be built anywhere and at any time. Concatenate the orders of
+/// the trees in the [order](Self::back_to_front) of the cells for a viewpoint: the result is an order of the
 /// whole scene, as exact as the order of one tree.
 ///
 /// ```
@@ -56,34 +56,35 @@ use crate::viewpoint::Viewpoint;
 /// # Cells
 ///
 /// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of a
-/// plane have bit for bit the same vertices on it. Two faces on one side that share an edge also have the
-/// same vertices on the plane, if both faces are cut and the tolerance moved no corner of either face. (As in
-/// one tree, further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a plane
-/// between two cells, or within the tolerance of that plane, belong to the cell on the side of larger
+/// plane have bit for bit the same vertices on the plane. Two faces on one side that share an edge also have
+/// the same vertices on the plane, if both faces are cut and the tolerance moved no corner of either face.
+/// (As in one tree, further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a
+/// plane between two cells, or within the tolerance of that plane, belong to the cell on the side of larger
 /// coordinates.
 ///
-/// All cells have the same grid and tolerance, so they prepare a polygon in the same way: a polygon that is
-/// triangulated or flattened in one cell is triangulated or flattened in all cells.
+/// All cells have the same grid and tolerance, so a polygon is prepared in the same way for each cell: a
+/// polygon that is triangulated or flattened in one cell is triangulated or flattened in all cells.
 ///
 /// # Tolerance
 ///
 /// All cells have one tolerance, a length: the tolerance of the [options](crate::BuildOptions::partition)
 /// with which the partition was made. By default it depends on the extent and the precision of all polygons,
-/// as in one tree of the scene. The options with which a cell is built do not affect it. Across the planes
-/// between cells, orders are right up to the tolerance, as across the planes of a tree. Polygons that are
-/// closer to one another than the tolerance, and not coplanar, may be exchanged, as in another tree of the
-/// scene.
+/// as in one tree of the scene. The options with which a cell is built do not affect this tolerance. Across
+/// the planes between cells, orders are right up to the tolerance, as across the planes of a tree. Polygons
+/// that are closer to one another than the tolerance, and not coplanar, may be exchanged, as in another tree
+/// of the scene.
 ///
 /// # Trees of cells
 ///
 /// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// It cannot be used where whole polygons are needed. A `drawing` of it is an error. The depth buffer of
-/// `raster`, and so `verify`, cannot be used either. Its [`dropped`](crate::BspTree::dropped) polygons
-/// include polygons outside the cell. The other counts of its [preparation](crate::BspTree::preparation)
-/// include all polygons passed to it; [`preparation`](Self::preparation) counts each polygon once for all
-/// cells. [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
+/// Such a tree cannot be used where whole polygons are needed. A `drawing` of the tree is an error. The depth
+/// buffer of `raster`, and so `verify`, cannot be used either. The tree's
+/// [`dropped`](crate::BspTree::dropped) polygons include polygons outside the cell. The other counts of the
+/// tree's [preparation](crate::BspTree::preparation) include all polygons passed to the build;
+/// [`preparation`](Self::preparation) counts each polygon once for all cells.
+/// [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
 /// [`Overlay`](crate::overlay::Overlay) of such a tree does not cut polygons to the cell. A polygon that you
-/// add to the overlays of several cells is in each of them.
+/// add to the overlays of several cells is in each of these overlays.
 ///
 /// With the feature `save`, `Partition::write` and `Partition::read` store a partition, for instance to
 /// send it to other machines.
@@ -178,7 +179,7 @@ impl Partition {
     }
 
     /// Returns the numbers of all cells, furthest first: no cell hides a later cell. O(cells). An eye on a
-    /// plane between two cells counts as on either side of it, as in a tree.
+    /// plane between two cells counts as on either side of that plane, as in a tree.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let eye = Eye::new(viewpoint, &self.lattice);
         let mut order = Vec::with_capacity(self.cells());
@@ -206,12 +207,12 @@ impl Partition {
     }
 
     /// Replaces `cells` by the cells that a polygon may reach, in ascending order.
-    /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach its cell.
+    /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach the cell to build.
     ///
     /// The test is conservative: a cell is listed if its box meets both the polygon's box, widened by the
     /// tolerance, and a thin layer around the polygon. So a few listed cells may contain no part of the
     /// polygon, which does no harm. A polygon with a corner that is NaN or beyond the partition's grid
-    /// reaches all cells, and building any of them returns an error.
+    /// reaches all cells, and building any of these cells returns an error.
     ///
     /// O(corners + cells reached · log cells).
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
@@ -261,7 +262,7 @@ impl Partition {
     }
 }
 
-/// The bounding box of a scene and its precision: the data that must be the same for all builders of cells.
+/// The bounding box and the precision of a scene: the data that must be the same for all builders of cells.
 ///
 /// Each builder may compute the extent of its own polygons; [`merge`](Self::merge) combines the results, in
 /// any order.
@@ -319,18 +320,18 @@ impl Extent {
     }
 }
 
-/// The distance by which a polygon may reach beyond its corners, in tolerances and in steps of the lattice.
-/// Moving a corner onto its plane moves it by √3 tolerances and half a step; a cell's plane adds one
-/// tolerance: together 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells
-/// receive polygons that do not reach them.
+/// The distance by which a polygon may reach beyond its corners, in tolerances and in steps of the lattice. A
+/// corner is moved onto its face's plane by √3 tolerances and half a step; a cell's plane adds one tolerance:
+/// together 2.74 tolerances and half a step. Too small: cells miss polygons. Too large: cells receive
+/// polygons that do not reach them.
 const MARGIN: [f64; 2] = [3.0, 2.0];
 /// A bound on the rounding error of a corner's distance from a plane, as a share of the lengths in its
 /// computation. The rounding of the normal itself does not matter, because the layer is right for any normal.
 /// Let u = 2⁻⁵³: arms of corners are exact, so a scalar product with an arm is off by 3u, for the product and
-/// the sums. An end of a box is off by u, its difference from a corner by u, its middle and its half by u
-/// more, and their products by 3u each. Together with the sums and differences in `meets`, and the slack
-/// itself, the error is less than 20u. Too small: cells miss polygons. Too large: cells receive polygons that
-/// do not reach them.
+/// the sums. An end of a box is off by u, and the difference of an end and a corner by u. The box's middle
+/// and half size are off by u more, and the products of each of these two by 3u. Together with the sums and
+/// differences in `meets`, and the slack itself, the error is less than 20u. Too small: cells miss polygons.
+/// Too large: cells receive polygons that do not reach them.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.

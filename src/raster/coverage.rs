@@ -2,10 +2,11 @@
 //!
 //! A pixel is covered if its ray meets the piece: if the ray passes inside all lines that bound the piece. A
 //! ray that meets a line exactly is treated as moved by an infinitesimal step, the same for all lines (see
-//! [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So the pieces of a face tile it,
-//! and the faces of a closed surface tile its picture: each pixel is covered exactly once. The moved ray lies
-//! in no partition plane, not even in a plane that contains the eye, so the piece that is nearer at the pixel
-//! is also later in a back-to-front order. Faces seen exactly edge-on cover nothing.
+//! [`Seen::tie`]; Edelsbrunner & Mücke, "Simulation of simplicity", 1990). So each pixel of a face is in
+//! exactly one piece of the face. In the picture of a closed surface, no pixel is missed or covered twice
+//! along the edge between two adjacent faces. The moved ray lies in no partition plane, not even in a plane
+//! that contains the eye, so the piece that is nearer at the pixel is also later in a back-to-front order.
+//! Faces seen exactly edge-on cover nothing.
 //!
 //! The functions of lines are in homogeneous coordinates, so that nothing is clipped at the eye:
 //! Olano & Greer, "Triangle scan conversion using 2D homogeneous coordinates" (1997).
@@ -20,7 +21,8 @@ use super::rays::{Rays, Window};
 use crate::exact::{EdgeLine, Faces, PlaneId};
 
 /// In windows of at most this many columns every pixel is tested; in wider windows the lines first narrow
-/// each row. Too small: the narrowing takes longer than it saves. Too large: more pixels are tested.
+/// each row. Too small: the narrowing takes more time than the narrower windows save. Too large: more pixels
+/// are tested.
 const NARROW: u32 = 8;
 
 /// A piece of a face, for drawing.
@@ -41,12 +43,12 @@ pub enum Outline<'a> {
     Lines {
         /// The lines that bound the piece: edges of the face, and cuts.
         lines: &'a [EdgeLine],
-        /// The piece's vertices in lattice units, each coordinate off by at most 2. They only limit the
-        /// pixels to test.
+        /// The piece's vertices in lattice units, each coordinate off by at most 2. These positions only
+        /// limit the pixels to test.
         vertices: &'a [[f64; 3]],
     },
     /// The convex polygon of these vertices, in lattice units and in the face's orientation. The vertices are
-    /// rounded to the lattice. For algorithms that do not store the lines.
+    /// rounded to the lattice. This variant is for algorithms that do not store the lines.
     Vertices(&'a [[f64; 3]]),
 }
 
@@ -59,7 +61,7 @@ pub(super) struct Coverage<'a> {
 }
 
 impl<'a> Coverage<'a> {
-    /// A piece's coverage; `None` if it covers nothing.
+    /// A piece's coverage; `None` if the piece covers nothing.
     pub(super) fn new(
         rays: &'a Rays,
         faces: &'a Faces,
@@ -159,7 +161,8 @@ impl<'a> Coverage<'a> {
     }
 
     /// Two ranges of columns of a row: no pixel outside the first range is covered, and every pixel inside
-    /// the second range is covered. The second range lies inside the first, or is empty at its end.
+    /// the second range is covered. The second range lies inside the first range, or is empty and lies at the
+    /// end of the first range.
     fn narrow(&self, y: u32) -> (Range<u32>, Range<u32>) {
         let Range { start, end } = self.window.columns;
         let (mut outer, mut inner) =
@@ -204,8 +207,8 @@ impl<'a> Coverage<'a> {
 const LARGEST: f64 = (1u64 << 51) as f64;
 
 impl<'a> Seen<'a> {
-    /// A face as seen by the rays; `None` if the rays are parallel to its plane, or see its back and only
-    /// fronts are visible.
+    /// A face as seen by the rays; `None` if the rays are parallel to the face's plane, or if only fronts are
+    /// visible and the rays see the back.
     pub(super) fn new(rays: &'a Rays, faces: &'a Faces, face: u32) -> Option<Self> {
         let sheet = Sheet::new(rays, faces, PlaneId::face(face));
         let side =
@@ -218,7 +221,7 @@ impl<'a> Seen<'a> {
         Some(Self { rays, faces, face, sheet, positive })
     }
 
-    /// The edge of the face from its corner `k` to the next.
+    /// The edge of the face from the face's corner `k` to the next corner.
     fn edge_source(&self, k: usize) -> Source {
         let corners = self.faces.corners(self.face);
         let ends = [corners[k], corners[if k + 1 == corners.len() { 0 } else { k + 1 }]];

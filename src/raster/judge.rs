@@ -11,7 +11,7 @@ use super::rays::{Given, Rays};
 use crate::exact::{Faces, PlaneId};
 use crate::random::mix;
 
-/// The nearest face in each pixel, and its nearness.
+/// The nearest face in each pixel, and the nearness of that face.
 #[derive(Clone, Debug)]
 pub struct DepthImage {
     image: Image,
@@ -37,7 +37,7 @@ impl DepthImage {
     /// infinite in pixels without a face.
     ///
     /// Depth is measured along the direction in which the camera looks: from the eye, or, for parallel rays,
-    /// from the plane through the middle of the scene. For parallel rays it may be negative.
+    /// from the plane through the middle of the scene. For parallel rays, depths may be negative.
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         self.image.faces.iter().zip(&self.nearness).map(|(&face, &nearness)| {
             if face == NONE {
@@ -51,7 +51,7 @@ impl DepthImage {
     }
 }
 
-/// The nearness of a face, as a rounded linear function of the pixel, with a bound on its error.
+/// The nearness of a face, as a rounded linear function of the pixel, with a bound on the rounding error.
 #[derive(Clone, Copy)]
 struct Nearness {
     k: [f64; 3],
@@ -62,8 +62,8 @@ impl Nearness {
     fn new(seen: &Seen<'_>) -> Self {
         let sheet = &seen.sheet;
         let factor = if seen.rays.is_perspective() { -1.0 } else { 1.0 } / sheet.kappa;
-        // φ is off by 12 roundings of its size, κ by 8 of its size; the quotient and the evaluation add a
-        // few more. If κ is uncertain by a quarter, no bound is known.
+        // φ is off by 12 roundings of the size of φ, κ by 8 roundings of the size of κ. The quotient and the
+        // evaluation add a few roundings. If κ is uncertain by a quarter, no bound is known.
         let uncertainty = 9.0 * ROUNDING * sheet.kappa_size / sheet.kappa.abs();
         let error = if uncertainty < 0.25 {
             sheet.phi_size * factor.abs() * (20.0 * ROUNDING + 2.0 * uncertainty)
@@ -116,8 +116,7 @@ fn zbuffer_and(
             for x in columns {
                 let i = y as usize * width + x as usize;
                 let value = near.at(x, y);
-                // Rounded values decide if they differ by more than their errors; otherwise integers
-                // decide.
+                // Rounded values decide if their difference exceeds their errors; otherwise integers decide.
                 let doubt = errors[i] + near.error;
                 let wins = if image.faces[i] == NONE || value - nearness[i] > doubt {
                     true
@@ -137,7 +136,8 @@ fn zbuffer_and(
     DepthImage { image, nearness, unit: rays.depth_unit, perspective: rays.is_perspective() }
 }
 
-/// Whether a face hides another in a pixel: it is nearer, or at the same distance and of the later polygon.
+/// Whether a face hides another face in a pixel: the hiding face is nearer, or at the same distance and of
+/// the later polygon.
 ///
 /// Nearness is ∓φ/κ, so the sign of ∓(φ_a κ_b − φ_b κ_a), times the signs of both κ, decides which face is
 /// nearer.
@@ -293,8 +293,8 @@ pub(crate) fn compare_by(
     result
 }
 
-/// For each of two planes, its distance from the point where the ray of a pixel meets the other plane, in
-/// lattice units, rounded.
+/// For each of two planes, the plane's distance from the point where the ray of a pixel meets the other
+/// plane, in lattice units, rounded.
 fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
     let at = pair.at(pixel);
     let divisors = pair.divisors(rays, &at);
@@ -307,17 +307,17 @@ fn distances(rays: &Rays, pair: &PlanePair, pixel: Given) -> [f64; 2] {
 /// Whether the tolerance leaves the order of two faces open along the ray of a pixel, given the partition
 /// plane between their pieces. `pieces` are the nearer and the further face, each with the side of the plane
 /// to which its piece belongs (`Greater` is the front, `Equal` the plane itself). Two conditions must hold.
-/// First, the ray meets the nearer face within the tolerance of the plane, and it also meets the further
-/// face, or begins, within the tolerance of the plane. Second, one of the two pieces reaches across the plane
-/// where the ray meets the piece.
+/// First, the ray meets the nearer face within the tolerance of the plane; within the tolerance, too, the ray
+/// meets the further face or begins. Second, one of the two pieces reaches across the plane where the ray
+/// meets the piece.
 ///
 /// A tolerance can cause no other wrong pixels. Suppose that the eye is in front of the plane, and that a
 /// piece which the order puts behind hides a piece which it puts in front. Along the ray, the height above
-/// the plane is linear. It is positive at the eye, at most τ at the hiding piece, and at least −τ further
-/// away, at the hidden piece. If the height falls along the ray, both pieces are met within τ of the plane;
-/// if it rises, it is at most τ from the eye to the hiding piece. If neither piece reached across, the height
-/// would fall to 0 or less at the hiding piece, and not be below 0 further away. (Only along a ray in the
-/// plane can it be 0 at both pieces.)
+/// the plane is linear. This height is positive at the eye, at most τ at the hiding piece, and at least −τ
+/// further away, at the hidden piece. If the height falls along the ray, both pieces are met within τ of the
+/// plane; if the height rises, it is at most τ from the eye to the hiding piece. If neither piece reached
+/// across, the height would fall to 0 or less at the hiding piece, and not be below 0 further away. (Only
+/// along a ray in the plane can the height be 0 at both pieces.)
 pub(crate) fn is_open(
     rays: &Rays,
     faces: &Faces,

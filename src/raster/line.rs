@@ -37,7 +37,8 @@ pub(super) struct Boundary {
     pub(super) source: Source,
 }
 
-/// A face with the sign of its κ: positive if parallel rays come from behind it, or an eye is in front of it.
+/// A face with the sign of its κ: positive if parallel rays come from behind the face, or an eye is in front
+/// of the face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen<'a> {
     pub(super) rays: &'a Rays,
@@ -68,8 +69,8 @@ impl Seen<'_> {
     /// Whether the line's function, as in [`exact`](Self::exact), is negative inside.
     fn is_flipped(&self, source: Source) -> bool {
         match source {
-            // Seen from the front, counter-clockwise edges have the inside on their left: there the eye,
-            // the edge and the ray span a negative volume.
+            // Seen from the front, counter-clockwise edges have the inside on their left: for a ray on the
+            // left, the eye, the edge and the ray span a negative volume.
             Source::Edge(_) => self.positive == self.rays.is_perspective(),
             // The upright plane faces outwards if the face's normal has a positive component along the axis.
             Source::Upright(_, axis) => {
@@ -87,8 +88,8 @@ impl Seen<'_> {
         self.oriented(source, self.rays.pixel(x, y))
     }
 
-    /// The side of a line for a ray that meets it exactly. The ray is treated as moved slightly to the right,
-    /// and much less downwards, which matters only for a horizontal line.
+    /// The side of a line for a ray that meets the line exactly. The ray is treated as moved slightly to the
+    /// right, and much less downwards, which matters only for a horizontal line.
     pub(super) fn tie(&self, source: Source) -> Ordering {
         let right = self.oriented(source, Given::Step(self.rays.right));
         if right.is_ne() { right } else { self.oriented(source, Given::Step(self.rays.down)) }
@@ -113,8 +114,8 @@ impl Seen<'_> {
 /// The volume that a ray spans with the edge from `a` to `b`, as a rounded linear function of the pixel, and
 /// a bound on the error of its values. The volume is direction · ((a − eye) × (b − a)) for a perspective, and
 /// (point − a) · ((a − b) × direction) for parallel rays. Each component of the vector product is off by 4.4
-/// roundings of the sum of its two products. The other factor of the scalar product is off by 1 rounding. The
-/// scalar product adds 3 roundings, and the evaluation adds 4.
+/// roundings of the sum of the component's two products. The other factor of the scalar product is off by 1
+/// rounding. The scalar product adds 3 roundings, and the evaluation adds 4.
 pub(crate) fn edge(rays: &Rays, [a, b]: [[f64; 3]; 2]) -> ([f64; 3], f64) {
     let origin = rays.origin_from(a);
     let arm: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);

@@ -2,14 +2,15 @@
 //!
 //! A camera becomes [`Rays`]: one integer ray per pixel. Signs of integer polynomials decide whether a ray
 //! meets a piece of a face, and which of two faces it meets first. So a painter and a depth buffer that are
-//! both right make the *same* picture; if the pictures differ, one is wrong. This module judges orders, so it
-//! does not use how an order was computed.
+//! both right make the *same* picture; if the pictures differ, one of the two programs is wrong. This module
+//! judges orders, so it does not use how an order was computed.
 //!
-//! It shares no arithmetic with the builder. It computes planes from their defining corners in separate
-//! integers, so a mistake in the builder's arithmetic shows as wrong pixels and is not repeated here. It
-//! shares only the input: the faces' corners on the lattice; the corners that define a face's plane, and the
-//! axis along which the other corners are moved to it; the eye on the lattice; and the labels that name the
-//! lines of a piece. Tests of the preparation compare these with the given polygons.
+//! This module shares no arithmetic with the builder. Planes are computed from their defining corners in
+//! separate integers, so a mistake in the builder's arithmetic shows as wrong pixels and is not repeated
+//! here. The module and the builder share only the input: the faces' corners on the lattice; the corners that
+//! define a face's plane, and the axis along which the other corners are moved to that plane; the eye on the
+//! lattice; and the labels that name the lines of a piece. Tests of the preparation compare this input with
+//! the given polygons.
 
 mod coverage;
 mod exact;
@@ -32,8 +33,8 @@ pub(crate) use rays::RayOrigin;
 pub use rays::Rays;
 pub(crate) use rays::Window;
 
-/// For painters of other orders, which `crates/evidence` compares with the tree's order. They name faces on
-/// the lattice, which are no part of the public interface.
+/// For painters of other orders, which `crates/evidence` compares with the tree's order. These painters name
+/// faces on the lattice, which are not part of the public interface.
 #[doc(hidden)]
 pub use self::{
     coverage::{Outline, Piece},

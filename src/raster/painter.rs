@@ -10,7 +10,7 @@ use super::judge::{Comparison, DepthImage, Verdict};
 use super::rays::Rays;
 use crate::exact::Faces;
 
-/// Draws pieces one by one, each over the earlier pieces.
+/// Draws pieces one by one, each piece over the earlier pieces.
 #[derive(Debug)]
 pub struct Painter<'a> {
     rays: &'a Rays,
@@ -154,9 +154,9 @@ pub fn colour_of(polygon: usize) -> [u8; 3] {
     })
 }
 
-/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is its normal and d the direction of view,
-/// both of length 1. So a surface has its full colour, 1, where the viewer faces it, and 0.55 where it is
-/// seen edge-on. Both sides are equally bright.
+/// Returns the brightness of a surface, 0.55 + 0.45 · |n · d|: n is the surface's normal and d the direction
+/// of view, both of length 1. A surface that faces the viewer has brightness 1, its full colour; a surface
+/// seen edge-on has 0.55. Both sides are equally bright.
 pub fn brightness(normal: DVec3, direction: DVec3) -> f64 {
     0.55 + 0.45 * normal.dot(direction).abs()
 }
@@ -244,8 +244,8 @@ pub fn blend(pixel: &mut [f32; 3], colour: [u8; 3], opacity: f32) {
     }
 }
 
-/// Calls `paint` with each pixel that a piece covers, by its number, row by row from the top left, and with
-/// the colour there: shaded like [`picture`], darker the more obliquely the piece is seen.
+/// Calls `paint` with the number of each pixel that a piece covers, row by row from the top left, and with
+/// the piece's colour in that pixel: shaded like [`picture`], darker the more obliquely the piece is seen.
 pub(crate) fn for_each_shaded(
     rays: &Rays,
     faces: &Faces,

@@ -18,22 +18,22 @@ use crate::viewpoint::Viewpoint;
 /// | perspective | from the eye, in direction base + x·right + y·down |
 /// | parallel | through the point base + x·right + y·down, in the same direction for all pixels |
 ///
-/// This *defines* the picture: the camera is rounded once, by less than a thousandth of a pixel unless it is
-/// more than a million extents away, and every decision after that is exact. Views too narrow for this
-/// precision are an error. The eye and the direction are rounded as in [`Eye`], which trees also use for
-/// orders.
+/// This *defines* the picture: the camera is rounded once, and every decision after that is exact. The
+/// rounding is less than a thousandth of a pixel, unless the camera is more than a million extents away.
+/// Views too narrow for this precision are an error. The eye and the direction are rounded as in [`Eye`],
+/// which trees also use for orders.
 ///
 /// Rays belong to the [grid](crate::BspTree::grid) of the faces that they were made for. Trees of one grid,
-/// such as the cells of a partition, may share them. A function that takes rays and faces of different
-/// grids panics.
+/// such as the cells of a partition, may share rays. A function that takes rays and faces of different grids
+/// panics.
 #[derive(Clone, Debug)]
 pub struct Rays {
     lattice: Lattice,
     pub(super) size: [u32; 2],
     /// Both coordinates of the centre of the first pixel: 0, or ½ in drawings.
     first: f64,
-    /// The height of the whole picture. These rays may be only some of its rows; `above` is the number of
-    /// rows above the first of these rays.
+    /// The height of the whole picture. These rays may be only some rows of that picture; `above` is the
+    /// number of rows above the first of these rays.
     whole_height: u32,
     above: u32,
     /// Whether faces seen from behind are left out.
@@ -84,12 +84,12 @@ const FURTHEST: u32 = 20;
 const REGION: f64 = (1u64 << 60) as f64;
 /// The least size of a pixel, divided by the sum of the picture's width and height in rays. Components of
 /// `right` and `down` are rounded by at most 1, and a ray is at most half the width and half the height away
-/// from the middle. So it is off by at most √3/2 times that sum. An error e of a direction d moves the ray,
-/// in pixels, by at most |e| · |d| / (h · σ): h is the distance of the picture's plane from the eye, and σ
-/// the smallest singular value of the matrix with the columns `right` and `down`. With the angle φ between
-/// `right` and `down`, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (For square pixels it is equal.) σ is the
-/// pixel's size here. Too small: rays are off by more than a thousandth of a pixel. Too large: usable narrow
-/// views are rejected.
+/// from the middle. So a ray is off by at most √3/2 times the sum of width and height. An error e of a
+/// direction d moves the ray, in pixels, by at most |e| · |d| / (h · σ): h is the distance of the picture's
+/// plane from the eye, and σ the smallest singular value of the matrix with the columns `right` and `down`.
+/// With the angle φ between `right` and `down`, σ² ≥ min(|right|, |down|)² · (1 − |cos φ|). (For square
+/// pixels, equality holds.) Here σ is the pixel's size. Too small: rays are off by more than a thousandth of
+/// a pixel. Too large: usable narrow views are rejected.
 const FINEST: f64 = 1000.0;
 
 impl Rays {
@@ -102,8 +102,8 @@ impl Rays {
     /// could be off by a thousandth of a pixel. Let n be the sum of the picture's width and height in pixels.
     /// A pixel of n · 2⁻⁴⁶ radians, or in a parallel view of n · 2⁻⁴⁰ of the scene's extent, is large enough.
     /// With 1 000 by 1 000 pixels, that is a field of view of 3·10⁻⁸ radians, or a width of 2·10⁻⁶ of the
-    /// extent. The size of an oblong pixel is its shorter side. The size of a skewed pixel is its shorter
-    /// side times √(1 − |cos φ|), where φ is the angle between its sides.
+    /// extent. The size of an oblong pixel is the shorter side. The size of a skewed pixel is the shorter
+    /// side times √(1 − |cos φ|), where φ is the angle between the sides.
     pub fn new(camera: &Camera, faces: &Faces) -> Result<Self, Error> {
         Self::sampled(camera, faces, 1)
     }
@@ -241,13 +241,14 @@ impl Rays {
         Self { size, base, above: self.above + start, ..self.clone() }
     }
 
-    /// Restricts the rays to the fronts of faces: the sides from which their corners are counter-clockwise.
+    /// Restricts the rays to the fronts of faces: the sides from which the faces' corners are
+    /// counter-clockwise.
     pub fn with_front_faces_only(self) -> Self {
         Self { front_only: true, ..self }
     }
 
-    /// The same rays, with picture coordinates from the corner of the first pixel instead of its centre. This
-    /// is exact, because `right` and `down` are even.
+    /// The same rays, with picture coordinates from the corner of the first pixel instead of the pixel's
+    /// centre. The conversion is exact, because `right` and `down` are even.
     #[cfg(feature = "drawing")]
     pub(crate) fn with_corner_origin(self) -> Self {
         let base = std::array::from_fn(|i| self.base[i] - self.right[i] / 2 - self.down[i] / 2);
@@ -311,7 +312,8 @@ impl Rays {
     /// The eye, or for parallel rays the point of the first pixel's ray, relative to a lattice point. Each
     /// component is within 2.4 roundings.
     ///
-    /// (An integer beyond 2⁵³ is rounded, and so is its difference from a coordinate of at most 2⁵¹.)
+    /// (An integer beyond 2⁵³ is rounded, and so is the difference of this integer and a coordinate of at
+    /// most 2⁵¹.)
     #[inline]
     pub(crate) fn origin_from(&self, point: [f64; 3]) -> [f64; 3] {
         match self.pencil {
@@ -356,8 +358,8 @@ impl Rays {
     }
 
     /// A box in the picture that contains the convex hull of these points, each given to within
-    /// `VERTEX_ERROR`: its least and largest coordinates, in pixels, where the first pixel's centre is at
-    /// `first`. `None` if the hull is outside the picture. The box is infinite for a polygon that reaches
+    /// `VERTEX_ERROR`: the box's least and largest coordinates, in pixels, where the first pixel's centre is
+    /// at `first`. `None` if the hull is outside the picture. The box is infinite for a polygon that reaches
     /// behind the eye.
     pub(crate) fn region(&self, points: &[[f64; 3]]) -> Option<[[f64; 2]; 2]> {
         let [width, height] = self.size.map(f64::from);
@@ -394,9 +396,9 @@ impl Rays {
         Some([low, high].map(|end| [end[0] + shift[0], end[1] + shift[1]]))
     }
 
-    /// A lattice point in homogeneous coordinates of the picture, rounded, with bounds on their errors: x and
-    /// y in pixels, as in [`region`](Self::region), times the last coordinate, which is positive ahead of the
-    /// eye.
+    /// A lattice point in homogeneous coordinates of the picture, rounded, with a bound on the error of each
+    /// coordinate: x and y in pixels, as in [`region`](Self::region), times the last coordinate, which is
+    /// positive ahead of the eye.
     #[cfg(feature = "drawing")]
     pub(crate) fn project(&self, point: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (at, error) = self.in_picture(point);
@@ -412,7 +414,7 @@ impl Rays {
     }
 
     /// A point, given to within `VERTEX_ERROR`, in multiples of right, down and the direction through the
-    /// middle (the last is 1 for parallel rays), with bounds on their errors.
+    /// middle (the last multiple is 1 for parallel rays), with a bound on the error of each multiple.
     #[inline]
     fn in_picture(&self, point: [f64; 3]) -> (DVec3, DVec3) {
         let (arm, parallel) = match self.pencil {
@@ -465,11 +467,11 @@ fn inverse([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
 ///
 /// Let ε = 2⁻⁵³, and V the volume that the columns span as unit vectors. Each component of the columns is
 /// rounded by ε, of their vector products by 4 ε of the product of two lengths, and the determinant by 8 ε of
-/// the product of three lengths. A row is at least V times the product of two lengths, so it is off by less
-/// than 24 ε / V of itself. Its product with a vector, which is off by 2.4 ε, is off by less than (24 / V +
-/// 6) ε of the product of both lengths. As a multiple of the sum of the row's components and the largest
-/// component of the vector, the error is √3 times as much. It is less than 2⁻⁴⁶ if V ≥ 1/2, and less than
-/// 2⁻⁴⁷ / V otherwise.
+/// the product of three lengths. A row is at least V times the product of two lengths, so the row is off by
+/// less than 24 ε / V of its length. The vector is off by 2.4 ε, so the product of row and vector is off by
+/// less than (24 / V + 6) ε of the product of both lengths. As a multiple of the sum of the row's components
+/// and the largest component of the vector, the error is √3 times as much. The error is less than 2⁻⁴⁶ if V ≥
+/// 1/2, and less than 2⁻⁴⁷ / V otherwise.
 fn rounding(columns: [DVec3; 3]) -> f64 {
     let [a, b, c] = columns.map(DVec3::normalize);
     let volume = a.dot(b.cross(c)).abs();

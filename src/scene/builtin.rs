@@ -22,8 +22,8 @@ enum Recipe {
     Seeded(u32, &'static str, fn(u32, u64) -> Scene),
 }
 
-/// Makes the list of generated scenes from a table: the variant, its name, a one-line description, and its
-/// generator.
+/// Makes the list of generated scenes from a table: the variant, and the scene's name, one-line description
+/// and generator.
 macro_rules! builtin {
     ($($(#[$doc:meta])* $scene:ident $name:literal $description:literal $recipe:expr;)*) => {
         /// The generated scenes, by name.
@@ -34,7 +34,7 @@ macro_rules! builtin {
         }
 
         impl Builtin {
-            /// Every scene, in the order in which they are listed.
+            /// All scenes, in the order of lists.
             pub const ALL: &'static [Self] = &[$(Self::$scene),*];
 
             fn row(self) -> (&'static str, &'static str, Recipe) {
@@ -152,8 +152,7 @@ impl Builtin {
         }
     }
 
-    /// Returns the approximate number of polygons of [`build`](Self::build), without generating the scene if
-    /// it is large.
+    /// Returns the approximate number of polygons of [`build`](Self::build), without generating large scenes.
     pub fn polygons(self, size: Option<u32>) -> usize {
         let of_size = |default| self.clamped(size, default) as usize;
         match (self, self.default_size()) {
@@ -168,8 +167,8 @@ impl Builtin {
         size.unwrap_or(default).clamp(low, high)
     }
 
-    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to it. Scenes of
-    /// only one size ignore `size`; scenes without randomness ignore `seed`.
+    /// Generates the scene. A size outside [`sizes`](Self::sizes) is clamped to this range. Scenes of only
+    /// one size ignore `size`; scenes without randomness ignore `seed`.
     pub fn build(self, size: Option<u32>, seed: u64) -> Scene {
         let clamp = |default| self.clamped(size, default);
         match self.row().2 {

@@ -14,8 +14,8 @@ fn of_eight_colours(name: String) -> Scene {
     scene
 }
 
-/// Returns three bars in a cycle: each covers a part of the next, so no order of whole bars is right and one
-/// bar must be cut. 18 rectangles; up is z.
+/// Returns three bars in a cycle: each bar covers a part of the next bar, so no order of whole bars is right
+/// and one bar must be cut. 18 rectangles; up is z.
 ///
 /// This is the classic counterexample to sorting by depth, after M. E. Newell, R. G. Newell and T. L. Sancha,
 /// "A solution to the hidden surface problem", ACM 1972. Here the bars are axis-aligned boxes of 9 × 1 × 1
@@ -66,9 +66,9 @@ const OCTAVES: [(usize, f64); 5] = [(3, 14.0), (7, 6.0), (15, 2.5), (31, 1.0), (
 
 /// Returns a hilly terrain of about `triangles` triangles, 100 × 100, up is z.
 ///
-/// It is a height field over `side` × `side` squares of two triangles, with `side` = √(`triangles`/2)
-/// rounded, at least 1. Heights are value noise in five octaves, mostly within ±12 and never beyond ±24.
-/// Every triangle faces up; no two triangles cross.
+/// The terrain is a height field over `side` × `side` squares of two triangles each, with `side` =
+/// √(`triangles`/2) rounded, at least 1. Heights are value noise in five octaves, mostly within ±12 and never
+/// beyond ±24. Every triangle faces up; no two triangles cross.
 pub fn terrain(triangles: u32, seed: u64) -> Scene {
     let side = (f64::from(triangles) / 2.0).sqrt().round().max(1.0) as usize;
     let mut scene = Scene::new(format!("terrain:{triangles}"), DVec3::Z)
@@ -140,10 +140,10 @@ fn height(noise: &[Vec<f64>], u: f64, v: f64) -> f64 {
 /// Returns a unit sphere of about `faces` faces, up is z: quads between parallels and meridians, triangles at
 /// the poles.
 ///
-/// It has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron). Every quad
-/// is an isosceles trapezium inscribed in the sphere, so all faces are planar and the body is convex, up to
-/// the rounding of the corners. It is the worst case for trees whose planes are the faces' own planes: each
-/// plane separates only its own face from the others.
+/// The sphere has `rows` × 2·`rows` faces, with `rows` = √(`faces`/2) rounded, at least 2 (an octahedron).
+/// Every quad is an isosceles trapezium inscribed in the sphere, so all faces are planar and the body is
+/// convex, up to the rounding of the corners. The sphere is the worst case for trees whose planes are the
+/// faces' own planes: the plane of a face separates only this face from the others.
 pub fn sphere(faces: u32) -> Scene {
     let rows = (f64::from(faces) / 2.0).sqrt().round().max(2.0) as u64;
     let columns = 2 * rows;
@@ -167,7 +167,7 @@ pub fn sphere(faces: u32) -> Scene {
     scene
 }
 
-/// The side of a building plot with half the street around it, in metres.
+/// The side of a building plot, including half the width of the surrounding streets, in metres.
 const PLOT: f64 = 30.0;
 
 /// Returns a city of about `polygons` polygons in metres, up is z: a grid of houses on one ground square.
@@ -224,8 +224,8 @@ pub fn random_triangles(count: u32, seed: u64) -> Scene {
     scene
 }
 
-/// Draws triangles until one fits; about one in 16 does. After a thousand consecutive misses, which are
-/// practically impossible, returns a fixed triangle.
+/// Draws triangles until one triangle fits; about one triangle in 16 fits. After a thousand consecutive
+/// misses, which are practically impossible, returns a fixed triangle.
 fn random_triangle(random: &mut SplitMix64) -> [DVec3; 3] {
     let draw = |_| {
         let a = random.point(0.0, 1.0);
@@ -291,8 +291,8 @@ pub fn cuboid(low: DVec3, high: DVec3) -> [[DVec3; 4]; 6] {
 /// Returns the point of the unit circle at `step`/`steps` of a full turn, counter-clockwise from (1, 0),
 /// within a few units in the last place.
 ///
-/// It does not use `f64::sin_cos`, whose last bits depend on the platform. The circle's eightfold symmetry is
-/// exact: quarter turns have exact zeros and ones.
+/// The function does not use `f64::sin_cos`, whose last bits depend on the platform. The circle's eightfold
+/// symmetry is exact: quarter turns have exact zeros and ones.
 pub fn unit_circle(step: u64, steps: u64) -> DVec2 {
     let eighths = 8 * (step % steps);
     let (octant, rest) = (eighths / steps, eighths % steps);

@@ -1,8 +1,8 @@
 //! Scenes: polygons with flat colours, generated or read from a file.
 //!
-//! A [`Scene`] is a plain list of polygons, in the order in which they were added; it does not sort or draw.
-//! Each generated scene has a function ([`cornell_box`], [`teapot`], …), and [`Builtin`] lists them all. With
-//! the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
+//! A [`Scene`] is a plain list of polygons, in the order in which they were added. A scene does not sort or
+//! draw. Each generated scene has a function ([`cornell_box`], [`teapot`], …), and [`Builtin`] lists all
+//! generated scenes. With the feature `obj`, `Scene::read_obj` reads Wavefront OBJ files.
 //!
 //! The corners of a polygon are counter-clockwise seen from its front. Fronts face outwards on a closed body,
 //! and inwards in a room. Every generated scene is bit for bit the same on every machine: generators use only
@@ -75,7 +75,7 @@ struct Attributes {
     colors: Vec<Option<[f32; 3]>>,
 }
 
-/// A polygon of a [`Scene`]: its points and their precision.
+/// A polygon of a [`Scene`]: the corners and their precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScenePolygon<'a> {
     corners: &'a [DVec3],
@@ -214,10 +214,10 @@ impl Scene {
     }
 
     /// Returns the largest distance of corners from their intended planes, a length. For a scene from an OBJ
-    /// file, this is four units in the last decimal that its coordinates need. (In a parallelogram whose
+    /// file, this is four units in the last decimal that the coordinates need. (In a parallelogram whose
     /// corners are off by half a unit in each direction, one corner is off the plane of the three others by
-    /// three and a half units.) In generated scenes it is 0, unless [`with_precision`](Self::with_precision)
-    /// sets it.
+    /// three and a half units.) In generated scenes the precision is 0, unless set by
+    /// [`with_precision`](Self::with_precision).
     pub fn precision(&self) -> f64 {
         self.precision
     }
@@ -231,8 +231,8 @@ impl Scene {
         self.attribute(&self.attributes.uvs, polygon, corner)
     }
 
-    /// Returns the normal at a corner of a polygon, as in the file; its length may differ from 1. `None` if
-    /// the file gives no normal.
+    /// Returns the normal at a corner of a polygon, as in the file; the normal's length may differ from 1.
+    /// `None` if the file gives no normal.
     ///
     /// # Panics
     ///

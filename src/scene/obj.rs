@@ -32,22 +32,23 @@ impl Scene {
     /// significant digits; in the latter case the largest coordinates decide. Zeros at the end of all
     /// coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15
     /// significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate
-    /// below about 10⁻¹¹ times the largest counts as 0. Outliers have nine or more significant digits *and*
-    /// more decimals than all coordinates with fewer digits. If at most 1 % of the coordinates are outliers,
-    /// only their first three digits count. If all coordinates of nine or more digits (except 1 %) equal an
-    /// `f32` after rounding to the written digits, the unit is the `f32` step of the largest coordinate. Up
-    /// is y, because OBJ files do not define it.
+    /// below about 10⁻¹¹ times the largest counts as 0. A few computed numbers do not decide for all. Suppose
+    /// that at most one coordinate in 100 has nine significant digits or more *and* more decimals than all
+    /// coordinates with fewer digits. Then only the first three digits of such coordinates count. If all
+    /// coordinates of nine digits and more (except one in 100) are `f32` numbers up to their written digits,
+    /// the unit is the `f32` step of the largest coordinate. Up is y, because OBJ files do not say which
+    /// direction is up.
     ///
-    /// A face's colour is the `Kd` of its material, read as sRGB, with its `d` or `Tr` as opacity. A missing
-    /// or unreadable library is not an error: its materials appear as
-    /// [`Material::DEFAULT`](super::Material::DEFAULT), and the report lists it.
+    /// A face's colour is the `Kd` of its material, read as sRGB. The opacity is the material's `d` or `Tr`.
+    /// A missing or unreadable library is not an error: the report lists the library, and its materials
+    /// appear as [`Material::DEFAULT`](super::Material::DEFAULT).
     ///
-    /// Libraries are read from the file's folder and the folders in it. A name that leads out of this folder,
-    /// because it is absolute or contains `..`, is not followed, and the report lists it. (Symbolic links are
-    /// followed, because the folder's owner made them, not the file.) Only regular files are read.
+    /// Libraries are read from the file's folder and its subfolders. A library name that is absolute or
+    /// contains `..` is not followed, and the report lists the name. (Symbolic links are followed, because
+    /// the folder's owner made them, not the file.) Only regular files are read as libraries.
     ///
     /// The file itself may be a device, or an unnamed pipe such as `/dev/stdin`. A named pipe is an error:
-    /// without a writer, reading it would wait forever. A line that is not UTF-8 is read as Latin-1.
+    /// without a writer, reading the pipe would wait forever. A line that is not UTF-8 is read as Latin-1.
     ///
     /// # Errors
     ///
@@ -61,8 +62,8 @@ impl Scene {
 
     /// Reads the text of an OBJ file like [`read_obj`](Self::read_obj).
     ///
-    /// `name` is the scene's name, and errors include it. `library` returns the content of a material
-    /// library by the name used in the text, or `None`; it is never called with a name that is absolute or
+    /// `name` is the scene's name, and errors include it. `library` returns the content of a material library
+    /// by the name used in the text, or `None`. `library` is never called with a name that is absolute or
     /// contains `..`.
     ///
     /// # Errors
@@ -81,8 +82,8 @@ impl Scene {
 ///
 /// `tobj` accepts NaN and infinity, reads `l` lines as faces, divides coordinates by a fourth number,
 /// reorders faces by material, fails on indices of normals that are not read, and names no line in its
-/// errors. So it receives only checked `v` lines of three numbers and `f` lines of vertex numbers. It stores
-/// all faces of a file at once, so [`ObjStream`] does not use it.
+/// errors. So `tobj` receives only checked `v` lines of three numbers and `f` lines of vertex numbers. `tobj`
+/// stores all faces of a file at once, so [`ObjStream`] does not use `tobj`.
 fn load(
     name: &str,
     input: io::Result<impl Read>,
@@ -156,7 +157,8 @@ fn is_degenerate(polygon: &[DVec3]) -> bool {
 /// Attributes of corners that a file contains besides positions.
 #[derive(Default)]
 struct Given {
-    /// The attribute of each vertex, each `vt` line and each `vn` line; `None` if it is missing or malformed.
+    /// The attribute of each vertex, each `vt` line and each `vn` line; `None` if the attribute is missing or
+    /// malformed.
     colors: Vec<Option<[f32; 3]>>,
     uvs: Vec<Option<DVec2>>,
     normals: Vec<Option<DVec3>>,
@@ -218,7 +220,7 @@ fn numbers(words: &mut dyn Iterator<Item = &str>) -> Vec<Option<f64>> {
     words.map(|word| word.parse().ok().filter(|number: &f64| number.is_finite())).collect()
 }
 
-/// A Wavefront OBJ file, read polygon by polygon with only its vertices in memory: for scenes too large for
+/// A Wavefront OBJ file, read polygon by polygon with only the vertices in memory: for scenes too large for
 /// one tree.
 ///
 /// Polygons, materials, precision and errors are the same as for [`Scene::read_obj`]. Texture coordinates,
@@ -258,8 +260,8 @@ impl ObjStream {
         let path = path.as_ref();
         let name = path.display().to_string();
         let (mut vertices, mut is_used) = (Vec::new(), Vec::new());
-        // Vertices that faces name before the vertices are defined. Whether they exist is known only at the
-        // end.
+        // Vertices that faces name before the vertices are defined. Whether such vertices exist is known only
+        // at the end.
         let mut ahead = Vec::new();
         let (mut contents, _) = read(&name, open_regular(path), |statement, _| {
             match statement {
@@ -343,7 +345,7 @@ impl ObjStream {
 /// Opens a file to read it completely.
 fn open(path: &Path) -> io::Result<File> {
     // Unnamed pipes, such as `/dev/stdin`, have a writer. If `/dev/fd` contains links, links to such pipes
-    // have no target; on other systems it contains files.
+    // have no target. On other systems, `/dev/fd` contains files.
     #[cfg(unix)]
     if let Ok(target) = path.canonicalize()
         && !target.starts_with("/dev")
@@ -359,7 +361,7 @@ fn open(path: &Path) -> io::Result<File> {
 ///
 /// # Errors
 ///
-/// The errors of opening a file, and if it is not a regular file.
+/// If the file cannot be opened, or is not a regular file.
 pub fn open_regular(path: &Path) -> io::Result<File> {
     // Checked before opening, because opening a pipe may wait for a writer.
     let found = fs::metadata(path)?;
@@ -392,8 +394,8 @@ fn of_file(name: &str, problem: impl Into<Problem>) -> Error {
 pub struct ObjReport {
     /// The number of `f` lines, including degenerate faces. It equals the scene's number of polygons.
     pub faces: usize,
-    /// The number of faces with fewer than three different corner positions. They stay in the scene, so that
-    /// polygons are numbered as in the file.
+    /// The number of faces with fewer than three different corner positions. Such faces stay in the scene, so
+    /// that polygons are numbered as in the file.
     pub degenerate_faces: usize,
     /// The number of `p` lines.
     pub skipped_points: usize,
@@ -407,8 +409,8 @@ pub struct ObjReport {
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
     pub missing_libraries: Vec<String>,
-    /// Material libraries that were not read, because their names lead out of the file's folder:
-    /// they are absolute or contain `..`.
+    /// Material libraries that were not read, because their names are absolute or contain `..`, and so lead
+    /// out of the file's folder.
     pub outside_libraries: Vec<String>,
     /// Materials that are used but not defined.
     pub missing_materials: Vec<String>,

@@ -88,8 +88,9 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// If the data cannot be read; if they are not a scene, have another version, are truncated or damaged,
-    /// or contain lists that contradict each other; or if memory runs out. The message says which.
+    /// If the data cannot be read; if the data are not a scene, have another version, are truncated or
+    /// damaged, or contain lists that contradict each other; or if memory runs out. The message names the
+    /// fault.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let name = read_name(&mut file)?;

@@ -13,7 +13,7 @@ use crate::view::Camera;
 use crate::viewpoint::Viewpoint;
 
 /// The result of verifying a tree from one camera: the picture painted in the tree's order, the true picture,
-/// and their differences.
+/// and the differences between the two pictures.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
@@ -44,14 +44,14 @@ impl Verification {
 }
 
 /// Paints a tree's fragments back to front and front to back, and compares both pictures with a depth
-/// buffer's picture, pixel by pixel. It also compares the orders that the tree returns as lists, by iterators
+/// buffer's picture, pixel by pixel. Also compares the orders that the tree returns as lists, by iterators
 /// and by visitors.
 ///
 /// The result [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
 /// as the tolerance allows count as contested. In such a pixel, one of the two fragments reaches across the
-/// tree's plane between them. The ray meets the nearer fragment within the tolerance of that plane. It also
-/// meets the other fragment, or begins, within the tolerance of that plane. With a tolerance of 0 only ties
-/// are contested: fragments at exactly the same distance.
+/// tree's plane between them. The ray meets the nearer fragment within the tolerance of that plane. The ray
+/// also meets the other fragment, or begins, within the tolerance of that plane. With a tolerance of 0 only
+/// ties are contested: fragments at exactly the same distance.
 ///
 /// This rule is stricter than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
 /// twice the tolerance apart are not contested if a plane of the tree separates them exactly.
@@ -78,7 +78,7 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
 }
 
 /// Verifies a tree like [`verify`], without the backs of faces: backs are not painted, and hide no other
-/// faces. Use it for rooms seen from outside.
+/// faces. Use this function for rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -151,8 +151,8 @@ const FIRST_NEAR: usize = 2;
 /// Checks that the orders of a viewpoint list every fragment once, are the same as a list and as an
 /// iterator, and that front to back is the reverse of back to front.
 ///
-/// This compares the orders only with each other; [`verify`] also compares their pictures with a depth
-/// buffer's picture.
+/// Compares the orders only with each other; [`verify`] also compares the pictures of these orders with a
+/// depth buffer's picture.
 ///
 /// # Errors
 ///

@@ -69,7 +69,7 @@ impl LimitArgs {
     }
 }
 
-/// Whether the user has given an option of how to build a tree, if only its default.
+/// Whether the user has given a build option, even with its default value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IsGiven(pub(crate) bool);
 

@@ -19,7 +19,8 @@ use crate::progress::Progress;
 /// Bytes buffered for each cell. Too small: more calls. Too large: more memory.
 const WAITING: usize = 1 << 14;
 
-/// Builds the trees of a scene's cells, in memory for one at a time and for the vertices of the scene.
+/// Builds the trees of a scene's cells. Needs memory for one tree at a time, and for the vertices of the
+/// scene.
 pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
     let mut folder = NewFolder::create(&args.output)?;
     let polygons = Polygons::open(&args.scene)?;
@@ -56,19 +57,19 @@ pub(crate) fn run(args: &BuildFileArgs, cells: usize) -> Result<(), Failure> {
 struct Found {
     /// Each polygon counts in one cell: the first cell that contains its least corner.
     sum: Preparation,
-    /// The polygons that are in some cell, one a bit.
+    /// The polygons that are in some cell: one bit per polygon.
     shown: Vec<u64>,
 }
 
 impl Found {
-    /// At first nothing is in any cell.
+    /// Creates the figures of no cells.
     fn new(polygons: usize) -> Self {
         let mut sum = Preparation::default();
         (sum.polygons, sum.dropped) = (polygons, polygons);
         Self { sum, shown: vec![0; polygons.div_ceil(64)] }
     }
 
-    /// Adds a cell, and the preparation figures of the polygons that count in it.
+    /// Adds a cell, and the preparation figures of the polygons that count in this cell.
     fn add(&mut self, cell: &Cell, counted: &Preparation) {
         let Self { sum, shown } = self;
         for fragment in cell.tree.fragments() {

@@ -1,4 +1,4 @@
-//! Pictures and orders of scenes in folders: cell after cell, with one in memory at a time.
+//! Pictures and orders of scenes in folders: cell after cell, with one cell in memory at a time.
 
 use std::io;
 use std::path::Path;
@@ -36,7 +36,7 @@ pub(crate) fn render(args: &RenderArgs, path: &Path, output: Output) -> Result<(
     output.write(|out| png_file::write(out, camera.size(), &pixels))
 }
 
-/// The bounding box as a scene, for cameras that are to show all of it.
+/// The bounding box as a scene, for cameras that must show the whole scene.
 fn boxed(bounds: &Scene) -> Scene {
     let &[low, high] = bounds.polygon(0) else { return bounds.clone() };
     let corner = |k: usize| {
@@ -47,7 +47,7 @@ fn boxed(bounds: &Scene) -> Scene {
     scene
 }
 
-/// Paints the cells one over the other.
+/// Paints the cells one after the other, each over the cells before it.
 fn paint(
     args: &RenderArgs,
     folder: &Folder,

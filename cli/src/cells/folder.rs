@@ -13,12 +13,12 @@ use crate::failure::Failure;
 use crate::files::{self, STANDARD, open_existing};
 use crate::{job, saved_file};
 
-/// The name of the file with the partition, and behind it a scene of one polygon: the ends of a diagonal
-/// of the bounding box.
+/// The name of the file with the partition. After the partition, the file holds a scene of one polygon: the
+/// ends of a diagonal of the bounding box.
 const PARTITION: &str = "partition.bsp";
 
 /// The name of a cell's file. The file holds the cell's tree, the scene that the tree was built from, and the
-/// numbers of these polygons in the whole scene, ascending, as `u64`.
+/// numbers of the scene's polygons in the whole scene, ascending, as `u64`.
 fn cell_name(cell: usize) -> String {
     format!("cell-{cell:04}.bsp")
 }
@@ -27,14 +27,14 @@ fn cell_name(cell: usize) -> String {
 pub(crate) struct Cell {
     pub(crate) tree: BspTree,
     pub(crate) scene: Scene,
-    /// The numbers of its polygons in the whole scene.
+    /// The numbers of the cell's polygons in the whole scene.
     pub(crate) numbers: Vec<usize>,
 }
 
 /// A folder that gets its name only when it is complete.
 pub(crate) struct NewFolder {
     target: PathBuf,
-    /// The files in it, which have no names yet.
+    /// The files in the folder, which have no names yet.
     files: Vec<(String, File)>,
 }
 
@@ -74,7 +74,7 @@ impl NewFolder {
         }
     }
 
-    /// The folder that it will be in.
+    /// The folder that will contain the new folder.
     pub(crate) fn beside(&self) -> &Path {
         files::folder_of(&self.target)
     }
@@ -121,7 +121,7 @@ impl NewFolder {
         Ok(())
     }
 
-    /// Puts the folder in its place, with all its files.
+    /// Moves the folder to its place, with all files.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let placed = files::place_all(self.files, files::folder_of(&self.target), &self.target);
         placed.map_err(|error| {
@@ -130,7 +130,7 @@ impl NewFolder {
     }
 }
 
-/// Whether a folder is on another device than the one that it is in: another folder cannot replace it.
+/// Whether a folder is on another device than its parent folder. No other folder can replace such a folder.
 #[cfg(unix)]
 fn is_mounted(folder: &Path, around: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -144,20 +144,21 @@ fn is_mounted(_: &Path, _: &Path) -> bool {
     false
 }
 
-/// A folder that is there.
+/// An existing folder.
 pub(crate) struct Folder {
     path: PathBuf,
     pub(crate) partition: Partition,
-    /// One polygon: the ends of a diagonal of the bounding box. With the scene's name, up and view.
+    /// One polygon: the ends of a diagonal of the bounding box. The scene of this polygon has the whole
+    /// scene's name, up direction and view.
     pub(crate) bounds: Scene,
 }
 
-/// The folder that a scene's name means, if it is one.
+/// The folder that a scene's name means; `None` if the name means no folder.
 pub(crate) fn named(name: &std::ffi::OsStr) -> Option<&Path> {
     Some(Path::new(name)).filter(|path| path.is_dir())
 }
 
-/// The same, with an error if build options are given for its trees.
+/// Like [`named`], with an error if build options are given for the folder's trees.
 pub(crate) fn asked<'a>(
     scene: &'a SceneArgs,
     build: &BuildArgs,

@@ -19,10 +19,10 @@ use crate::terminal::remark;
 /// differ in size.
 const SAMPLES: usize = 1 << 20;
 
-/// Polygons that are read one after the other.
+/// Polygons, read one after the other.
 pub(crate) enum Polygons {
     File(Box<ObjStream>),
-    /// A scene that is in memory: a built-in one, or one from a file other than OBJ.
+    /// A scene in memory: a built-in scene, or a scene from a file other than OBJ.
     Whole(Box<Scene>),
 }
 

@@ -1,5 +1,5 @@
-//! `binspace demo`: draws built-in scenes with every heuristic, and compares their
-//! pictures with a depth buffer's.
+//! `binspace demo`: draws built-in scenes with every heuristic, and compares the pictures with a depth
+//! buffer's pictures.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `binspace draw`: a view as a vector picture with one path a polygon, and lines.
+//! `binspace draw`: a view as a vector picture with one path per polygon, and lines.
 
 use std::collections::HashSet;
 use std::ops::ControlFlow;
@@ -153,7 +153,7 @@ struct View<'a> {
     /// Whether lines alone are drawn.
     lines: bool,
     style: Style<'a>,
-    /// The progress bar of the step that is being done, if one is shown.
+    /// The progress bar of the current step, if a bar is shown.
     bar: &'a Mutex<Option<Progress>>,
     options: ViewOptions<'a>,
 }
@@ -267,13 +267,13 @@ struct Figures {
     visible: usize,
     paths: usize,
     clipped: usize,
-    /// Parts of edges that are drawn, and the lines that they are joined to.
+    /// The number of drawn parts of edges, and the number of lines into which the parts are joined.
     runs: usize,
     lines: usize,
     bytes: usize,
-    /// To build the tree, or to read it.
+    /// Seconds to build or to read the tree.
     tree_seconds: f64,
-    /// For the map and the paths, without writing them.
+    /// Seconds for the map and the paths, without writing.
     draw_seconds: f64,
 }
 
@@ -324,7 +324,7 @@ fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), Strin
     Ok(())
 }
 
-/// An error if the opacity of a polygon is not a number from 0 to 1, as it may be in a saved file.
+/// An error if the opacity of a polygon is not a number from 0 to 1. Saved files may contain such opacities.
 fn check_opacities(scene: &Scene, colours: &Colours<'_>) -> Result<(), Failure> {
     let is_wrong = |&polygon: &usize| !(0.0..=1.0).contains(&colours.opacity(polygon));
     let Some(polygon) = (0..scene.len()).find(is_wrong) else { return Ok(()) };

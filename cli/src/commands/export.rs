@@ -71,7 +71,8 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
     let target = behind_links(output).map_err(|error| Failure::about(output.display(), error))?;
     let library = target.with_extension("mtl");
     if library == target {
-        let problem = "this name is for the materials: name the output .obj";
+        let problem =
+            "the file of materials needs this name: give the output a name that ends in .obj";
         return Err(Failure::about(output.display(), problem));
     }
     if library.metadata().is_ok_and(|data| data.is_file()) {

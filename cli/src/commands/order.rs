@@ -82,7 +82,7 @@ struct Line {
     weights: Option<Vec<Vec<(u32, f64)>>>,
 }
 
-/// The vertices; corners as they were given, not rounded to the tree's grid.
+/// The vertices. Corners of the polygon are as in the input, not rounded to the tree's grid.
 fn vertices(fragment: &Fragment<'_>, polygon: &[DVec3]) -> Vec<[f64; 3]> {
     let vertices = fragment.vertices().zip(fragment.weights()).map(|(vertex, weights)| {
         let vertex = match weights[..] {
@@ -95,7 +95,7 @@ fn vertices(fragment: &Fragment<'_>, polygon: &[DVec3]) -> Vec<[f64; 3]> {
     vertices.collect()
 }
 
-/// For each vertex, corners of its polygon and their weights.
+/// For each vertex, corners of the fragment's polygon and the weights of these corners.
 fn weights(fragment: &Fragment<'_>) -> Vec<Vec<(u32, f64)>> {
     let pairs = fragment.weights().map(|weights| {
         let pairs = weights.into_iter().map(|(corner, weight)| (corner, weight + 0.0));

@@ -61,7 +61,7 @@ fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     Ok(())
 }
 
-/// Reports the number of wrong pixels of a picture, and whether it differs.
+/// Reports the number of wrong pixels of a picture. Returns whether the picture differs.
 fn judge(scene: &Scene, seen: &Verification) -> Outcome {
     let found = &seen.comparison;
     note(&format!(

@@ -27,9 +27,9 @@ struct Figures<'a> {
     tree: &'a BspTree,
     /// `None` for a tree from a file.
     heuristic: Option<Heuristic>,
-    /// The number of its cell.
+    /// The number of the tree's cell.
     cell: Option<usize>,
-    /// The time to build the tree, or to read it.
+    /// The time to build or to read the tree.
     build_seconds: f64,
     order_ns_per_fragment: f64,
 }
@@ -202,7 +202,7 @@ fn row(table: &Table, figures: &Figures<'_>) -> String {
     ])
 }
 
-/// The name of a heuristic in the table, cut to the column's width; of default weights without them.
+/// The name of a heuristic in the table, cut to the column's width. Default weights are left out.
 fn name(heuristic: &str) -> String {
     if "weighted".parse::<Heuristic>().is_ok_and(|weighted| weighted.to_string() == heuristic) {
         return "weighted".to_owned();

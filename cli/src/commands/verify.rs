@@ -67,7 +67,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<Outcome, Failure> {
     Ok(if all_right { Outcome::Done } else { Outcome::Differs })
 }
 
-/// The figures of a view, or of all of them, as a JSON object.
+/// The figures of a view, or of all views, as a JSON object.
 fn json(view: Option<usize>, from: &str, found: &Comparison, is_right: bool) -> Value {
     json!({
         "view": view,
@@ -122,7 +122,7 @@ fn row(table: &Table, [view, place]: [&str; 2], found: &Comparison, is_right: bo
     format!("{figures}{}", styled(style, verdict))
 }
 
-/// Adds the figures of a view to those of others.
+/// Adds the figures of a view to the figures of other views.
 pub(super) fn add(total: &mut Comparison, found: &Comparison) {
     total.covered += found.covered;
     total.contested += found.contested;

@@ -1,4 +1,4 @@
-//! glTF 2.0 files: triangles of meshes in a tree of nodes, with their base colours. Up is y.
+//! glTF 2.0 files: triangles of meshes in a tree of nodes, with base colours. Up is y.
 
 use std::collections::HashMap;
 use std::io;
@@ -27,8 +27,8 @@ use crate::units::count;
 const HEADER: usize = 12;
 /// The problem with files of the first version.
 const FIRST: &str = "this is glTF 1.0; binspace reads glTF 2.0";
-/// How the names of extensions begin that a file may require: they change looks alone, except for
-/// quantized positions, which are read.
+/// The beginnings of the names of extensions that a file may require. These extensions change only looks,
+/// except for quantized positions, which are read.
 const KNOWN: [&str; 10] = [
     "KHR_mesh_quantization",
     "KHR_materials_",
@@ -42,14 +42,14 @@ const KNOWN: [&str; 10] = [
     "MSFT_texture_",
 ];
 
-/// The extension that places several copies of a node's mesh. It is not read.
+/// The extension that places several copies of a node's mesh. Such copies are not read.
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
-/// Keys of a document. They occur in any order, and one may be long.
+/// Keys of a document. The keys occur in any order, and the value of a key may be long.
 const KEYS: [&[u8]; 5] =
     [b"\"asset\"", b"\"buffers\"", b"\"meshes\"", b"\"accessors\"", b"\"scenes\""];
 
-/// Whether a file begins as one of these.
+/// Whether a file begins as a glTF file.
 pub(crate) fn is_gltf(beginning: &[u8]) -> bool {
     let text = beginning.strip_prefix(b"\xef\xbb\xbf").unwrap_or(beginning).trim_ascii_start();
     let names = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
@@ -62,7 +62,7 @@ pub(crate) struct Read {
     pub(crate) left_out: Vec<String>,
 }
 
-/// Reads a file. Its buffers, if they are separate files, are in `folder`.
+/// Reads a file. Separate files of buffers are in `folder`.
 pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Read, Failure> {
     let about = |problem: String| Failure::about(name, problem);
     let gltf = parsed(bytes).map_err(about)?;
@@ -199,7 +199,7 @@ fn buffers(name: &str, gltf: &Gltf, folder: Option<&Path>) -> Result<Vec<Rc<Vec<
     Ok(all)
 }
 
-/// A file in a folder, or in a folder in that.
+/// A file in a folder or in a subfolder.
 fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     let path = urlencoding::decode(uri).map_err(|error| error.to_string())?;
     let path = Path::new(&*path);
@@ -218,8 +218,8 @@ fn beside(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     read().map_err(|error: io::Error| format!("cannot be read: {error}"))
 }
 
-/// The nodes of the scene, with their transforms. A node with several parents is an error: it might be its
-/// own ancestor.
+/// The nodes of the scene, with their transforms. A node with several parents is an error: such a node might
+/// be its own ancestor.
 fn instances(document: &Document) -> Result<Vec<(gltf::Node<'_>, DMat4)>, String> {
     let mut is_child = vec![false; document.nodes().len()];
     document
@@ -266,7 +266,7 @@ fn local(transform: &Transform) -> DMat4 {
 
 /// The triangles of a mesh.
 struct Model<'a> {
-    /// The primitives that have any.
+    /// The primitives that have triangles.
     parts: Vec<Part<'a>>,
     triangles: usize,
 }
@@ -308,7 +308,7 @@ struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// `None` if it has points or lines.
+    /// `None` if the primitive has points or lines.
     fn of(
         primitive: &Primitive<'_>,
         buffers: &'a [Rc<Vec<u8>>],
@@ -425,7 +425,7 @@ fn encoded(light: f32) -> f32 {
 
 /// The values of an accessor, decoded on demand.
 struct Values<'a> {
-    /// From the first on.
+    /// The bytes from the first value on.
     bytes: &'a [u8],
     stride: usize,
     count: usize,
@@ -438,7 +438,7 @@ struct Values<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// `is_share`: whether integers are shares of the largest one.
+    /// The values of an accessor. `is_share`: whether integers are shares of the largest integer.
     fn of(
         accessor: &Accessor<'_>,
         is_share: bool,
@@ -486,7 +486,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// A value, its first four numbers; missing ones are 1, as for opacities.
+    /// The first four numbers of a value. Missing numbers are 1, as for opacities.
     fn get(&self, index: usize) -> Option<[f64; 4]> {
         if index >= self.count {
             return None;

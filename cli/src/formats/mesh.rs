@@ -79,7 +79,7 @@ impl Precision {
     }
 }
 
-/// The mean of colours, if all are there.
+/// The mean of colours; `None` if a colour is missing.
 pub(crate) fn mean(colours: impl Iterator<Item = Option<Colour>>) -> Option<Colour> {
     let (mut sum, mut count) = ([0.0; 4], 0.0);
     for colour in colours {

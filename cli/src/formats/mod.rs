@@ -29,12 +29,12 @@ const READ: &str =
 /// The kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// One of `binspace build`.
+    /// A file of `binspace build`.
     Saved,
     /// Any other file.
     Obj,
     Mesh(MeshKind),
-    /// A file that is not read, by its name.
+    /// A file of a kind that is not read; the text names the kind.
     Other(&'static str),
 }
 
@@ -49,8 +49,8 @@ pub(crate) enum MeshKind {
 }
 
 impl Kind {
-    /// The kind of a file of `length` bytes, by how it begins; its name counts for binary STL files
-    /// alone, of which nothing but their length is certain.
+    /// The kind of a file of `length` bytes, by its first bytes. The file's name counts only for binary STL
+    /// files, of which nothing but the length is certain.
     pub(crate) fn of(beginning: &[u8], length: u64, name: &Path) -> Self {
         let is_named_stl = name.extension().is_some_and(|ext| ext.eq_ignore_ascii_case("stl"));
         if beginning.starts_with(saved_file::BEGINNING) {
@@ -78,7 +78,7 @@ impl Kind {
 }
 
 impl MeshKind {
-    /// Reads a file, and notes the omitted data. Files that belong to it are in `folder`.
+    /// Reads a file, and notes the omitted data. Other files to which this file refers are in `folder`.
     pub(crate) fn read(
         self,
         name: &str,

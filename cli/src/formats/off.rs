@@ -6,7 +6,7 @@ use binspace::scene::Scene;
 use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
-/// The content of each vertex, as the first word of a file gives it: `OFF` behind these letters.
+/// The content of each vertex, from the first word of a file: letters for the content, and then `OFF`.
 struct Kind {
     has_colours: bool,
     has_normals: bool,
@@ -14,7 +14,8 @@ struct Kind {
 }
 
 impl Kind {
-    /// `None` if it is another word. Vertices of four or more coordinates do not occur in scenes.
+    /// The content that a first word names; `None` for any other word. Vertices of four or more coordinates
+    /// do not occur in scenes.
     fn of(word: &[u8]) -> Option<Self> {
         let word = word.strip_suffix(b"OFF")?;
         let rest = word.strip_prefix(b"ST").unwrap_or(word);
@@ -29,7 +30,7 @@ impl Kind {
     }
 }
 
-/// Whether a file begins as one of these.
+/// Whether a file begins as an OFF file.
 pub(crate) fn is_off(beginning: &[u8]) -> bool {
     let text = beginning.trim_ascii_start();
     text.split(u8::is_ascii_whitespace).next().is_some_and(|word| Kind::of(word).is_some())
@@ -86,7 +87,7 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     Ok(content.mesh.finish(precision.unit()))
 }
 
-/// Reads a binary file from behind its first line: numbers of 32 bits, big-endian.
+/// Reads the part of a binary file after the first line: numbers of 32 bits, big-endian.
 fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
     let mut take = |count: usize| {
         let (bytes, behind) = rest.split_at_checked(count.saturating_mul(4)).ok_or("truncated")?;
@@ -135,7 +136,7 @@ fn binary(name: &str, kind: &Kind, mut rest: &[u8]) -> Result<Scene, String> {
     Ok(content.mesh.finish(precision.unit()))
 }
 
-/// The content of a file: vertices, with their colours if they have any, and faces.
+/// The content of a file: vertices, their colours if the file has any, and faces.
 struct Content {
     mesh: Mesh,
     positions: Vec<DVec3>,
@@ -173,7 +174,7 @@ fn face(line: Line<'_>, vertices: usize) -> Result<(Vec<usize>, Option<Colour>),
     Ok((corners, colour(&words.collect::<Vec<_>>())))
 }
 
-/// A colour of three or four numbers: whole ones up to 255, others up to 1.
+/// A colour of three or four numbers: whole numbers up to 255, other numbers up to 1.
 fn colour(words: &[&str]) -> Option<Colour> {
     let numbers: Vec<f32> = words.iter().map_while(|word| word.parse().ok()).collect();
     let &[r, g, b, ref rest @ ..] = &numbers[..] else { return None };

@@ -1,6 +1,6 @@
-//! Files that are not read, by how they begin, so that messages can name them.
+//! Recognises files that are not read by their first bytes, so that messages can name the kind of file.
 
-/// The kind of files that begin with these bytes.
+/// First bytes, and the kind of the files that begin with these bytes.
 const BEGINNINGS: [(&[u8], &str); 33] = [
     (b"ISO-10303-21", "a STEP or IFC file"),
     (b"PK\x03\x04", "a ZIP archive, as 3MF and USDZ files are"),
@@ -37,7 +37,8 @@ const BEGINNINGS: [(&[u8], &str); 33] = [
     (b"\x7fELF", "an executable file"),
 ];
 
-/// The kind of XML files with such an element, in small letters. The first that is found counts.
+/// Names of elements in small letters, and the kind of XML files with such an element. The first name found
+/// counts.
 const ELEMENTS: [(&[u8], &str); 5] = [
     (b"<collada", "a COLLADA file"),
     (b"<x3d", "an X3D file"),

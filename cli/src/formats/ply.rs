@@ -10,7 +10,7 @@ use ply_rs_bw::ply::{
 use super::mesh::{Colour, Mesh, Precision, mean};
 use super::text::{Line, Lines};
 
-/// Whether a file begins as one of these.
+/// Whether a file begins as a PLY file.
 pub(crate) fn is_ply(beginning: &[u8]) -> bool {
     beginning.strip_prefix(b"ply").is_some_and(|rest| rest.trim_ascii_start().len() < rest.len())
 }
@@ -31,7 +31,7 @@ struct Element {
 #[derive(Clone, Copy)]
 struct Number(f64, bool);
 
-/// Where something belongs, by the name of its property.
+/// The meaning of a value, by the name of the value's property.
 enum Place {
     Position(usize),
     Colour(usize),
@@ -182,7 +182,7 @@ struct Contents {
     vertices: Vec<Vertex>,
     /// The corners of all faces.
     corners: Vec<f64>,
-    /// Where the corners of each face end, and its colour.
+    /// For each face, the end of the face's corners, and the face's colour.
     faces: Vec<(usize, Option<Colour>)>,
 }
 

@@ -1,7 +1,7 @@
-//! STL files: triangles as text or binary, with colours in some binary ones. Up is z, as in the machines that
-//! print them.
+//! STL files: triangles as text or binary, with colours in some binary files. Up is z, as in the machines
+//! that print them.
 //!
-//! Crates for STL read text as `f32`, and of several solids the first alone.
+//! Crates for STL read text as `f32`, and only the first of several solids.
 
 use binspace::glam::DVec3;
 use binspace::scene::Scene;
@@ -9,18 +9,18 @@ use binspace::scene::Scene;
 use super::mesh::{Colour, Mesh, Precision};
 use super::text::Lines;
 
-/// The bytes before the triangles of a binary file: a header, and their number.
+/// The bytes before the triangles of a binary file: a header, and the number of triangles.
 const HEADER: usize = 84;
 /// The bytes of a triangle: a normal and three corners of three `f32`, and two bytes, which may be a colour.
 const TRIANGLE: usize = 50;
 
-/// Whether a file of `length` bytes that begins like this is a binary one.
+/// Whether a file of `length` bytes that begins like this is a binary STL file.
 pub(crate) fn is_binary(beginning: &[u8], length: u64) -> bool {
     count(beginning)
         .is_some_and(|count| u64::from(count) * TRIANGLE as u64 + HEADER as u64 == length)
 }
 
-/// Whether a file begins as one of text.
+/// Whether a file begins as an STL file of text.
 pub(crate) fn is_text(beginning: &[u8]) -> bool {
     let text = beginning.trim_ascii_start();
     text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
@@ -62,7 +62,7 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
 enum Colours {
     /// Red, green and blue from the lowest bits on; with the highest bit, the colour of the whole (Magics).
     Magics(Colour),
-    /// Blue, green and red from the lowest bits on, with the highest bit; without it, no colour (VisCAM).
+    /// Blue, green and red from the lowest bits on, if the highest bit is set; otherwise no colour (VisCAM).
     VisCam,
 }
 

@@ -414,7 +414,8 @@ fn what_is_wrong_is_named() {
     }
 }
 
-/// Every other triangle of a strip is turned over; a negative number ends it, and repeated corners continue it.
+/// Every other triangle of a strip is turned over; a negative number ends the strip, and repeated corners
+/// continue it.
 #[test]
 fn ply_files_have_strips_of_triangles() {
     let text = String::from_utf8(ply("ascii")).unwrap();

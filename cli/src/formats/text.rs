@@ -1,6 +1,6 @@
 //! Lines of text in bytes.
 
-/// The lines of a text with words in them, without their comments.
+/// The lines of a text that contain words. Comments are left out.
 pub(crate) struct Lines<'a> {
     rest: &'a [u8],
     number: usize,
@@ -50,7 +50,7 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// Its words. One that is not UTF-8 is not a number, and is empty.
+    /// The words of the line. A word that is not UTF-8 is not a number, and is returned as an empty word.
     pub(crate) fn words(self) -> impl Iterator<Item = &'a str> {
         let words = self.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         words.map(|word| std::str::from_utf8(word).unwrap_or(""))

@@ -22,24 +22,24 @@ const INNER: u32 = 2;
 pub(super) struct Arrays {
     /// Points of the grid, three numbers each.
     points: Packed,
-    /// For each plane, three of these points, counter-clockwise seen from its front. A plane perpendicular to
-    /// an axis has one point twice, and the axis. The planes of nodes come first.
+    /// For each plane, three of `points`, counter-clockwise seen from its front. A plane perpendicular to an
+    /// axis has one point twice, and the axis. The planes of nodes come first.
     plane_points: Packed,
-    /// For each node, depth first: its plane, the numbers of fragments on it and in the leaves beside it, and
-    /// the numbers of the nodes beside it, or 0.
+    /// For each node, depth first: the node's plane, the numbers of fragments on the plane and in the node's
+    /// two leaves, and the numbers of the node's two children, or 0.
     node_planes: Packed,
     own: Packed,
     front_leaf: Packed,
     back_leaf: Packed,
     front_node: Packed,
     back_node: Packed,
-    /// Polygons with one of their planes, two numbers each.
+    /// Pairs of a polygon and one of the polygon's planes, two numbers each.
     faces: Packed,
-    /// For each fragment: the number of its face, and its number of corners.
+    /// For each fragment: the number of its pair in `faces`, and the number of its corners.
     fragment_faces: Packed,
     corner_counts: Packed,
-    /// For each of these corners: how far its vertex is behind the first one that no corner before has, and
-    /// the kind of the edge from there to the next.
+    /// For each of these corners: the number of vertices that earlier corners use, minus the number of this
+    /// corner's vertex; and the kind of the edge from this corner to the next.
     corners: Packed,
     edge_kinds: Packed,
     /// Three numbers each.
@@ -79,7 +79,7 @@ impl Arrays {
     }
 }
 
-/// The number of a value in a set, to which it is added if it is new.
+/// The number of a value in a set, to which a new value is added.
 pub(super) fn number<T: Eq + Hash>(set: &mut IndexSet<T>, value: T) -> u32 {
     set.insert_full(value).0 as u32
 }
@@ -88,7 +88,7 @@ fn flat<const N: usize>(set: IndexSet<[u32; N]>) -> Vec<u32> {
     set.into_iter().flatten().collect()
 }
 
-/// The planes of a tree, and the grid points that they go through.
+/// The planes of a tree, and the grid points that define these planes.
 #[derive(Default)]
 struct Planes {
     points: IndexSet<[i64; 3]>,
@@ -125,9 +125,9 @@ struct Nodes {
 /// The two sides of each node.
 #[derive(Default)]
 struct Side {
-    /// The number of fragments, if it is a leaf.
+    /// The number of fragments, if the side is a leaf.
     leaves: Vec<u32>,
-    /// Its number, if it is a node; otherwise 0, the root's number.
+    /// The node's number, if the side is a node; otherwise 0, the root's number.
     nodes: Vec<u32>,
 }
 
@@ -159,8 +159,8 @@ impl Nodes {
     }
 }
 
-/// The fragments of a tree in the order of their numbers. Fragments of a node come behind the fragments of
-/// all nodes before it: on its plane, in its front leaf, in its back leaf.
+/// The fragments of a tree in the order of their numbers. Fragments of a node come after the fragments of all
+/// nodes before it: first the fragments on the node's plane, then in the front leaf, then in the back leaf.
 #[derive(Default)]
 struct Fragments {
     faces: IndexSet<[u32; 2]>,
@@ -168,7 +168,7 @@ struct Fragments {
     counts: Vec<u32>,
     corners: Vec<u32>,
     edges: Vec<u32>,
-    /// By the bits of their coordinates.
+    /// The vertices, by the bits of their coordinates.
     vertices: IndexSet<[u32; 3]>,
 }
 

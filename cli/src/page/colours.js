@@ -1,15 +1,15 @@
-// The colours of fragments, and what they mean.
+// The colours of fragments, and the meaning of these colours.
 
 /** Colours of the depth of nodes, from 1 to the deepest. */
 const DEPTHS = [[112, 62, 168], [72, 108, 208], [32, 164, 172], [96, 200, 100], [244, 224, 60]];
-/** Colours of sides, which people of all eyes tell apart. */
+/** Colours of sides, distinct for colour-blind eyes too. */
 const [FRONT, BACK] = [[86, 180, 233], [230, 159, 0]];
 
 function materialOf(fragment) {
   return DATA.materials[TREE.polygonMaterials[TREE.polygons[fragment]]];
 }
 
-/** A colour of its own for each polygon: steps of the golden ratio spread the hues. */
+/** A different colour for each polygon: steps of the golden ratio spread the hues. */
 function ownColour(polygon) {
   const hue = 6 * ((polygon * 0.618033988749895) % 1);
   const [saturation, value] = [[0.55, 0.95], [0.75, 0.85], [0.4, 0.9]][polygon % 3];

@@ -1,16 +1,16 @@
-// What people do with the page: turn, move and zoom the view, and choose what is painted.
+// The controls of the page: they turn, move and zoom the view, and choose what is painted.
 
 const DATA = JSON.parse(document.getElementById("data").textContent);
 const TREE = treeOf(DATA);
 const $ = id => document.getElementById(id);
 const CANVAS = $("picture");
-/** How far a key turns, in radians; how far a key or a notch of the wheel zooms. */
+/** The angle of a key press, in radians; the zoom factor of a key press or of a notch of the wheel. */
 const [TURN, ZOOM] = [Math.PI / 36, 1.12];
-/** How long after the last change the picture is drawn with smooth edges, in milliseconds. */
+/** The time from the last change to a picture with smooth edges, in milliseconds. */
 const REST = 150;
-/** Pictures of more pixels are not drawn with smooth edges: that takes four times as many. */
+/** Pictures of more pixels are not drawn with smooth edges, which take four times as many pixels. */
 const MOST_SMOOTH = 4e6;
-/** How long the whole order takes to be played, in milliseconds. */
+/** The time to play the whole order, in milliseconds. */
 const PLAY = 8000;
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
@@ -48,7 +48,7 @@ function named(name) {
   return sheet.getPropertyValue(name).trim().split(" ").map(Number);
 }
 
-/** Takes over what the controls say. */
+/** Reads the settings of the controls. */
 function readControls() {
   style.background = named("--paper");
   style.edges = $("edges").checked ? named("--edge") : null;
@@ -60,7 +60,7 @@ function readControls() {
   readPlace();
 }
 
-/** Takes over how far the order is painted. */
+/** Reads how many fragments of the order are painted. */
 function readPlace() {
   state.count = Number($("place").value);
   style.last = state.count < TREE.fragments ? named("--cut") : null;
@@ -96,7 +96,7 @@ function draw(fineness) {
   show(picture);
 }
 
-/** Puts a picture on the canvas, as large as that is. */
+/** Puts a picture on the canvas, scaled to the size of the canvas. */
 function show(picture) {
   const context = CANVAS.getContext("2d", { alpha: false });
   if (picture.width === CANVAS.width && picture.height === CANVAS.height) {
@@ -109,7 +109,7 @@ function show(picture) {
   context.drawImage(picture.canvas, 0, 0, CANVAS.width, CANVAS.height);
 }
 
-/** Draws a picture soon, and a smooth one when nothing has changed for a while. */
+/** Draws a picture soon, and a smooth picture when nothing has changed for a while. */
 function change() {
   smoothSoon();
   if (state.isDirty) return;
@@ -129,7 +129,7 @@ function smoothSoon() {
   }, REST);
 }
 
-/** Says in words what is painted. */
+/** Writes a text that says what is painted. */
 function describe() {
   const last = TREE.order[state.count - 1];
   const parts = [`${state.count} of ${TREE.fragments} fragments`];
@@ -144,7 +144,7 @@ function resize() {
   const ratio = window.devicePixelRatio || 1;
   CANVAS.width = Math.max(1, Math.round(CANVAS.clientWidth * ratio));
   CANVAS.height = Math.max(1, Math.round(CANVAS.clientHeight * ratio));
-  // Another size empties the canvas, and it is shown before the next chance to draw.
+  // A new size empties the canvas, and the canvas is shown before the next chance to draw.
   draw(1);
   smoothSoon();
 }
@@ -167,7 +167,7 @@ function pan(x, y) {
   change();
 }
 
-/** Goes nearer by a factor, or further away; very near, the target goes ahead of the eye. */
+/** Moves the eye nearer by a factor, or further away. Very near, the target moves ahead of the eye. */
 function zoom(factor) {
   const least = DATA.view.distance / 50;
   const distance = camera.distance / factor;

@@ -12,7 +12,7 @@ use super::arrays::{Arrays, number};
 use crate::colours::{Colouring, Colours};
 
 /// The data of a page. Positions count from the middle of the tree's grid, in units of [`LATTICE_LIMIT`]
-/// steps of it, so that no coordinate of the scene is above 1.
+/// steps of the grid, so that no coordinate of the scene is above 1.
 #[derive(Serialize)]
 pub(super) struct Data {
     figures: Vec<(String, String)>,
@@ -38,7 +38,7 @@ struct View {
     slope: f64,
 }
 
-/// A material as it looks.
+/// The look of a material.
 #[derive(Serialize)]
 struct Colour {
     colour: [u8; 3],

@@ -1,10 +1,10 @@
 "use strict";
-// The same pictures by a graphics card (WebGL 2): triangles and lines in the order of the tree, each painted
-// over those before it, without a depth buffer. Where there is no such card, picture.js paints.
+// The pictures of picture.js, drawn by a graphics card (WebGL 2): triangles and lines in the order of the
+// tree, each painted over the earlier ones, without a depth buffer. Without such a card, picture.js paints.
 
-/** Vertices of a corner for the card: one of its fragment, and four of the line to the next corner. */
+/** The card's vertices for a corner: one for the fragment, and four for the line to the next corner. */
 const ROLES = 5;
-/** Texels of a texture in a row. */
+/** The number of texels in a row of a texture. */
 const ROW = 2048;
 
 const VERTEX_SHADER = `#version 300 es
@@ -14,7 +14,7 @@ precision highp sampler2D;
 precision highp usampler2D;
 uniform sampler2D vertices, opacities;
 uniform usampler2D colours;
-// A vertex, the vertex after it, the fragment, and the kind of the edge between both.
+// A vertex, the next vertex, the fragment, and the kind of the edge between the two vertices.
 uniform usampler2D corners;
 uniform vec3 right, up, forward, eye;
 uniform float depth, lineWidth;
@@ -24,7 +24,7 @@ flat out vec4 colour;
 
 ivec2 at(uint i) { return ivec2(i % ${ROW}u, i / ${ROW}u); }
 
-// In pixels from the middle times the depth, and the depth.
+// The position in pixels from the middle, times the depth; and the depth.
 vec3 seen(uint vertex) {
   vec3 p = texelFetch(vertices, at(vertex), 0).xyz - eye;
   return vec3(dot(right, p), dot(up, p), dot(forward, p) + depth);
@@ -53,7 +53,7 @@ void main() {
     return;
   }
   vec2 from = end(a, b), to = end(b, a);
-  // A steep line has its width in each row of pixels, another one in each column.
+  // The width of a steep line is measured along rows of pixels, the width of other lines along columns.
   vec2 way = abs(to - from);
   vec2 side = 0.5 * lineWidth * (way.y > way.x ? vec2(1, 0) : vec2(0, 1));
   vec2 place = (role < 3u ? from : to) + (role % 2u == 0u ? side : -side);
@@ -66,7 +66,7 @@ flat in vec4 colour;
 out vec4 pixel;
 void main() { pixel = colour; }`;
 
-/** What paints a tree; `null` where the browser has no fast WebGL 2, or the tree is too large for it. */
+/** A painter of a tree; `null` if the browser has no fast WebGL 2, or the tree is too large for WebGL 2. */
 function graphicsOf(tree, isFast = true) {
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false });
@@ -98,7 +98,7 @@ function graphicsOf(tree, isFast = true) {
     gl.drawElements(gl.TRIANGLES, end, gl.UNSIGNED_INT, 0);
   };
 
-  /** As `paint` does. Fragments out of view count as filled. */
+  /** Paints like `paint`. Fragments out of view count as filled. */
   const paint = (camera, { width, height, lineWidth }, style, count) => {
     const order = backToFront(tree, viewpointOf(tree, camera));
     const axes = axesOf(camera), scale = scaleOf(camera, { width, height });
@@ -141,7 +141,7 @@ function graphicsOf(tree, isFast = true) {
   return { canvas, paint, isLost: () => gl.isContextLost() };
 }
 
-/** Whether the processor does what a card should: it takes longer than picture.js. */
+/** Whether the processor does the work of a card: then WebGL takes longer than picture.js. */
 function isSlow(gl) {
   const unmasked = gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL;
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(unmasked ?? gl.RENDERER));
@@ -180,7 +180,7 @@ function fillTexture(gl, unit, inner, format, type, channels, numbers) {
   gl.texImage2D(gl.TEXTURE_2D, 0, inner, ROW, numbers.length / channels / ROW, 0, format, type, numbers);
 }
 
-/** What the shader needs to know of all corners. */
+/** The shader's data of all corners. */
 function cornersOf({ corners, cornerStarts, edgeKinds, fragments }) {
   const all = new Uint32Array(4 * corners.length);
   for (let fragment = 0; fragment < fragments; fragment++) {
@@ -192,7 +192,7 @@ function cornersOf({ corners, cornerStarts, edgeKinds, fragments }) {
   return all;
 }
 
-/** Adds the triangles of a fragment, a fan, and returns where they end. */
+/** Adds the triangles of a fragment, a fan, and returns the end of the added triangles. */
 function addTriangles({ cornerStarts }, fragment, indices, end) {
   const first = cornerStarts[fragment], last = cornerStarts[fragment + 1] - 1;
   for (let i = first + 1; i < last; i++) {

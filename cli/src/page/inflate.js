@@ -1,7 +1,8 @@
 "use strict";
-// Decompression (RFC 1951). Browsers have it too, but not at once: the whole page would have to wait for it.
+// Decompression (RFC 1951). Browsers can decompress too, but asynchronously: the whole page would have to
+// wait for the result.
 
-/** For each symbol of a copy the least length or distance that it means, and the number of bits to be added. */
+/** For each symbol of a copy: its least length or distance, and the number of additional bits. */
 function copies(count, each, least) {
   return Array.from({ length: count }, (_, i) => {
     const bits = Math.max(0, Math.floor(i / each) - 1);
@@ -15,7 +16,7 @@ const DISTANCES = copies(30, 2, 1);
 const CODES = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
 const LONGEST = 15;
 
-/** For all next bits the symbol of their code times 16, and the code's length: by the lengths of all codes. */
+/** For all next bits, 16 times the symbol of the code, plus the code's length; from the lengths of codes. */
 function symbolsOf(lengths) {
   const symbols = new Uint16Array(1 << LONGEST);
   for (let length = 1, code = 0; length <= LONGEST; length++, code <<= 1) {
@@ -30,7 +31,7 @@ function symbolsOf(lengths) {
   return symbols;
 }
 
-/** The bytes, by number, that were compressed. */
+/** The decompressed bytes, given their number. */
 function inflated(bytes, count) {
   const out = new Uint8Array(count);
   let end = 0, at = 0, bits = 0, held = 0;
@@ -56,7 +57,7 @@ function inflated(bytes, count) {
     isLast = take(1);
     const kind = take(2);
     if (kind === 0) {
-      // Bytes as they are, from the next whole one on: `held` bits are read ahead.
+      // Uncompressed bytes, from the next whole byte on: `held` bits are read ahead.
       at -= held >> 3;
       const length = bytes[at] | (bytes[at + 1] << 8);
       out.set(bytes.subarray(at + 4, at + 4 + length), end);
@@ -82,7 +83,7 @@ function fixedCodes() {
   return { literals: symbolsOf(lengths), distances: symbolsOf(new Array(30).fill(5)) };
 }
 
-/** The codes that a block begins with. */
+/** The codes at the beginning of a block. */
 function codes(take, next) {
   const [literals, distances, count] = [take(5) + 257, take(5) + 1, take(4) + 4];
   const first = new Array(19).fill(0);

@@ -2,7 +2,7 @@
 //!
 //! The script decides like the library, on the same grid: a plane goes through three grid points, and an eye
 //! is rounded to the grid. Floats decide the eye's side of most planes, with an error bound; integers decide
-//! the rest. So script and library have the same order for the same eye, wherever it is.
+//! the rest. So script and library have the same order for the same eye, wherever the eye is.
 
 mod arrays;
 mod data;

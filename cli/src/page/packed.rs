@@ -1,4 +1,4 @@
-//! Arrays of numbers in a page: little-endian, in the minimal number of bytes for their largest number,
+//! Arrays of numbers in a page: little-endian, in the minimal number of bytes for the largest number,
 //! compressed, in base64.
 
 use base64::Engine;

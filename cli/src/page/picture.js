@@ -1,8 +1,8 @@
-// The picture: fragments are filled pixel by pixel, one after the other, each over those before it. A pixel
-// belongs to the fragment on whose side of an edge its centre is, so fragments that share an edge leave no
-// seam, as they would where a canvas smooths the edges of each.
+// The picture: fragments are filled pixel by pixel, one after the other, each over the earlier ones. If two
+// fragments share an edge, a pixel belongs to the fragment that contains the pixel's centre. So there is no
+// seam, unlike on a canvas that smooths the edges of each fragment.
 
-/** What is nearer to the eye than this, in units of the page, is not drawn. */
+/** The distance of the near plane from the eye, in units of the page. Nothing nearer is drawn. */
 const NEAR = 1e-5;
 
 /** The pixels of a picture, each in four bytes: red, green, blue, opacity. */
@@ -12,7 +12,7 @@ function pictureOf(width, height) {
     width, height, image,
     pixels: new Uint32Array(image.data.buffer),
     lineWidth: 1,
-    // Of each row, the column of the edge that crosses it downwards, and of that which does so upwards.
+    // For each row, the column of the edge that crosses it downwards, and of the edge that crosses it upwards.
     downwards: new Int32Array(height),
     upwards: new Int32Array(height),
   };
@@ -20,7 +20,7 @@ function pictureOf(width, height) {
 
 const packed = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 
-/** Directions to the right, up and forward of a camera, and where its eye is. */
+/** Directions to the right, up and forward of a camera, and the position of the camera's eye. */
 function axesOf({ base: [a, b, up], yaw, pitch, target, distance }) {
   const across = [0, 1, 2].map(i => Math.cos(yaw) * a[i] + Math.sin(yaw) * b[i]);
   const right = [0, 1, 2].map(i => Math.sin(yaw) * a[i] - Math.cos(yaw) * b[i]);
@@ -30,13 +30,13 @@ function axesOf({ base: [a, b, up], yaw, pitch, target, distance }) {
   return { right, up: upwards, forward, eye };
 }
 
-/** The camera's viewpoint, as orders take it. */
+/** The camera's viewpoint, for orders. */
 function viewpointOf(tree, camera) {
   const { eye, forward } = axesOf(camera);
   return camera.isParallel ? eyeTowards(forward) : eyeAt(tree, eye);
 }
 
-/** Pixels a unit of slope, or, of a parallel view, a unit of length. */
+/** Pixels per unit of slope or, in a parallel view, per unit of length. */
 function scaleOf(camera, { width, height }) {
   // A picture of any other shape shows everything that a 16:9 picture shows.
   const slope = camera.slope * Math.max(1, (16 / 9) * height / width);
@@ -46,7 +46,7 @@ function scaleOf(camera, { width, height }) {
 /**
  * All vertices as the camera sees them: `xs` and `ys` in pixels from the middle times the depth `zs`, which
  * is 1 in a parallel view; `columns` and `rows` in pixels; and by the bits of `outside` the sides of the
- * picture that each is beyond.
+ * picture that the vertex is beyond.
  */
 function project(tree, camera, { width, height }) {
   const { right, up, forward, eye } = axesOf(camera);
@@ -74,7 +74,7 @@ function project(tree, camera, { width, height }) {
 
 /**
  * Brightness of planes: lit over the camera's left shoulder, so that walls, floor and back of a room differ,
- * and faintly from everywhere. It is the same for all fragments in a plane: cuts and triangles do not show.
+ * and faintly from everywhere. All fragments in a plane are equally bright: cuts and triangles do not show.
  */
 function shade({ nx, ny, nz, lengths, shades }, { right, up, forward }) {
   const [x, y, z] = forward.map((c, i) => 0.8 * c + 0.33 * right[i] - 0.5 * up[i]);
@@ -85,9 +85,9 @@ function shade({ nx, ny, nz, lengths, shades }, { right, up, forward }) {
 
 /**
  * Paints the first `count` fragments, back to front. `style` has the colour of each fragment as three
- * numbers of `colours`, and whether they are shaded; `opacities`; the background; the colours of lines
- * (`edges`, `cuts`, and of the `last` fragment), which are drawn if there is one; and whether backs are
- * left out. Returns how many fragments were filled.
+ * numbers of `colours`, and whether colours are shaded; `opacities`; the background; the colours of lines
+ * (`edges`, `cuts`, and of the `last` fragment), each drawn only if given; and whether backs are
+ * left out. Returns the number of fragments filled.
  */
 function paint(tree, camera, picture, style, count) {
   const order = backToFront(tree, viewpointOf(tree, camera));
@@ -118,7 +118,7 @@ function colourOf(colours, fragment, share) {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-// The outline that is being drawn: corners in pixels, and of each edge to the next corner its kind.
+// The outline that is being drawn: corners in pixels, and the kind of the edge from each corner to the next.
 const OUTLINE = { x: [0.5], y: [0.5], kinds: [0], length: 0 };
 const INNER = 2;
 
@@ -129,7 +129,7 @@ function addCorner(x, y, kind) {
   OUTLINE.kinds[i] = kind;
 }
 
-/** The outline of a fragment in pixels, cut off near the eye; `null` if it is out of view. */
+/** The outline of a fragment in pixels, cut off near the eye; `null` if the fragment is out of view. */
 function outlineOf(tree, fragment, picture) {
   const { columns, rows, outside, corners, edgeKinds } = tree;
   const first = tree.cornerStarts[fragment], end = tree.cornerStarts[fragment + 1];
@@ -149,7 +149,7 @@ function outlineOf(tree, fragment, picture) {
   return OUTLINE;
 }
 
-/** Adds what of an outline is not too near to the eye. */
+/** Adds the part of an outline that is not too near to the eye. */
 function clipNear({ xs, ys, zs, corners, edgeKinds }, { width, height }, first, end) {
   const add = (x, y, z, kind) => addCorner(width / 2 + x / z, height / 2 + y / z, kind);
   for (let i = first; i < end; i++) {
@@ -170,7 +170,7 @@ function fill({ width, height, pixels, downwards, upwards }, { x, y, length }, c
   for (let i = 0; i < length; i++) {
     const j = i + 1 < length ? i + 1 : 0;
     const isDown = y[i] < y[j];
-    // From the upper end, so that both fragments beside an edge find the same pixels.
+    // Starts at the upper end, so that the two fragments beside an edge find the same pixels.
     const a = isDown ? i : j, b = isDown ? j : i;
     const ax = x[a], ay = y[a] - 0.5, by = y[b] - 0.5;
     const first = Math.max(0, Math.ceil(ay)), end = Math.min(height, Math.ceil(by));
@@ -217,7 +217,7 @@ function drawEdges(picture, { x, y, kinds, length }, colours) {
   }
 }
 
-/** Draws a line, a pixel wide, or more in a picture that is to be made smaller. */
+/** Draws a line, one pixel wide, or wider in a picture that is reduced afterwards. */
 function drawLine({ width, height, pixels, lineWidth }, ax, ay, bx, by, colour) {
   const isSteep = Math.abs(by - ay) > Math.abs(bx - ax);
   // A pixel in each step of the longer way, whose ends are m, with the other coordinate n.

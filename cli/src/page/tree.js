@@ -1,7 +1,7 @@
 "use strict";
-// The tree: the arrays of the page, and the order in which fragments are painted. Decisions are those of
-// the library, bit for bit: planes go through three points of its grid, eyes are rounded to that grid, and
-// what floats cannot tell, integers do.
+// The tree: the arrays of the page, and the order in which fragments are painted. All decisions equal the
+// library's, bit for bit: planes go through three points of the tree's grid, eyes are rounded to that grid,
+// and integers decide where floats cannot.
 
 const ARRAYS = {
   u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array,
@@ -22,14 +22,14 @@ function unpacked({ kind, bytes, base64 }) {
   return numbers;
 }
 
-/** Where each run begins in a list of runs, by their lengths; and where the last one ends. */
+/** The beginning of each run in a list of runs, given the lengths of runs; and the end of the last run. */
 function starts(lengths) {
   const sums = new Uint32Array(lengths.length + 1);
   for (let i = 0; i < lengths.length; i++) sums[i + 1] = sums[i] + lengths[i];
   return sums;
 }
 
-/** The tree of a page, by its data. */
+/** The tree of a page, from the page's data. */
 function treeOf(data) {
   const arrays = Object.fromEntries(
     Object.entries(data.arrays).map(([name, array]) => [name, unpacked(array)]));
@@ -37,7 +37,7 @@ function treeOf(data) {
   const tree = { ...arrays, steps, nodePlaneCount, cornerStarts: starts(arrays.cornerCounts) };
   tree.polygons = Uint32Array.from(arrays.fragmentFaces, face => arrays.faces[2 * face]);
   tree.fragmentPlanes = Uint32Array.from(arrays.fragmentFaces, face => arrays.faces[2 * face + 1]);
-  // Corners count back from the first vertex that none before has.
+  // Corners are counted back from the first vertex that no earlier corner has.
   let vertices = 0;
   tree.corners = Uint32Array.from(arrays.corners, back => (back ? vertices - back : vertices++));
   tree.fragments = arrays.cornerCounts.length;
@@ -48,7 +48,7 @@ function treeOf(data) {
   return tree;
 }
 
-/** Three points of the grid on a plane, counter-clockwise seen from its front. */
+/** Three points of the grid on a plane, counter-clockwise seen from the plane's front. */
 function pointsOf({ points, planePoints }, plane) {
   const [p, q, r] = planePoints.subarray(3 * plane, 3 * plane + 3);
   const point = i => points.subarray(3 * i, 3 * i + 3);
@@ -59,13 +59,13 @@ function pointsOf({ points, planePoints }, plane) {
 }
 
 /**
- * The planes in floats: a normal, its length, the product of the normal and a point on the plane, and the
- * error bound of the eye's distance, which is `bounds` times the eye's largest coordinate plus
+ * The planes in floats: a normal, the normal's length, the product of the normal and a point on the plane,
+ * and the error bound of the eye's distance, which is `bounds` times the eye's largest coordinate plus
  * `offsetBounds`.
  *
  * With u = 2^-53: coordinates and their differences are exact. A component of the normal is off by 2u of
- * the two products |a| + |b| that it is made of, and products with a point and sums by 4u more: 6u of
- * (|a| + |b|) times the coordinate, summed over the axes. The bound takes 10u.
+ * its two products |a| + |b|. Products with a point, and sums, are off by 4u more: 6u of (|a| + |b|) times
+ * the coordinate, summed over the axes. The bound uses 10u.
  */
 function addPlanes(tree) {
   const count = tree.planePoints.length / 3;
@@ -90,7 +90,7 @@ function addPlanes(tree) {
   }
 }
 
-/** The sizes of subtrees, where each begins in an order, and the depth of each fragment's node. */
+/** The size of each subtree, the subtree's place in an order, and the depth of each fragment's node. */
 function addSizes(tree) {
   const { nodes, own, frontLeaf, backLeaf, frontNode, backNode } = tree;
   tree.inFront = new Uint32Array(nodes);
@@ -99,7 +99,7 @@ function addSizes(tree) {
   tree.firsts = new Uint32Array(nodes);
   tree.depths = new Uint32Array(tree.fragments);
   const all = i => tree.inFront[i] + own[i] + tree.behind[i];
-  // Nodes are stored depth first: children come after their parents.
+  // Nodes are stored depth first: children come after parents.
   for (let i = nodes - 1; i >= 0; i--) {
     tree.inFront[i] = frontNode[i] ? all(frontNode[i]) : frontLeaf[i];
     tree.behind[i] = backNode[i] ? all(backNode[i]) : backLeaf[i];
@@ -125,13 +125,13 @@ function addRoom(tree) {
   for (const name of ["xs", "ys", "zs", "columns", "rows"]) tree[name] = new Float64Array(count);
 }
 
-/** The nearest integer; of two, the one further from 0. */
+/** The nearest integer; of two nearest integers, the integer further from 0. */
 function rounded(x) {
   const whole = Math.trunc(x);
   return Math.abs(x - whole) < 0.5 ? whole : whole + Math.sign(x);
 }
 
-/** An eye at a point, in units of the page, on the grid. It may be up to 512 units away. */
+/** An eye at a point, in units of the page, on the grid. The point may be up to 512 units away. */
 function eyeAt(tree, point) {
   return { at: point.map(c => rounded(c * tree.steps)), w: 1 };
 }
@@ -146,8 +146,8 @@ function eyeTowards(direction) {
 }
 
 /**
- * Sets `distances`, of the eye from each plane times the length of its normal, rounded; and `signs` of the
- * planes of nodes, whether the eye is in front, exactly.
+ * Sets `distances`: for each plane the rounded distance of the eye, times the length of the plane's normal.
+ * Sets `signs`: for each plane of a node whether the eye is in front, exactly.
  */
 function compare(tree, { at, w }) {
   const { nx, ny, nz, offsets, bounds, offsetBounds, distances, signs } = tree;
@@ -158,15 +158,15 @@ function compare(tree, { at, w }) {
     const distance = nx[k] * x + ny[k] * y + nz[k] * z - w * offsets[k];
     distances[k] = distance;
     const isSure = Math.abs(distance) > bounds[k] * largest + w * offsetBounds[k];
-    // Planes of fragments alone come behind those of nodes: they decide no order.
+    // Planes that belong only to fragments come after the planes of nodes, and decide no order.
     if (isSure || k >= tree.nodePlaneCount) signs[k] = distance > 0;
     else signs[k] = isInFront(tree, k, integers, w);
   }
 }
 
 /**
- * Whether the eye is in front of a plane, by integers. An eye on the plane is behind it; of one at infinity
- * along the plane, the side counts on which the middle of the grid is. So it is in the library.
+ * Whether the eye is in front of a plane, by integers. An eye on the plane counts as behind. For an eye at
+ * infinity along the plane, the side of the grid's middle counts. The library has the same rule.
  */
 function isInFront(tree, plane, [x, y, z], w) {
   const { n, offset } = (tree.exactPlanes[plane] ??= exactPlane(tree, plane));
@@ -185,8 +185,8 @@ function exactPlane(tree, plane) {
 }
 
 /**
- * The fragments, back to front, in `tree.order`: no recursion and no stack. As the sizes of subtrees are
- * known, so are the places of both sides of a node before they are walked.
+ * The fragments, back to front, in `tree.order`: no recursion and no stack. The sizes of subtrees are known,
+ * so the places of a node's two sides in the order are known before these sides are walked.
  */
 function backToFront(tree, eye) {
   compare(tree, eye);

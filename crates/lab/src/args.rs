@@ -23,8 +23,8 @@ pub(crate) enum Command {
 
 /// Write the subjects of a course on visibility as one page
 ///
-/// The page has pictures, graphs and short texts in the order of a course. It is one HTML file that needs no
-/// network. All figures come from the run, which takes less than half a minute on two processors.
+/// The page has pictures, graphs and short texts in the order of a course. The page is one HTML file that
+/// needs no network. All figures come from the run, which takes less than half a minute on two processors.
 #[derive(Args, Debug)]
 #[command(after_help = LECTURE)]
 pub(crate) struct LectureArgs {
@@ -35,12 +35,12 @@ pub(crate) struct LectureArgs {
 
 /// Compare the speed and the errors of methods to decide visibility
 ///
-/// The methods are trees with exact and with rounded decisions, Newell's algorithm, sorted centroids
-/// and depth buffers. They paint families of scenes that become harder step by step, and the scenes
-/// that you name. Each pixel, vertex and piece is compared with an exact result. Writes report.md,
-/// plots as SVG, and figures as CSV; errors.csv is the same for the same seed on any machine. If the
-/// command is interrupted, the results so far are kept. The exit status is 1 if the exact tree is
-/// wrong anywhere, or is too large to be built.
+/// The methods are trees with exact and with rounded decisions, Newell's algorithm, sorted centroids and
+/// depth buffers. The methods paint families of scenes that become harder step by step, and the scenes that
+/// you name. Each pixel, vertex and piece is compared with an exact result. Writes report.md, plots as SVG,
+/// and figures as CSV; errors.csv is the same for the same seed on any machine. If the command is
+/// interrupted, the results so far are kept. The exit status is 1 if the exact tree is wrong anywhere, or is
+/// too large to be built.
 #[derive(Args, Debug)]
 #[command(after_help = REPORT)]
 pub(crate) struct ReportArgs {

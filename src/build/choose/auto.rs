@@ -13,7 +13,7 @@ use crate::build::piece::{Division, Piece};
 use crate::exact::{PlaneId, Side};
 use crate::progress::PIECES_AT_ONCE;
 
-/// Chooses by the default heuristic; its lists are reused.
+/// Chooses by the default heuristic, with reused lists.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
     pub(super) free: FreePlanes,
@@ -68,7 +68,7 @@ impl Auto {
         }
     }
 
-    /// Returns the plane on which all pieces lie, if it is the plane of a large piece. A single piece has
+    /// Returns the plane on which all pieces lie, if a large piece defines that plane. A single piece has
     /// such a plane.
     pub(super) fn common_plane(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PlaneId> {
         let sketch = &mut self.sample.sketch;
@@ -149,7 +149,7 @@ impl Auto {
         Ok(better(set, &terms, own, free))
     }
 
-    /// Compares own planes of a large set with a first sample of it.
+    /// Compares own planes of a large set with a first sample of the set.
     fn begin_large(&mut self, set: &Set<'_>, terms: &CostModel, tuning: &Tuning) {
         let count = tuning.few_own_planes;
         self.sample.restart(set, count.next_multiple_of(LANES));
@@ -157,8 +157,8 @@ impl Auto {
     }
 }
 
-/// The plane of one of two pieces, if it does not cut the other: no plane is better, so no search is
-/// needed.
+/// The plane of one of two pieces, if that plane does not cut the other piece. No plane is better, so no
+/// search is needed.
 fn plane_of_pair(set: &Set<'_>) -> Option<PlaneId> {
     [0, 1].into_iter().find_map(|own| {
         let plane = set.own_plane(own);
@@ -219,8 +219,8 @@ mod tests {
         }
     }
 
-    /// The odd piece is so near the plane that single precision cannot decide. It is noticed at every place
-    /// in the set.
+    /// The odd piece is so near the plane that single precision cannot decide. This piece is noticed at every
+    /// place in the set.
     #[test]
     fn one_piece_beside_the_plane_of_all_others_is_noticed() {
         let flat = grid(4, |_| 0.0);

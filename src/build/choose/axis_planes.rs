@@ -22,7 +22,7 @@ const FEWEST_BINS: usize = 64;
 /// first cache.
 const MOST_BINS: usize = 256;
 
-/// Searches for free planes; its lists are reused.
+/// Searches for free planes, with reused lists.
 #[derive(Debug, Default)]
 pub(super) struct FreePlanes {
     bins: Vec<Bin>,
@@ -96,7 +96,7 @@ impl FreePlanes {
     }
 
     /// Searches for the free plane with the lowest cost among the planes that cut nothing. Sorts the set; in
-    /// small sets this takes less time than counting by bins.
+    /// small sets, sorting takes less time than counting by bins.
     pub(super) fn clean(&mut self, set: &Set<'_>, tuning: &Tuning) -> Option<PricedPlane> {
         let mut best: Option<FreePlane> = None;
         let (n, pieces, tolerance) = (set.len(), set.pieces, set.faces.tolerance());
@@ -181,7 +181,7 @@ fn axes(set: &Set<'_>) -> impl Iterator<Item = usize> + use<> {
     axes.into_iter().filter(move |&axis| size[axis] > 0.0)
 }
 
-/// The order of numbers that are not NaN: less work than a total order.
+/// Compares numbers that are not NaN, in less time than `total_cmp`.
 #[inline]
 fn compare(a: &f64, b: &f64) -> Ordering {
     if a < b {
@@ -194,9 +194,9 @@ fn compare(a: &f64, b: &f64) -> Ordering {
 }
 
 /// Returns two coordinates. A piece reaches behind a plane across the axis by more than the tolerance if the
-/// plane's coordinate is above the first. It reaches in front of the plane by more than the tolerance if the
-/// plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two coordinates
-/// are equal.
+/// plane's coordinate is above the first. The piece reaches in front of the plane by more than the tolerance
+/// if the plane's coordinate is below the second. For a piece thinner than twice the tolerance, the two
+/// coordinates are equal.
 #[inline]
 fn span(piece: &Piece, axis: usize, tolerance: f64) -> [f64; 2] {
     let [begin, end] = [piece.min[axis] + tolerance, piece.max[axis] - tolerance];
@@ -246,8 +246,8 @@ struct Bins {
     last: f64,
 }
 
-/// Adding this to a number from 0 to 2³² leaves the nearest integer in the last bits of the sum. That is
-/// faster than a conversion, which would saturate.
+/// Adding this to a number from 0 to 2³² leaves the nearest integer in the last bits of the sum. The addition
+/// is faster than a conversion, which would saturate.
 const TO_INTEGER: f64 = (1_u64 << 52) as f64;
 
 impl Bins {

@@ -122,7 +122,8 @@ impl CostModel {
         Cost { amount: cost.amount - self.reward * share, ..cost }
     }
 
-    /// Returns the cost for comparison with these weights: without its cuts, if cuts are ignored.
+    /// Returns the cost to compare under these weights. Removes the cuts from the cost if the weights ignore
+    /// cuts.
     #[inline]
     pub(super) fn compared(&self, cost: Cost) -> Cost {
         Cost { cuts: cost.cuts && self.prefers_uncut, ..cost }
@@ -138,9 +139,9 @@ pub(super) struct PricedPlane {
 
 /// The estimated work of building a tree of `n` pieces: n^1.25.
 ///
-/// This grows faster than the work of sorting, n·log n, because a larger set is also cut more. Too large an
-/// exponent: scans are cut more for better balance. Too small: planes at the boundary are preferred in sets
-/// where every plane cuts much.
+/// The estimate grows faster than the work of sorting, n·log n, because a larger set is also cut more. Too
+/// large an exponent: scans are cut more for better balance. Too small: planes at the boundary are preferred
+/// in sets where every plane cuts much.
 #[inline]
 pub(super) fn work(n: usize) -> f64 {
     WORK.get(n).copied().unwrap_or_else(|| {

@@ -58,9 +58,9 @@ fn cuts_what_crosses(set: &Set<'_>, own: usize, division: &Division) -> bool {
 }
 
 /// The largest error of a vertex's computed distance from a plane, in units of the `size` of the plane's
-/// rounded normal. The vertex is rounded by less than 1 lattice unit. Its difference from the plane's point
-/// is below 2⁵³ and rounded by ½. The errors of the normal's components add up to 2⁻⁵² of the size, and the
-/// errors of the products and sums add as much again: 4 units.
+/// rounded normal. The vertex is rounded by less than 1 lattice unit. The difference between vertex and
+/// plane's point is below 2⁵³ and rounded by ½. The errors of the normal's components add up to 2⁻⁵² of the
+/// size, and the errors of the products and sums add as much again: 4 units.
 const PLANE_OFF: f64 = 6.0;
 /// The largest error of a coordinate of the difference of two vertices, in lattice units: each vertex is
 /// rounded by less than 1, and the difference by ½.

@@ -89,7 +89,7 @@ impl<'a> PieceSet<'a> {
             .map(move |i| lattice.to_world(cut.map_or(corners[i], |cut| cut[i].position())))
     }
 
-    /// Returns the unit normal of the piece's plane, which points to the front. It equals the
+    /// Returns the unit normal of the piece's plane, which points to the front. This normal equals the
     /// [normal](crate::Fragment::normal) of the piece's fragments. O(1).
     pub fn normal(&self, piece: usize) -> DVec3 {
         let plane = PlaneId::face(self.set.pieces[piece].face);
@@ -99,8 +99,8 @@ impl<'a> PieceSet<'a> {
     /// Returns the side of a plane on which each piece lies, in the order of the pieces' numbers. `None` if
     /// the plane names a piece or axis that does not exist, or a coordinate that is NaN or infinite.
     ///
-    /// These are the sides that the build will use: exact, except for the tolerance. The build uses another
-    /// plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
+    /// The returned sides are those that the build will use: exact, except for the tolerance. The build uses
+    /// another plane only if a larger polygon lies in the plane of a piece, within the tolerance (see
     /// [`Heuristic`](crate::Heuristic)). Takes O(n) time for n vertices. For an axis plane, a binary search
     /// first finds the nearest corner; the first search along an axis sorts all corners.
     pub fn sides(
@@ -148,8 +148,8 @@ impl fmt::Debug for GivenChooser {
 }
 
 impl GivenChooser {
-    /// The plane that the function chooses for a set; `None` if it declines, or names a plane that leaves all
-    /// pieces on one side. Writes the pieces' sides to `division` if the function names a plane.
+    /// The plane that the function chooses for a set; `None` if the function declines, or names a plane that
+    /// leaves all pieces on one side. Writes the pieces' sides to `division` if the function names a plane.
     pub(super) fn plane(
         &self,
         set: &Set<'_>,

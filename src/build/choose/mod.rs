@@ -33,7 +33,7 @@ pub(super) use peel::Peeled;
 pub(super) use set::Set;
 pub use tuning::{FrameTuning, Tuning};
 
-/// Chooses splitters; its lists are reused.
+/// Chooses partition planes, with reused lists.
 #[derive(Debug, Default)]
 pub(super) struct Chooser {
     scored: Scored,

@@ -13,16 +13,16 @@ use crate::progress::{PIECES_AT_ONCE, Watch};
 struct Candidate {
     /// The piece, by its number in the set.
     piece: usize,
-    /// The cost of its plane, estimated from `counts`.
+    /// The cost of the piece's plane, estimated from `counts`.
     cost: Cost,
     /// The share of the set's bounding box that the piece fills, 0 to 1.
     share: f64,
     plane: PackedPlane,
-    /// The numbers of compared pieces in front of its plane, behind it, and across it.
+    /// The numbers of compared pieces in front of the candidate's plane, behind that plane, and across it.
     counts: Counts,
 }
 
-/// The share of its set's bounding box that a piece fills along its two longer sides, 0 to 1.
+/// The share of a set's bounding box that a piece fills along the two axes of its largest share, 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shares {
     /// 1 divided by the size of the box; `None` along axes where the box has no extent.
@@ -52,7 +52,7 @@ pub(super) struct Candidates {
     field: Vec<Candidate>,
     /// The number of groups of packed pieces that the candidates were compared with.
     seen: usize,
-    /// The costs of the candidates, with their places in the field.
+    /// The cost of each candidate, with the candidate's place in the field.
     ranks: Vec<(Cost, u32)>,
     /// The places of the candidates whose planes had all pieces of the first sample on one side. A candidate
     /// had the same place in the initial field and in the packed pieces.
@@ -90,8 +90,8 @@ impl Candidates {
         self.one_sided.extend(found.map(|(place, _)| place));
     }
 
-    /// Returns the places of the candidates whose planes had all pieces of the first sample on one side.
-    /// These are places in the list of packed pieces.
+    /// Returns the places, in the list of packed pieces, of the candidates whose planes had all pieces of the
+    /// first sample on one side.
     pub(super) fn one_sided(&self) -> &[usize] {
         &self.one_sided
     }
@@ -253,8 +253,8 @@ impl Iterator for Spread {
 
 impl ExactSizeIterator for Spread {}
 
-/// Returns a number coprime to `n`, near the golden section of `n`. Its multiples modulo `n` are spread most
-/// evenly.
+/// Returns a number coprime to `n`, near the golden section of `n`. The multiples of this number modulo `n`
+/// are spread most evenly.
 fn coprime(n: usize) -> usize {
     let section = (n as f64 * 0.618_034) as usize;
     (section.max(1)..n.max(2)).find(|&step| gcd(step as u64, n as u64) == 1).unwrap_or(1)

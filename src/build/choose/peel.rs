@@ -8,7 +8,8 @@ use crate::bits::bits;
 use crate::exact::{PlaneId, Side};
 use crate::progress::Watch;
 
-/// Pieces that are separated from a set one after the other. Their planes cut none of the remaining pieces.
+/// Pieces that are separated from a set one after the other. The plane of each piece cuts none of the
+/// remaining pieces.
 #[derive(Debug, Default)]
 pub(crate) struct Peeled {
     layers: Vec<Layer>,
@@ -20,7 +21,7 @@ pub(crate) struct Peeled {
 #[derive(Debug)]
 pub(crate) struct Layer {
     pub(crate) plane: PlaneId,
-    /// The side on which all remaining pieces are.
+    /// The side of the plane on which all remaining pieces lie.
     pub(crate) rest: Side,
     /// The places of the layer's pieces in the list of all layers.
     range: Range<usize>,
@@ -46,7 +47,7 @@ impl Peeled {
 }
 
 /// Finds the pieces of a set whose planes have all remaining pieces on one side. Removes each such piece
-/// before it tries the next. Its lists are reused.
+/// before trying the next. Reuses the search's lists.
 ///
 /// Separating such a piece first never adds a fragment: a tree of the whole set, without the piece and its
 /// plane, is a tree of the remaining pieces with no more fragments. A set in convex position is divided
@@ -61,8 +62,8 @@ pub(super) struct Peeler {
     boxes: Boxes,
     /// For each group of the packed pieces, a bit for each remaining piece.
     left: Vec<u8>,
-    /// The reason why the current piece cannot be separated: a piece in front of its plane and a piece behind
-    /// it, or twice the same piece, which crosses the plane.
+    /// The two pieces that prevent the current piece from being separated: a piece in front of the current
+    /// piece's plane, and a piece behind that plane. A piece that crosses the plane is stored twice.
     witnesses: [u32; 2],
     /// Pieces that are not certainly on one side of the current plane.
     near: Vec<u32>,
@@ -188,7 +189,7 @@ impl Search<'_, '_> {
         (work, true)
     }
 
-    /// Records the remaining pieces of a group that are witnesses against piece `p`, and the pieces near its
+    /// Records the remaining pieces of a group that are witnesses against piece `p`, and the pieces near the
     /// plane.
     #[inline]
     fn see(&mut self, p: usize, plane: &PackedPlane, group: usize) {

@@ -22,7 +22,7 @@ pub(super) struct PackedPieces {
     /// The largest error of a distance, plus the tolerance, in lattice units like all coordinates.
     slack: f32,
     /// The vertices of each group of pieces: the first vertices of all four pieces, then the second vertices,
-    /// and so on. A piece with fewer vertices repeats its last one.
+    /// and so on. A piece with fewer vertices repeats its last vertex.
     rows: Vec<[Vec4; 3]>,
     /// The end of each group's rows.
     ends: Vec<u32>,
@@ -71,10 +71,10 @@ impl PackedPieces {
         self.middle = 0.5 * (min + max);
         let size = (max - self.middle).max(self.middle - min).max_element();
         // In units of u · size, with u = 2⁻²⁴ = ε / 2: the normal adds 2√3 between a vertex and the plane's
-        // point, both in the box. The vertex adds √3, its products √3, their two sums √2 + √3, the offset and
-        // its sum with the slack √3 each. The total is 13.5, less than 7 ε. Vertex and point are off by 1.5
-        // lattice units in each coordinate: 3√3. The tolerance is rounded to `f32` and in two sums, by 3 u of
-        // it, less than 2 ε.
+        // point, both in the box. The vertex adds √3, the three products with the normal √3, the two sums of
+        // these products √2 + √3, the offset √3, and the sum of offset and slack √3. The total is 13.5, less
+        // than 7 ε. Vertex and point are off by 1.5 lattice units in each coordinate: 3√3. The tolerance is
+        // rounded to `f32` and in two sums: 3 u times the tolerance, less than 2 ε times.
         let tolerance = set.faces.tolerance() * (1.0 + 2.0 * f64::from(f32::EPSILON));
         self.slack = size as f32 * 7.0 * f32::EPSILON + 6.0 + tolerance as f32;
     }
@@ -189,8 +189,8 @@ impl PackedPieces {
         PackedBox { middle: 0.5 * (min + max), half: 0.5 * (max - min) }
     }
 
-    /// The side of a plane on which a box certainly lies: 0 in front, 1 behind; `None` if it may reach the
-    /// plane.
+    /// The side of a plane on which a box certainly lies: 0 in front, 1 behind; `None` if the box may reach
+    /// the plane.
     #[inline]
     pub(super) fn side_of_box(&self, plane: &PackedPlane, around: &PackedBox) -> Option<usize> {
         let normal = Vec3::from_array(plane.normal);
@@ -261,7 +261,7 @@ pub(crate) struct Set<'a> {
     pub(in crate::build) faces: &'a Faces,
     pub(in crate::build) pieces: &'a [Piece],
     pub(super) arena: &'a [Vertex],
-    /// The planes of all faces, if they were prepared in advance.
+    /// The planes of all faces, if the planes were prepared in advance.
     pub(in crate::build) planes: &'a [PreparedPlane],
     /// The number of planes that separated the pieces from others.
     pub(in crate::build) depth: usize,
@@ -326,7 +326,7 @@ impl<'a> Set<'a> {
         covered != u64::MAX
     }
 
-    /// The plane of a piece's face, rounded: its unit normal, and a point on it.
+    /// The rounded plane of a piece's face: a unit normal, and a point on the plane.
     #[inline]
     pub(super) fn rounded_plane(&self, piece: usize) -> (Vec3, DVec3) {
         let piece = &self.pieces[piece];
@@ -353,7 +353,7 @@ impl<'a> Set<'a> {
         self.pieces[piece].side(self.faces, prepared, self.arena)
     }
 
-    /// Classifies all pieces against a plane. Returns false if it cuts more than `most` pieces.
+    /// Classifies all pieces against a plane. Returns false if the plane cuts more than `most` pieces.
     pub(in crate::build) fn divide(
         &self,
         plane: PlaneId,

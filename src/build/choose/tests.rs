@@ -91,7 +91,7 @@ fn what_lies_in_one_plane_is_one_node() {
     }
 }
 
-/// The sides of a rotated prism. They are in convex position, and no free plane separates them.
+/// The sides of a rotated prism. These sides are in convex position, and no free plane separates them.
 fn prism(sides: usize) -> Vec<[DVec3; 4]> {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.7);
     let corner = |i: usize, z: f64| {

@@ -65,8 +65,8 @@ fn power<const N: usize>(exponent: u32) -> Int<N> {
     Int::<1>::from_limbs([1]).shifted(exponent)
 }
 
-/// Half-way between two floats, a single lower bit decides. It may be in the limb of the last kept bits, in
-/// the next limb, or in any other.
+/// Half-way between two floats, a single lower bit decides. This bit may be in the limb of the last kept
+/// bits, in the next limb, or in any other.
 #[test]
 fn one_bit_far_below_a_tie_decides() {
     let mut ties = 0;

@@ -24,8 +24,8 @@ pub(super) struct Triangulation {
     pub(super) crosses_itself: bool,
 }
 
-/// Triangulates a polygon that is convex as seen along some axis: a quad along its shorter diagonal, any
-/// other polygon as a fan from its first corner.
+/// Triangulates a polygon that is convex as seen along some axis: a quad along the shorter diagonal, any
+/// other polygon as a fan from the first corner.
 pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
     let diagonal = |a: usize, b: usize| DVec3::from(corners[a]).distance_squared(corners[b].into());
     let triangles = if corners.len() == 4 && diagonal(1, 3) < diagonal(0, 2) {
@@ -42,9 +42,9 @@ pub(super) fn convex(corners: &[[f64; 3]]) -> Triangulation {
 /// projection along another axis has no such fault, that axis is used.
 ///
 /// The triangles cover every point with a winding number other than 0, once. A polygon that crosses itself is
-/// reported, and covered as [`uncross`] describes. If parts of the polygon face both ways and their areas
-/// cancel, `plane`, which must contain three of its corners, replaces the vector area. A polygon that has
-/// area, but no area in the projection, becomes a fan from its first corner.
+/// reported, and covered as [`uncross`] describes. `plane` must contain three of the polygon's corners. It
+/// replaces the vector area if parts of the polygon face both ways and the areas of these parts cancel. A
+/// polygon that has area, but no area in the projection, becomes a fan from its first corner.
 pub(super) fn any(
     corners: &[[f64; 3]],
     plane: &Plane,
@@ -217,10 +217,10 @@ fn rejoined(points: &[Point], [first, second]: [Edge; 2]) -> [Edge; 2] {
     let end = |edge: &Edge, end: usize| (edge.corners[end], edge.ends[end]);
     let [a, b] = [0, 1].map(|k| end(&first, k));
     let [c, d] = [0, 1].map(|k| end(&second, k));
-    // The crossing and the four ends form four triangles, and each move changes the inside of two of them.
-    // The crossing is at t between a and b, and at u between c and d. As shares of all four triangles, the
-    // changed areas are t·u + (1 − t)(1 − u) and t(1 − u) + u(1 − t). The first area is smaller if exactly
-    // one of t and u is below 1/2.
+    // The crossing and the four ends form four triangles, and each move changes the inside of two of these
+    // triangles. The crossing is at t between a and b, and at u between c and d. As shares of all four
+    // triangles, the changed areas are t·u + (1 − t)(1 − u) and t(1 − u) + u(1 − t). The first area is
+    // smaller if exactly one of t and u is below 1/2.
     if nearer_to_low(&first, &second) == nearer_to_low(&second, &first) {
         [Edge::between(a, d), Edge::between(c, b)]
     } else {

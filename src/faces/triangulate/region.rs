@@ -1,6 +1,6 @@
-//! The regions between edges, triangulated while a sweep passes over them. The sweep divides each region
-//! into monotone polygons (Lee and Preparata, “Location of a point in a planar subdivision”, 1977), and
-//! these are triangulated as they grow (Garey, Johnson, Preparata and Tarjan, “Triangulating a simple
+//! The regions between edges, triangulated while a sweep passes over them. The sweep divides each region into
+//! monotone polygons (Lee and Preparata, “Location of a point in a planar subdivision”, 1977), and these
+//! polygons are triangulated as they grow (Garey, Johnson, Preparata and Tarjan, “Triangulating a simple
 //! polygon”, 1978).
 
 use std::cmp::Ordering;
@@ -43,7 +43,7 @@ impl Region {
         self.0.into_iter().for_each(|chain| chain.close(vertex, triangles));
     }
 
-    /// Divides the region at a point where edges begin within it. The point's corner may differ
+    /// Divides the region at a point inside the region where edges begin. The point's corner may differ
     /// between the part below and the part above.
     pub(super) fn split(
         mut self,
@@ -81,8 +81,8 @@ pub(super) enum ChainSide {
     Upper,
 }
 
-/// The part of a monotone polygon that the sweep has passed and no triangle covers yet: a chain of points on
-/// one side that turn inwards. The first point lies on the other side as well.
+/// The part of a monotone polygon that the sweep has passed, but that no triangle covers yet: a chain of
+/// points on one side that turn inwards. The first point lies on the other side as well.
 #[derive(Debug)]
 struct Chain {
     stack: Vec<Vertex>,
@@ -116,7 +116,7 @@ impl Chain {
         self.fan(vertex, triangles);
     }
 
-    /// Cuts triangles off between a new point and the points of the same side that it sees.
+    /// Cuts triangles off between a new point and the visible points of the same side.
     fn cut_corners(&mut self, vertex: Vertex, triangles: &mut Triangles) {
         let outwards = match self.side {
             ChainSide::Lower => Ordering::Greater,

@@ -37,7 +37,7 @@ pub(super) const NONE: u32 = u32::MAX;
 /// A straight part of the outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Edge {
-    /// The points at its ends, in the order of the sweep.
+    /// The points at the edge's ends, in the order of the sweep.
     pub(super) ends: [u32; 2],
     /// The polygon's corners at these ends; [`NONE`] where the outline continues straight.
     pub(super) corners: [u32; 2],
@@ -47,7 +47,8 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// An edge between two corners, each given by its number and its point.
+    /// An edge between two corners. Each corner is a pair: the corner's number, and the number of the point
+    /// at the corner.
     pub(super) fn between(from: (u32, u32), to: (u32, u32)) -> Self {
         let (low, high, weight) = if from.1 < to.1 { (from, to, 1) } else { (to, from, -1) };
         Self { ends: [low.1, high.1], corners: [low.0, high.0], weight }
@@ -83,19 +84,19 @@ pub(super) enum Rule {
 
 /// A sweep over the points of an outline.
 ///
-/// Allocations of its lists are not checked. Edges that overlap are merged, so `n` edges and `n` points have
-/// O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). Some megabytes
-/// suffice for an outline of 20 000 random corners; an outline with the largest allowed number of corners
-/// takes a gigabyte.
+/// Allocations of the sweep's lists are not checked. Edges that overlap are merged, so `n` edges and `n`
+/// points have O(n^(4/3)) parts (Szemerédi and Trotter, “Extremal problems in discrete geometry”, 1983). Some
+/// megabytes suffice for an outline of 20 000 random corners; an outline with the largest allowed number of
+/// corners takes a gigabyte.
 pub(super) struct Sweep<'a> {
     outline: &'a Outline,
     rule: Rule,
     line: SweepLine,
-    /// The edges that are or were on the line.
+    /// The edges that are, or were, on the sweep line.
     edges: Vec<SweptEdge>,
     /// The edges that the sweep has not met yet, each with the next edge that begins at the same point.
     waiting: Vec<(Edge, u32)>,
-    /// For each point, the last edge that waits for it: the head of a list in `waiting`.
+    /// For each point, the last edge that waits for the point: the head of a list in `waiting`.
     heads: Vec<u32>,
     /// For each point, the number of edges on the line that end at the point.
     arriving: Vec<u32>,
@@ -105,7 +106,8 @@ pub(super) struct Sweep<'a> {
     unmerged: Vec<Edge>,
     /// The edges that the current point ends or divides.
     ended: Vec<u32>,
-    /// Pairs of edges that cross. They are no longer on the line, and `triangles` is incomplete.
+    /// Pairs of edges that cross. These edges are no longer on the line. If there are any, `triangles` is
+    /// incomplete.
     pub(super) crossings: Vec<[Edge; 2]>,
     /// The triangles of the inside, counter-clockwise.
     pub(super) triangles: Triangles,
@@ -115,7 +117,7 @@ pub(super) struct Sweep<'a> {
     steps: usize,
 }
 
-/// An edge on the line, and the region above it.
+/// An edge on the sweep line, and the region above the edge.
 struct SweptEdge {
     edge: Edge,
     /// The winding number of the region up to the next edge.
@@ -123,9 +125,9 @@ struct SweptEdge {
     region: Region,
 }
 
-/// Search budget: the sweep gives up when edges have been divided into more than this many parts per edge
-/// of the polygon. This happens to outlines that pass through the same points many times. Too small: such
-/// outlines are treated as if they crossed themselves. Too large: they take time and memory.
+/// Search budget: the sweep gives up when edges have been divided into more than this many parts per edge of
+/// the polygon. Outlines that pass through the same points many times have so many parts. Too small: such
+/// outlines are treated as if they crossed themselves. Too large: such outlines take time and memory.
 const MOST_PARTS: usize = 8;
 
 impl<'a> Sweep<'a> {
@@ -153,8 +155,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// Sweeps over all points. Returns `None` if there are too many parts, or if edges cross and the rule
-    /// does not allow it. If the rule allows it, edges that cross are removed from the line when their
-    /// crossing is found.
+    /// does not allow crossings. If the rule allows crossings, two edges that cross are removed from the line
+    /// when the crossing is found.
     pub(super) fn run(mut self, watch: &Watch<'_>) -> Result<Option<Self>, Error> {
         let most = self.waiting.len() * MOST_PARTS;
         for point in 0..self.outline.points.len() as u32 {
@@ -224,7 +226,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The place on the line of the first edge above a point. Unless `above_all` is set, edges through the
-    /// point count as above it.
+    /// point count as above the point.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -308,8 +310,8 @@ impl<'a> Sweep<'a> {
         kept
     }
 
-    /// Adds a point to the regions around it, and inserts the edges that begin at the point between these
-    /// regions.
+    /// Adds a point to the regions around the point, and inserts the edges that begin at the point between
+    /// these regions.
     fn begin_all(&mut self, point: u32, below: u32) {
         let mut winding = self.edges.get(below as usize).map_or(0, |swept| swept.winding);
         // Once edges have left the line, regions are no longer known.
@@ -343,8 +345,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Adds a point to the regions around it. Returns the remaining regions below and above the edges that
-    /// begin at the point.
+    /// Adds a point to the regions around the point. Returns the remaining regions below and above the edges
+    /// that begin at the point.
     fn regions(&mut self, point: u32, below: u32) -> [Region; 2] {
         let ends = [self.starting.first(), self.starting.last()];
         let [first, last] = ends.map(|edge| edge.map_or(NONE, |edge| edge.corners[0]));
@@ -371,7 +373,7 @@ impl<'a> Sweep<'a> {
         [low, region.add(vertex, ChainSide::Lower, &mut self.triangles)]
     }
 
-    /// Removes the region above an edge, and returns it with its winding number.
+    /// Removes the region above an edge, and returns the region and its winding number.
     fn take(&mut self, edge: u32) -> (i32, Region) {
         let swept = self.edges.get_mut(edge as usize);
         swept.map_or_else(Default::default, |s| (s.winding, std::mem::take(&mut s.region)))
@@ -391,7 +393,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Removes neighbours that cross from the line: first below the edges through a point, and then above
-    /// them. After each removal, the new neighbours are tested too.
+    /// these edges. After each removal, the new neighbours are tested too.
     fn remove_crossings(&mut self, point: u32) {
         for above_all in [false, true] {
             loop {
@@ -412,8 +414,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether two edges on the line, one above the other, cross before either ends. In this case the edge
-    /// that ends first ends on the wrong side of the other edge.
+    /// Whether two edges on the sweep line, one above the other, cross before one of them ends. In this case
+    /// the edge that ends first ends on the wrong side of the other edge.
     fn cross(&self, low: u32, high: u32) -> bool {
         if low == NONE || high == NONE {
             return false;
@@ -441,7 +443,7 @@ impl SweepLine {
     /// The largest size of a block. Too small: there are many blocks. Too large: many edges are moved.
     const MOST: usize = 512;
 
-    /// The place after all edges that are below; these edges are first in the list.
+    /// The place after all edges for which `is_below` holds; these edges are first in the list.
     fn find(&self, mut is_below: impl FnMut(u32) -> bool) -> Place {
         let block = self.blocks.partition_point(|block| is_below(block[0])).saturating_sub(1);
         let edges = self.blocks.get(block).map_or(&[][..], |block| block);

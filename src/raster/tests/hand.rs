@@ -56,7 +56,7 @@ fn two_triangles() -> Faces {
 fn the_nearer_wins_pixel_by_pixel() {
     let faces = two_triangles();
     let depth = zbuffer(&rays(&faces), &faces);
-    // B is nearer where x < 1: in column 0, whose centres are at x = ½. It covers the pixels above the
+    // B is nearer where x < 1: in column 0, whose centres are at x = ½. B covers the pixels above the
     // diagonal. Pixels on the diagonal belong to the face on their right: to A, except in the corner.
     assert_eq!(drawn(depth.image().faces()), "BAAAAA BAAAAA BAAAAA BAAAAA BAAAAA AAAAAA");
     let depths: Vec<f64> = depth.depths().collect();

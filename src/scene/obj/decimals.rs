@@ -40,7 +40,7 @@ pub struct Decimals {
     /// The number of long numbers, and the number of these that are `f32` up to their written digits.
     long: usize,
     long_of_f32: usize,
-    /// The largest number, by its size.
+    /// The largest magnitude of a number.
     largest: f64,
 }
 
@@ -56,7 +56,7 @@ struct Digits {
 }
 
 impl Digits {
-    /// The digits of a number; `None` if it is 0.
+    /// The digits of a number; `None` if the number is 0.
     fn of(number: &str) -> Option<Self> {
         let (mantissa, exponent) = match number.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),

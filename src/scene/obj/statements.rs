@@ -23,7 +23,7 @@ pub(super) enum Statement<'a> {
     Vertex(DVec3),
     TextureCoordinates,
     Normal,
-    /// A face: the numbers of its vertices, counted from 0, its material number, and its line.
+    /// A face: the numbers of the vertices, counted from 0, the material's number, and the line.
     Face {
         corners: &'a [usize],
         material: u32,
@@ -41,7 +41,7 @@ pub(super) struct Place {
 /// Names as bytes, numbered in the order of their first mention.
 type Names = HashMap<Vec<u8>, u32>;
 
-/// The contents of a file besides its statements.
+/// The contents of a file besides vertices and faces.
 #[derive(Default)]
 pub(super) struct Contents {
     pub(super) report: ObjReport,
@@ -50,7 +50,7 @@ pub(super) struct Contents {
     libraries: Names,
     /// The materials that faces use; the name is empty if the file sets no material.
     materials: Names,
-    /// The name of the material in use, and its number once a face has used it.
+    /// The name of the material in use, and the material's number, assigned at the first use by a face.
     material: (Vec<u8>, Option<u32>),
     /// The largest number, counted from 1, of a vertex that a face names, and the place of that face.
     highest: (usize, Place),
@@ -147,7 +147,7 @@ impl Contents {
         Ok(vertex.into())
     }
 
-    /// Reads the corners of a face; returns the number of its material.
+    /// Reads the corners of a face; returns the number of the face's material.
     fn face<'a>(
         &mut self,
         words: impl Iterator<Item = &'a str>,
@@ -198,7 +198,7 @@ impl Contents {
     }
 }
 
-/// The number of a name, assigned at its first mention.
+/// The number of a name, assigned at the name's first mention.
 fn number(names: &mut Names, name: &[u8]) -> u32 {
     // There are no more names than lines, and no more materials than faces.
     let next = names.len() as u32;
@@ -272,14 +272,14 @@ const MARKS: [(&[u8], &str); 4] = [
     (b"\xfe\xff", "UTF-16"),
 ];
 
-/// The lines of a text. They end in LF, CR LF or CR; a line that is no comment and ends in a backslash is
-/// joined with the next by a space.
+/// The lines of a text. Lines end in LF, CR LF or CR. A line that is not a comment and ends in a backslash is
+/// joined with the next line by a space.
 pub(super) struct Lines<R> {
     input: Bytes<BufReader<R>>,
     pub(super) line: Vec<u8>,
     /// The number of line ends read.
     ends: usize,
-    /// Whether the last byte was CR: a LF that follows belongs to it.
+    /// Whether the last byte was CR: a LF that follows is part of the same line end.
     is_after_cr: bool,
 }
 
@@ -289,8 +289,8 @@ impl<R: Read> Lines<R> {
         Self { input, line: Vec::new(), ends: 0, is_after_cr: false }
     }
 
-    /// Reads the next line; returns its number, counted from 1, or for joined lines the number of the first.
-    /// `None` at the end.
+    /// Reads the next line; returns the line's number, counted from 1. Joined lines have the number of the
+    /// first line. `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<usize>, Problem> {
         self.line.clear();
         let is_there = self.append()?;

@@ -16,8 +16,8 @@ use glam::DVec3;
 /// The allowed addition to the tolerance for rounded corners, in lattice units.
 const ROUNDED_CORNERS: f64 = 4.0;
 
-/// The plane between two fragments, and the side of each fragment. Both are found from the ranges of all
-/// nodes.
+/// The plane between two fragments, and the side of each fragment. The plane and the sides are found from the
+/// ranges of all nodes.
 fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
     let mut parting = tree.nodes().filter_map(|node| {
         let side = |f: u32| {
@@ -37,8 +37,8 @@ fn parting(tree: &BspTree, a: u32, b: u32) -> Option<(PlaneId, [Ordering; 2])> {
 }
 
 /// The rule of the tolerance, exactly. A ray meets the nearer of two fragments within the tolerance of the
-/// plane between them. It also meets the other fragment, or starts, within the tolerance of that plane. And
-/// it meets one of the two fragments on the wrong side of that plane, or off that plane.
+/// plane between them. The ray also meets the other fragment, or starts, within the tolerance of that plane.
+/// And the ray meets one of the two fragments on the wrong side of that plane, or off that plane.
 fn is_excused(tree: &BspTree, rays: &Rays, [near, far]: [u32; 2], pixel: [u32; 2]) -> bool {
     let faces = tree.faces();
     let [near_face, far_face] = [near, far].map(|id| tree.fragment(id).face());

@@ -15,8 +15,8 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// An axis for these positive values, with at most nine ticks. It ends at decades. If at most two decades
-    /// contain all values, it ends at steps of 1, 2 and 5.
+    /// An axis for these positive values, with at most nine ticks. The axis ends at decades. If at most two
+    /// decades contain all values, the axis ends at steps of 1, 2 and 5.
     pub(super) fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = bounds(values.map(f64::log10)).unwrap_or((0.0, 1.0));
         // A value that exceeds a decade only by rounding does not add another decade.

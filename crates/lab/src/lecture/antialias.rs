@@ -13,7 +13,7 @@ use super::chapter::{Chapter, Picture, percent};
 use crate::chart::{Chart, Marker, Series, Style};
 use binspace_cli::failure::Failure;
 
-/// Pictures are computed small and shown enlarged, so that pixels are visible.
+/// The size of pictures, which are computed small and shown enlarged, so that pixels are visible.
 const SIZE: [u32; 2] = [80, 60];
 const ENLARGED: u32 = 4;
 const PAPER: Colour = [1.0; 3];
@@ -22,12 +22,13 @@ const SIDES: [u32; 4] = [1, 2, 4, 8];
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A pixel is a square, not a point. Its colour should be the mean of the surfaces that are visible in \
-         it. One ray per pixel gives steps along edges, and misses details thinner than a pixel. The \
-         visibility map of the tree consists of convex cells between exact lines. If the cells are clipped \
-         to a pixel, the areas of their parts are the weights of the mean (Catmull, A hidden-surface \
-         algorithm with anti-aliasing, 1978). Several rays per pixel approximate the mean. Carpenter's \
-         A-buffer (1984) stores a mask of such samples for each piece.",
+        "A pixel is a square, not a point. The colour of a pixel should be the mean of the surfaces \
+         that are visible in the pixel. One ray per pixel gives steps along edges, and misses details \
+         thinner than a pixel. The visibility map of the tree consists of convex cells between exact \
+         lines. If the cells are clipped to a pixel, the areas of their parts are the weights of the \
+         mean (Catmull, A hidden-surface algorithm with anti-aliasing, 1978). Several rays per pixel \
+         approximate the mean. Carpenter's A-buffer (1984) stores a mask of such samples for each \
+         piece.",
     );
     let scene = scene::crossing(9);
     let tree = tree_of(&scene)?;
@@ -145,16 +146,17 @@ fn seams(chapter: &mut Chapter, tree: &BspTree, camera: &Camera) -> Result<(), F
     let [seamed, steady] = [&joined, &constant].map(|p| count(p, &vec![blue; p.len()]));
     let crossed = count(&wrong, &exact);
     chapter.text(format!(
-        "Painting programs use the covered share of a pixel as opacity. Suppose that two pieces of one \
-         surface meet in an edge, and each covers half of a pixel. The first piece leaves half of the \
-         background visible, and the second piece leaves half of this half. So a quarter of the background \
-         shines through, because a share does not say which part of the pixel is covered. The first picture \
-         is a fan of {} triangles of one colour that fills the picture. {seamed} pixels ({}) have a wrong \
-         colour, with an error of up to {flat_most:.2}. If areas are the weights, {steady} pixels have a \
-         wrong colour. In the scene above, hidden surfaces also shine through along edges. {crossed} pixels \
-         ({}) differ from the areas, by up to {most:.2}, with a root mean square error of {mean:.4}. The \
-         splits of a tree add such edges, so a painter must not antialias them. Instead, it can use several \
-         rays per pixel, or weight the visible parts by their areas.",
+        "Painting programs use the covered share of a pixel as opacity. Suppose that two pieces of \
+         one surface meet in an edge, and each covers half of a pixel. The first piece leaves half of \
+         the background visible, and the second piece leaves half of this half. So a quarter of the \
+         background shines through, because a share does not say which part of the pixel is covered. \
+         The first picture is a fan of {} triangles of one colour that fills the picture. {seamed} \
+         pixels ({}) have a wrong colour, with an error of up to {flat_most:.2}. If areas are the \
+         weights, {steady} pixels have a wrong colour. In the scene above, hidden surfaces also shine \
+         through along edges. {crossed} pixels ({}) differ from the areas, by up to {most:.2}, with a \
+         root mean square error of {mean:.4}. The splits of a tree add such edges, so a painter must \
+         not antialias edges. Instead, a painter can use several rays per pixel, or weight the visible \
+         parts by their areas.",
         fan.len(),
         percent(seamed as f64, all),
         percent(crossed as f64, all),

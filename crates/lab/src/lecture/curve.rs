@@ -14,7 +14,7 @@ pub(super) struct Curve {
     pub(super) points: Vec<(f64, f64)>,
 }
 
-/// The data to draw, and their name.
+/// Curves to draw, with axes and a title.
 #[derive(Debug)]
 pub(super) struct Graph<'a> {
     pub(super) title: &'a str,

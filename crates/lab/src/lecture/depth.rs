@@ -22,10 +22,10 @@ const OPACITY: f64 = 0.5;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "A depth buffer (Catmull 1974) stores in each pixel the depth of the nearest surface so far. A \
-         new surface replaces it if the new one is nearer. Polygons may come in any order. The method \
-         needs memory for one number per pixel, and these numbers must be precise enough to compare \
-         depths. The next chapter is about this precision.",
+        "A depth buffer (Catmull 1974) stores in each pixel the depth of the nearest surface so far. \
+         A nearer surface replaces the stored depth and the colour of the pixel. Polygons may come in \
+         any order. The method needs memory for one number per pixel, and these numbers must be \
+         precise enough to compare depths. The next chapter is about this precision.",
     );
     let room = Room::new()?;
     conventions(chapter, &room)?;
@@ -36,7 +36,7 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     curved::fill(chapter)
 }
 
-/// Parallelograms that cross, in a view with integer coordinates.
+/// A scene of parallelograms that cross, in a view with integer coordinates.
 struct Room {
     view: PlainView,
     camera: Camera,
@@ -188,10 +188,10 @@ fn translucent(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
         rows.into_iter().map(|row| <[String; 5]>::try_from(row).expect("five cells")),
     );
     chapter.text(
-        "The judge computes for each pixel the list of polygons that it must show, in order. It \
-         intersects the ray of the pixel with each polygon in integers, and compares the crossings as \
-         fractions. (It leaves out rays that meet the boundary of a polygon.) Without the order, layers \
-         are blended in a wrong sequence. With writes on, some layers are also lost.",
+        "The judge computes for each pixel the list of polygons that the pixel must show, in order. \
+         The judge intersects the ray of the pixel with each polygon in integers, and compares the \
+         crossings as fractions. (Rays that meet the boundary of a polygon are left out.) Without the \
+         order, layers are blended in a wrong sequence. With writes on, some layers are also lost.",
     );
     Ok(())
 }

@@ -74,22 +74,23 @@ fn walks(chapter: &mut Chapter, body: &Body) -> Result<(), Failure> {
     let covered = body.truth.covered();
     chapter.heading("Scan conversion");
     chapter.text(
-        "Scan conversion finds the pixels that a polygon covers, and its depth in each of them. Edge \
-         functions decide each pixel separately. The other methods walk along edges and scanlines. Along an \
-         edge, x grows by 1/m from one scanline to the next. From one pixel to the next, z grows by -A/C. A \
-         trapezoid lies between the heights of two vertices. Along its left edge, z grows by (A/m + B)/C, or \
-         by B/C if the edge is vertical. Integer edges store x as a number of pixels and a remainder, as \
-         Bresenham (1965) does for lines. Their vertices are rounded to 1/256 of a pixel.",
+        "Scan conversion finds the pixels that a polygon covers, and the depth of the polygon in each \
+         of these pixels. Edge functions decide each pixel separately. The other methods walk along \
+         edges and scanlines. Along an edge, x grows by 1/m from one scanline to the next. From one \
+         pixel to the next, z grows by -A/C. A trapezoid lies between the heights of two vertices. \
+         Along its left edge, z grows by (A/m + B)/C, or by B/C if the edge is vertical. Integer edges \
+         store x as a number of pixels and a remainder, as Bresenham (1965) does for lines. The \
+         vertices of integer edges are rounded to 1/256 of a pixel.",
     );
     chapter.pictures(pictures);
     chapter.table(["walk", "stored", "wrong order", "holes", "spills"], rows);
     chapter.text(format!(
         "The table compares each method with the exact picture of a teapot, which covers {covered} \
-         pixels. Sums of rounded steps have errors of about a hundred-thousandth of a pixel. A pixel is \
-         wrong only if its centre is that near to an edge. Then it shows the wrong triangle (red), shows \
-         none (black), or shows a triangle beyond the outline (blue). Vertices rounded to 1/256 have \
-         larger errors, so more pixels are wrong. But each edge is then walked exactly, so triangles \
-         that share an edge meet without a gap.",
+         pixels. Sums of rounded steps have errors of about a hundred-thousandth of a pixel. A pixel \
+         is wrong only if its centre is that near to an edge. Such a pixel shows the wrong triangle \
+         (red), shows none (black), or shows a triangle beyond the outline (blue). Vertices rounded to \
+         1/256 have larger errors, so more pixels are wrong. But each edge is then walked exactly, so \
+         triangles that share an edge meet without a gap.",
     ));
     Ok(())
 }

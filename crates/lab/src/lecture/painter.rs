@@ -12,10 +12,10 @@ use binspace_cli::failure::Failure;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "Paint far polygons first, and near polygons over them. Then a pixel needs to store nothing but \
-         its colour. But how far is a whole polygon? Most programs use one depth, the depth of the \
-         centroid. This order is right if no polygons overlap in depth. If some overlap, it is right \
-         only by chance.",
+        "Paint far polygons first, and near polygons over them. Then a pixel needs to store nothing \
+         but its colour. But how far is a whole polygon? Most programs use one depth, the depth of the \
+         centroid. This order is right if no polygons overlap in depth. If some polygons overlap, this \
+         order is right only by chance.",
     );
     let city = Builtin::City.build(Some(600), 1);
     let bars = newell_bars();
@@ -42,11 +42,12 @@ fn partial_order(chapter: &mut Chapter) -> Result<(), Failure> {
          Then one of the polygons must be split.",
     );
     chapter.text(
-        "The table decides every pair in exact arithmetic. For each pair, one polygon is clipped to the cone \
-         of rays from the eye through the other polygon. The clipped part is then compared with the plane of \
-         the other polygon. \"Fewest to split\" is the smallest number of polygons whose removal breaks all \
-         cycles. It is found by trying all subsets, which is expensive. Newell's algorithm and the tree \
-         therefore split more polygons. The splits of the tree serve all eyes.",
+        "The table decides every pair in exact arithmetic. For each pair, one polygon is clipped to \
+         the cone of rays from the eye through the other polygon. The clipped part is then compared \
+         with the plane of the other polygon. \"Fewest to split\" is the smallest number of polygons \
+         whose removal breaks all cycles. This number is found by trying all subsets, which is \
+         expensive. Newell's algorithm and the tree therefore split more polygons. The splits of the \
+         tree serve all eyes.",
     );
     let few = Family::Penetration.scene(8.0, 1);
     let crowd = Family::Penetration.scene(14.0, 1);

@@ -22,8 +22,8 @@ pub(super) fn of_eight() -> String {
         let _ = write!(svg, "<path d=\"M{a} {b}L{c} {d}\" fill=\"none\" {look}/>");
     };
     let dashed = "stroke=\"#999\" stroke-dasharray=\"5 5\"";
-    // The line of A divides all walls. The line of C divides the part beyond it. The lines of B, D and E
-    // divide the part on the eye's side.
+    // The line of A divides all walls. The line of C divides the part beyond the line of A. The lines of B, D
+    // and E divide the part on the eye's side.
     line([0.0, 8.0], [11.0, 8.0], dashed);
     line([6.0, 8.0], [6.0, 12.5], dashed);
     line([4.0, 8.0], [4.0, 0.0], dashed);

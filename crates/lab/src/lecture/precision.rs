@@ -121,13 +121,13 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
 fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Z-fighting");
     chapter.text(
-        "Two sheets fill the picture and recede from depth 20 (bottom) to 190 (top). Along each ray, the \
-         orange sheet is further away than the blue one, by a fixed share of the depth. So no orange should \
-         be visible. But where a buffer stores the same number for both sheets, the sheet that was drawn \
-         first stays, and that is the orange one. This happens only where the distance of the sheets is less \
-         than one step of the buffer. Where the distance is s steps, with s below 1, it happens in a share 1 \
-         − s of the pixels. So both the depths at which z-fighting occurs and the number of wrong pixels can \
-         be predicted.",
+        "Two sheets fill the picture and recede from depth 20 (bottom) to 190 (top). Along each \
+         ray, the orange sheet is further away than the blue one, by a fixed share of the depth. So \
+         no orange should be visible. But where a buffer stores the same number for both sheets, the \
+         sheet that was drawn first, the orange sheet, stays visible. Orange shows only where the \
+         distance of the sheets is less than one step of the buffer. Where the distance is s steps, \
+         with s below 1, orange shows in a share 1 − s of the pixels. So both the depths at which \
+         z-fighting occurs and the number of wrong pixels can be predicted.",
     );
     let (coarse, fine) = (Sheets::new(6e-4, SIZE), Sheets::new(2.4e-6, SIZE));
     let nearest = Sheets::new(5e-5, SIZE);
@@ -176,14 +176,15 @@ fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
         rows,
     );
     chapter.text(
-        "For z, the fight begins at depth g f n (2^bits - 1) / (f - n), where g is the share by which the \
-         sheets are apart. It continues at all greater depths. In a w-buffer, the fight ends at some depth \
-         instead. Integer formats fight at the depths that their steps predict. For an f32, the computation \
-         before the number is stored rounds as much as the f32 itself, so the fight begins earlier. The \
-         column \"predicted with rounding\" includes this rounding: it uses the planes that the buffer \
-         computes, and bounds of the rounding in each pixel. For each format, the tests check that no pixel \
-         is wrong at other depths. The tree compares no depths. It decides once, exactly, on which side of \
-         one sheet the other lies. So no pixel is wrong, however small the distance.",
+        "For z, the fight begins at depth g f n (2^bits - 1) / (f - n), where g is the share by which \
+         the sheets are apart. The fight continues at all greater depths. In a w-buffer, the fight \
+         ends at some depth instead. Integer formats fight at the depths that their steps predict. For \
+         an f32, the computation before the number is stored rounds as much as the f32 itself, so the \
+         fight begins earlier. The column \"predicted with rounding\" includes this rounding: it uses \
+         the planes that the buffer computes, and bounds of the rounding in each pixel. For each \
+         format, the tests check that no pixel is wrong at other depths. The tree compares no depths. \
+         The tree decides once, exactly, on which side of one sheet the other sheet lies. So no pixel \
+         is wrong, however small the distance.",
     );
     Ok(())
 }

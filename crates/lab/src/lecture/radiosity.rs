@@ -15,7 +15,7 @@ const SIZE: [u32; 2] = [320, 320];
 /// The sides of a patch in the pictures and in the table, in the unit of the scene.
 const FINE: f64 = 45.0;
 const COARSE: f64 = 140.0;
-/// The light that is shown white.
+/// The amount of light that is shown as white.
 const WHITE: f64 = 0.035;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
@@ -64,17 +64,17 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let [direct, once] = [0, 1].map(|bounces| room.leaving(bounces));
     chapter.text(format!(
         "The pictures have {} patches and {} sight lines, one for each pair of patches that might be \
-         visible to each other. Each patch has one colour. The lamp lies in the ceiling, so the ceiling gets no direct \
-         light. One bounce lights it, and the red and the green wall colour the surfaces beside them. \
-         Cornell University built and measured this box. This page uses their measurements: the \
-         surfaces, the camera, and the reflectances of the paints at 620, 540 and 460 nm, shown as red, \
-         green and blue. The lamp is taken as white. We may not copy the published pictures. They are at \
-         https://www.graphics.cornell.edu/online/box under \"Comparison\", a photograph beside a \
-         computed picture. The measurements are under \"Data\". Three things should agree: the outlines \
-         of the walls and blocks, the shadows of the blocks, and the sides of the blocks and parts of \
-         the floor that turn red or green. Three things differ. The published pictures contain all \
-         bounces, so their shadows are lighter. They show the colour of the real lamp, which is warmer. \
-         Their shading is smooth.",
+         visible to each other. Each patch has one colour. The lamp lies in the ceiling, so the \
+         ceiling gets no direct light. One bounce lights it, and the red and the green wall colour the \
+         surfaces beside them. Cornell University built and measured this box. This page uses the \
+         university's measurements: the surfaces, the camera, and the reflectances of the paints at \
+         620, 540 and 460 nm, shown as red, green and blue. The lamp is taken as white. We may not \
+         copy the published pictures. The pictures are at https://www.graphics.cornell.edu/online/box \
+         under \"Comparison\", a photograph beside a computed picture. The measurements are under \
+         \"Data\". Three things should agree: the outlines of the walls and blocks, the shadows of the \
+         blocks, and the sides of the blocks and parts of the floor that turn red or green. Three \
+         things differ. The published pictures contain all bounces, so their shadows are lighter. The \
+         published pictures show the colour of the real lamp, which is warmer, and have smooth shading.",
         room.patches.len(),
         room.factors.sight_lines,
     ));

@@ -21,14 +21,15 @@ pub(super) fn fill(
 ) -> Result<(), Failure> {
     chapter.heading("Shadows as pieces of polygons");
     chapter.text(
-        "A point lamp and a convex polygon span a cone. The part of the cone behind the polygon is in its \
-         shadow (F. Crow, \"Shadow algorithms for computer graphics\", 1977). The planes of these cones cut \
-         each polygon into convex pieces. For one point of light, each piece is lit as a whole or dark as a \
-         whole. A rectangular lamp is treated as its four corners. A polygon can throw a shadow on a second \
-         polygon only if it intersects the pyramid between the second polygon and the lamp. A query to the \
-         tree finds these polygons. The pieces do not depend on pixels or on an eye, so they are computed \
-         once (P. Atherton, K. Weiler and D. Greenberg, \"Polygon shadow generation\", 1978). The corners of \
-         pieces are stored exactly, as points where three planes meet.",
+        "A point lamp and a convex polygon span a cone. The part of the cone behind the polygon is in \
+         the polygon's shadow (F. Crow, \"Shadow algorithms for computer graphics\", 1977). The planes \
+         of these cones cut each polygon into convex pieces. For one point of light, each piece is lit \
+         as a whole or dark as a whole. A rectangular lamp is treated as its four corners. A polygon \
+         can throw a shadow on a second polygon only if the first polygon intersects the pyramid \
+         between the second polygon and the lamp. A query to the tree finds these polygons. The pieces \
+         do not depend on pixels or on an eye, so they are computed once (P. Atherton, K. Weiler and \
+         D. Greenberg, \"Polygon shadow generation\", 1978). The corners of pieces are stored exactly, \
+         as points where three planes meet.",
     );
     let faces = tree.faces();
     let lamps = [("a point", middle.to_vec()), ("a rectangle, by its corners", lamp(2))];

@@ -44,11 +44,11 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     let umbra = seen.clone().filter(|(_, zone)| **zone == Some(Zone::Umbra));
     let certain = umbra.filter(|(p, _)| p.is_some_and(|p| is_umbra(&tree, p, &corners)));
     chapter.text(format!(
-        "Only the given points of the lamp are tested. A polygon that hides only other parts of the lamp is \
-         missed. So the zones lit and umbra of a rectangular lamp are wrong in a strip along their \
-         boundaries. The strip becomes narrower with more points. The zone penumbra is always right. Of the \
-         {} points in the umbra, {} are certain: for each of these, one convex polygon is between the point \
-         and all four corners of the lamp, so it hides the whole lamp.",
+        "Only the given points of the lamp are tested. A polygon that hides only other parts of the \
+         lamp is missed. So the zones lit and umbra of a rectangular lamp are wrong in a strip along \
+         their boundaries. The strip becomes narrower with more points. The zone penumbra is always \
+         right. Of the {} points in the umbra, {} are certain: for each of these, one convex polygon \
+         is between the point and all four corners of the lamp, so this polygon hides the whole lamp.",
         count(&all[3], Zone::Umbra),
         certain.count(),
     ));

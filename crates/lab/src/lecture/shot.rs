@@ -13,7 +13,7 @@ use super::chapter::{Picture, percent};
 use binspace_cli::colours::{BACKGROUND, Colouring, Colours};
 use binspace_cli::failure::Failure;
 
-/// Pictures of a chapter.
+/// The size of the pictures in a chapter.
 pub(super) const SIZE: [u32; 2] = [320, 240];
 
 /// A scene, a camera, and the true picture.

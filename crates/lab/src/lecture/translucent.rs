@@ -14,7 +14,7 @@ use binspace_cli::failure::Failure;
 
 const SIZE: [u32; 2] = [320, 240];
 const PAPER: Colour = [1.0; 3];
-/// Views of each scene in the table.
+/// The number of views of each scene in the table.
 const VIEWS: usize = 6;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
@@ -27,11 +27,11 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          separate the pieces.",
     );
     chapter.text(
-        "The judge shares no code with the tree. In each pixel it intersects the ray with the planes of \
-         all polygons that cover the pixel, and gets fractions of large integers. It sorts these \
-         fractions, and blends the colours in this order with the same operations as the painters. Two \
-         pictures are equal only if every bit of every channel is equal. Most programs sort by \
-         centroids; the judge compares this order in the same way.",
+        "The judge shares no code with the tree. In each pixel, the judge intersects the ray with \
+         the planes of all polygons that cover the pixel, and gets fractions of large integers. The \
+         judge sorts these fractions, and blends the colours in this order with the same operations \
+         as the painters. Two pictures are equal only if every bit of every channel is equal. Most \
+         programs sort by centroids; the judge compares this order in the same way.",
     );
     let mut rows = Vec::new();
     let scenes = [scene::random_triangles(200, 3), scene::crossing(9), scene::newell_bars()];
@@ -113,7 +113,7 @@ struct Blended {
     by_tree: Vec<Colour>,
     by_centroid: Vec<Colour>,
     truth: Vec<Colour>,
-    /// Pixels of two layers or more.
+    /// The number of pixels of two layers or more.
     deep: usize,
     deepest: usize,
     tree_wrong: usize,
@@ -154,7 +154,7 @@ fn pictures(chapter: &mut Chapter, found: &Blended) {
     ]);
 }
 
-/// Figures of several views.
+/// The sums of figures over several views.
 #[derive(Default)]
 struct Sums {
     deep: usize,

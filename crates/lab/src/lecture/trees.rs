@@ -187,19 +187,21 @@ const LINES: [Line; 9] = [
 fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("How large a tree can be");
     chapter.text(
-        "A plane splits every polygon that crosses it, so n polygons can become many more pieces. Take n \
-         sheets that all cross one another, such that every three meet in a point and no four do. They \
-         divide space into 1 + n + C(n, 2) + C(n, 3) cells. A tree that uses only the planes of the sheets \
-         has n + C(n, 2) + C(n, 3) pieces, about n³/6, in any order of the planes. Without any crossings, n² \
-         pieces are still possible. An example is a set of walls along the lines of a saddle (B. Chazelle, \
-         1984). M. S. Paterson and F. F. Yao (\"Efficient binary space partitions for hidden-surface removal \
-         and solid modeling\", 1990) prove that this is the worst case for polygons that do not cross. \
-         Suppose that half of n walls stand along x, above the other half along y. They split each other \
-         (n/2)² times if only their own planes are used. One plane between the two layers avoids every \
-         split. Surfaces of real objects are far from these cases: their polygons are small, and few of them \
-         lie near the plane of another one. Licences do not permit a scanned object on this page. A noisy \
-         sphere takes its place. It is a closed surface with bulges, made of small triangles. Their corners \
-         are moved at random, so that hardly any two triangles lie in one plane.",
+        "A plane splits every polygon that crosses it, so n polygons can become many more pieces. \
+         Take n sheets that all cross one another, such that every three meet in a point and no four \
+         do. These sheets divide space into 1 + n + C(n, 2) + C(n, 3) cells. A tree that uses only the \
+         planes of the sheets has n + C(n, 2) + C(n, 3) pieces, about n³/6, in any order of the \
+         planes. Without any crossings, n² pieces are still possible. An example is a set of walls \
+         along the lines of a saddle (B. Chazelle, 1984). M. S. Paterson and F. F. Yao (\"Efficient \
+         binary space partitions for hidden-surface removal and solid modeling\", 1990) prove that \
+         polygons that do not cross never need more pieces, up to a constant factor. Suppose that half \
+         of n walls stand along x, above the other half along y. The walls split each other (n/2)² \
+         times if only their own planes are used. One plane between the two layers avoids every split. \
+         Surfaces of real objects are far from these cases: their polygons are small, and few of them \
+         lie near the plane of another one. Licences do not permit a scanned object on this page. A \
+         noisy sphere takes its place. This sphere is a closed surface with bulges, made of small \
+         triangles. The corners of the triangles are moved at random, so that hardly any two triangles \
+         lie in one plane.",
     );
     let (mut series, mut rows) = (Vec::new(), Vec::new());
     for line in LINES {
@@ -234,8 +236,8 @@ fn worst(chapter: &mut Chapter) -> Result<(), Failure> {
         series,
     })?;
     chapter.text(
-        "The last column is the slope at the end of each line. If it is p, the number of pieces grows as \
-         the p-th power of n.",
+        "The last column is the slope at the end of each line. If the slope is p, the number of \
+         pieces grows as the p-th power of n.",
     );
     let head = ["scene", "polygons", "pieces", "pieces / polygon", "slope p"];
     chapter.table(head, rows);

@@ -20,10 +20,10 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
 
 fn no_removal(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.text(
-        "In each pixel, a picture shows the surface that is nearest along the ray through the pixel. If \
-         polygons are drawn in the order of their file, each one covers all earlier ones in its area, \
-         even nearer ones. A pixel counts as wrong if it shows a polygon other than the nearest one. A \
-         depth buffer in exact arithmetic finds the nearest polygon.",
+        "In each pixel, a picture shows the surface that is nearest along the ray through the pixel. \
+         If polygons are drawn in the order of their file, each polygon covers all earlier polygons in \
+         its area, even nearer polygons. A pixel counts as wrong if it shows a polygon other than the \
+         nearest one. A depth buffer in exact arithmetic finds the nearest polygon.",
     );
     let mut pictures = Vec::new();
     for (scene, name) in [(Builtin::City, "A city"), (Builtin::Teapot, "The teapot")] {
@@ -39,16 +39,17 @@ fn no_removal(chapter: &mut Chapter) -> Result<(), Failure> {
 fn back_faces(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Back faces");
     chapter.text(
-        "The plane of a polygon is Ax + By + Cz + D = 0. Its normal (A, B, C) points out of the body. If \
-         Ax + By + Cz + D < 0 at the eye, the eye is behind the polygon and sees its back. The body \
-         itself then hides the polygon, so the polygon can be left out. For parallel rays along the z \
-         axis, only the sign of C matters. If C = 0, the polygon is seen edge-on and covers no pixel.",
+        "The plane of a polygon is Ax + By + Cz + D = 0. The normal (A, B, C) of the plane points out \
+         of the body. If Ax + By + Cz + D < 0 at the eye, the eye is behind the polygon and sees its \
+         back. The body itself then hides the polygon, so the polygon can be left out. For parallel \
+         rays along the z axis, only the sign of C matters. If C = 0, the polygon is seen edge-on and \
+         covers no pixel.",
     );
     chapter.text(
-        "For a convex body, this step is sufficient: all remaining polygons are visible, and no two of \
-         them overlap in the picture. Other closed bodies also have hidden front faces. These still need \
-         an order, but there are fewer of them. A surface that is not closed, such as a terrain seen \
-         from below, loses back faces that are visible.",
+        "For a convex body, this step is sufficient: all remaining polygons are visible, and no two \
+         of them overlap in the picture. Other closed bodies also have hidden front faces. So front \
+         faces still need an order, but there are fewer front faces than polygons. A surface that is \
+         not closed, such as a terrain seen from below, loses back faces that are visible.",
     );
     let scenes = [
         (Builtin::Sphere, 500, "sphere, convex"),

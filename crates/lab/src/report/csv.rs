@@ -130,7 +130,7 @@ pub(super) fn times(sections: &[Section]) -> Result<String, Failure> {
     }))
 }
 
-/// Growth with the number of polygons.
+/// The growth of trees with the number of polygons.
 pub(super) fn growth(rows: &[Growth]) -> Result<String, Failure> {
     table(rows.iter().map(|row| {
         let size = row.found.as_ref().ok();

@@ -52,9 +52,9 @@ pub(super) struct Row {
 #[derive(Clone, Debug)]
 pub(super) struct Figures {
     pub(super) picture: PictureError,
-    /// For methods that store the definitions of their vertices.
+    /// The accuracy of vertices, for methods that store the definitions of vertices.
     pub(super) accuracy: Option<Accuracy>,
-    /// For methods that split before any view is known.
+    /// The error of areas, for methods that split before any view is known.
     pub(super) area: Option<AreaError>,
     /// The mean share of faces that a step before the method leaves out.
     pub(super) removed: f64,

@@ -17,7 +17,7 @@ const ROUNDED: &str = "bsp f64 1e-6";
 const EPSILON: f64 = 1e-6;
 /// The largest number of fragments. Too large: a build takes minutes. Too small: curves end early.
 const MAX_FRAGMENTS: usize = 1 << 22;
-/// Builds that take less time are repeated once, and the faster one counts.
+/// Builds that take less time are repeated once, and the faster build counts.
 const SHORT: f64 = 1.0;
 
 /// A tree of one size.
@@ -30,7 +30,7 @@ pub(super) struct Growth {
     pub(super) found: Result<Size, String>,
 }
 
-/// The size of a tree, and the time that it takes.
+/// The size of a tree, and the times for building and ordering it.
 pub(super) struct Size {
     pub(super) fragments: usize,
     pub(super) depth: usize,
@@ -78,7 +78,7 @@ struct Case {
 enum Subject {
     Builtin(Builtin),
     Worst(Worst),
-    /// Replaces a scanned object.
+    /// A sphere with noise, in place of a scanned object.
     NoisySphere,
 }
 

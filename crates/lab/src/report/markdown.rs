@@ -146,9 +146,9 @@ fn culling(city: &City) -> String {
         ]);
     }
     format!(
-        "\n## Culling\n\nA city of {} polygons is seen from above its roofs. Its tree has {} fragments and \
-         was built in {}. Each step leaves out everything that the steps before it leave out, and more. Its \
-         time includes the earlier steps.\n\n{}",
+        "\n## Culling\n\nA city of {} polygons is seen from above its roofs. The tree of the city \
+         has {} fragments and was built in {}. Each step leaves out everything that the steps before \
+         it leave out, and more. The time of a step includes the earlier steps.\n\n{}",
         grouped(city.polygons),
         grouped(city.fragments),
         time(city.build),

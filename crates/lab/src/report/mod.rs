@@ -188,7 +188,7 @@ impl Report<'_> {
         self.write()
     }
 
-    /// Rewrites all files, and removes files of an earlier report that this one does not have.
+    /// Rewrites all files, and removes files of an earlier report that this report does not have.
     fn write(&self) -> Result<(), Failure> {
         let folder = &self.args.output;
         for family in Family::ALL {

@@ -87,8 +87,8 @@ pub(super) fn growth_build(rows: &[Growth]) -> Result<String, Failure> {
     growth(rows, "Time to build a tree", "build [s]", false, |size, _| size.build)
 }
 
-/// Fragments per polygon minus 1, against the number of polygons. An unsplit polygon is one fragment, so this
-/// counts the fragments that splits add.
+/// Fragments per polygon minus 1, against the number of polygons. An unsplit polygon is one fragment, so the
+/// difference counts the fragments that splits add.
 pub(super) fn growth_fragments(rows: &[Growth]) -> Result<String, Failure> {
     let title = "Fragments per polygon that splits add";
     growth(rows, title, "fragments / polygons − 1", true, |size, polygons| {

@@ -1,4 +1,4 @@
-//! A scene with its views and their truth: the reference of every method.
+//! A scene with views and the true picture of each view: the reference for every method.
 
 use std::panic::resume_unwind;
 use std::thread;
@@ -184,8 +184,8 @@ fn median(mut times: Vec<Duration>) -> f64 {
     times.get(times.len() / 2).map_or(0.0, Duration::as_secs_f64)
 }
 
-/// Creates cameras alternately around a scene and inside it. Their arithmetic is the same to the last bit on
-/// every machine; the sine and cosine of [`binspace::view::views`] are not.
+/// Creates cameras alternately around a scene and inside it. The arithmetic here is the same to the last bit
+/// on every machine; the sine and cosine in [`binspace::view::views`] are not.
 fn around_and_inside(
     scene: &Scene,
     count: usize,

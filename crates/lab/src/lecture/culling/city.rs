@@ -10,7 +10,7 @@ use binspace_cli::colours::{Colouring, Colours};
 use binspace_cli::failure::Failure;
 
 const SIZE: [u32; 2] = [320, 240];
-/// A tenth of the scene that the report takes, so that the lecture stays short.
+/// The number of polygons: a tenth of the report's city, so that the lecture stays short.
 const POLYGONS: u32 = 260_000;
 const SKY: [u8; 3] = [200, 215, 230];
 

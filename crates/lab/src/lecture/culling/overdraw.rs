@@ -15,18 +15,19 @@ use crate::lecture::chapter::{Chapter, Picture};
 use binspace_cli::failure::Failure;
 
 const SIZE: [u32; 2] = [320, 240];
-/// Random orders of the graph.
+/// The number of random orders in the graph.
 const SHUFFLES: u32 = 2000;
 
 pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Overdraw");
     chapter.text(
-        "Overdraw is the number of written pixels divided by the number of visible pixels. A painter writes \
-         each pixel once for every surface in it. A depth buffer writes a pixel whenever a surface is nearer \
-         than all earlier ones, so its overdraw depends on the order of the polygons. For n layers, its \
-         overdraw is n from back to front and 1 from front to back. In random order it is 1 + 1/2 + … + 1/n \
-         on average. A tree that is walked from front to back, with a mask of covered pixels, writes each \
-         pixel once. It skips subtrees that the mask hides completely.",
+        "Overdraw is the number of written pixels divided by the number of visible pixels. A painter \
+         writes each pixel once for every surface in it. A depth buffer writes a pixel whenever a \
+         surface is nearer than all earlier ones, so its overdraw depends on the order of the \
+         polygons. For n layers, the overdraw of a depth buffer is n from back to front and 1 from \
+         front to back. In random order, this overdraw is 1 + 1/2 + … + 1/n on average. A tree that is \
+         walked from front to back, with a mask of covered pixels, writes each pixel once. Such a walk \
+         skips subtrees that the mask hides completely.",
     );
     let city = scene::city(1500, 1);
     let random = scene::random_triangles(300, 1);

@@ -14,10 +14,10 @@ use crate::lecture::chapter::{Chapter, Picture, percent};
 use binspace_cli::failure::Failure;
 
 const SIZE: [u32; 2] = [320, 240];
-/// Rooms on a side, each 8 by 8 and 3 high.
+/// The number of rooms on a side, each room 8 by 8 and 3 high.
 const SIDE: usize = 6;
 const WIDTH: f64 = 8.0 * SIDE as f64;
-/// Eyes of the table, and their pictures.
+/// The number of eyes in the table.
 const EYES: usize = 40;
 const SMALL: [u32; 2] = [160, 120];
 
