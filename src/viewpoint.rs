@@ -92,15 +92,15 @@ impl From<Facing> for Ordering {
 /// | a direction of zeros, or two equal ends | is a point: it meets the polygons that contain it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {
-    /// From a point in a direction, without end. The direction may have any length; that length is the unit
-    /// of the parameter.
+    /// A ray from a point in a direction, without end. The direction may have any length; that length is the
+    /// unit of the parameter.
     Endless {
         /// The point where `t` is 0.
         from: DVec3,
         /// The vector to the point where `t` is 1.
         direction: DVec3,
     },
-    /// From one point to another.
+    /// The segment from one point to another.
     Segment {
         /// The point where `t` is 0.
         from: DVec3,

@@ -25,7 +25,7 @@ pub(crate) struct Made {
     pub(crate) tree: BspTree,
     /// The time to build the tree, or to read its file.
     pub(crate) seconds: f64,
-    /// How the tree was built; `None` if the tree was read.
+    /// The heuristic of the build; `None` if the tree was read.
     pub(crate) heuristic: Option<Heuristic>,
     /// The scene's name in a file of `binspace build`.
     pub(crate) stored_name: String,

@@ -64,7 +64,7 @@ impl Progress {
         Self { bar, alarm: alarm.flatten() }
     }
 
-    /// One step more is done.
+    /// Counts one more step as done.
     pub fn step(&self) {
         self.bar.inc(1);
     }
@@ -88,7 +88,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.alarm.take() {
             drop(sender);
-            // It does nothing that could fail.
+            // The thread does nothing that could fail.
             let _ = thread.join();
         }
         self.bar.finish_and_clear();

@@ -10,7 +10,7 @@ pub(crate) struct Lines<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
     bytes: &'a [u8],
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     number: usize,
 }
 

@@ -6,7 +6,8 @@ use base64::engine::general_purpose::STANDARD;
 use miniz_oxide::deflate::compress_to_vec;
 use serde::Serialize;
 
-/// How hard to compress, up to 10. Too large: more time for little; too small: longer files.
+/// The level of compression, up to 10. Too large: much more time for slightly shorter files. Too small:
+/// longer files.
 const LEVEL: u8 = 7;
 
 /// An array, as the page's script reads it.

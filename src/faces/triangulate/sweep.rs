@@ -75,10 +75,10 @@ fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
 /// The fill rule, which also decides how overlapping edges are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// By direction: opposite edges cancel, two edges of the same direction count 2. A point is inside if its
-    /// winding number is not 0. Edges must not cross.
+    /// The nonzero rule, by direction: opposite edges cancel, two edges of the same direction count 2. A
+    /// point is inside if its winding number is not 0. Edges must not cross.
     Signed,
-    /// By parity: any two overlapping edges cancel.
+    /// The even-odd rule, by parity: any two overlapping edges cancel.
     Parity,
 }
 
