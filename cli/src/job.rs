@@ -60,7 +60,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if build options are given for a tree in a file, even with default values.
+/// Returns an error if build options are given for a tree in a file, even with default values.
 pub(crate) fn refuse_options(
     name: impl Display,
     IsGiven(is_given): IsGiven,

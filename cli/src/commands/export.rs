@@ -106,7 +106,7 @@ impl Export<'_> {
         })
     }
 
-    /// Red, green, blue in sRGB and opacity.
+    /// The colour of a polygon: red, green and blue in sRGB, and opacity.
     fn colour(&self, polygon: usize) -> [u8; 4] {
         let [r, g, b] = Colours::new(self.scene, Colouring::Material).rgb(polygon);
         let opacity = self.scene.material(polygon).opacity;

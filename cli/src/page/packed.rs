@@ -16,8 +16,8 @@ pub(super) struct Packed {
     kind: &'static str,
     /// The number of bytes.
     bytes: usize,
-    /// The first byte of each number, then the second byte of each, and so on: similar bytes are adjacent, and
-    /// compress better. In deflate (RFC 1951).
+    /// The bytes of the numbers, compressed with deflate (RFC 1951): the first byte of each number, then the
+    /// second byte of each number, and so on. Then similar bytes are adjacent, and compress better.
     base64: String,
 }
 

@@ -225,8 +225,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The place on the line of the first edge above a point. Unless `above_all` is set, edges through the
-    /// point count as above the point.
+    /// The place of the first edge above a point, on the sweep line. Unless `above_all` is set, edges through
+    /// the point count as above the point.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
