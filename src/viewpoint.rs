@@ -153,7 +153,7 @@ impl Frustum {
         all
     }
 
-    /// Creates the region of a box, given by its least and largest coordinates. With a
+    /// Creates the region of a box, given by the box's least and largest coordinates. With a
     /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet the region.
     /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds exactly the fragments that meet the
     /// region.
@@ -196,8 +196,8 @@ impl Frustum {
         &self.planes
     }
 
-    /// Returns whether a box, given by its least and largest coordinates, may have points in the region:
-    /// whether no plane has the whole box behind it.
+    /// Returns whether a box, given by the box's least and largest coordinates, may have points in the
+    /// region: whether no plane has the whole box behind it.
     ///
     /// Rounding never makes the result false: the test enlarges the box by about 10⁻¹⁵ of the box's distance
     /// from the origin. The result is also true for a box that lies outside the region, but behind no single

@@ -22,7 +22,7 @@ pub enum Colouring {
 pub struct Colours<'a> {
     scene: &'a Scene,
     by: Colouring,
-    /// The numbers of the scene's polygons in the whole scene, if the scene is a part.
+    /// The numbers of the polygons in the whole scene; `None` unless `scene` is a part of a scene.
     numbers: Option<&'a [usize]>,
 }
 

@@ -12,7 +12,7 @@ use crate::terminal::is_quiet;
 /// Phases shorter than this are not shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A phase of the work: ends when it is dropped.
+/// A phase of the work, which ends when the value is dropped.
 ///
 /// Nothing is written where standard error is not a terminal, or if only errors are asked for.
 #[derive(Debug)]

@@ -324,7 +324,8 @@ fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), Strin
     Ok(())
 }
 
-/// Returns an error if the opacity of a polygon is not a number from 0 to 1. Saved files may contain such opacities.
+/// Returns an error if the opacity of a polygon is not a number from 0 to 1. Saved files may contain such an
+/// opacity.
 fn check_opacities(scene: &Scene, colours: &Colours<'_>) -> Result<(), Failure> {
     let is_wrong = |&polygon: &usize| !(0.0..=1.0).contains(&colours.opacity(polygon));
     let Some(polygon) = (0..scene.len()).find(is_wrong) else { return Ok(()) };

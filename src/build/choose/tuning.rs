@@ -31,10 +31,10 @@ pub struct Tuning {
     /// The rate of successive halving. Each round keeps 1/`rate` of the own planes and compares them with
     /// `rate` times as many pieces. Too large: the best are dropped by chance. Too small: time.
     pub rate: usize,
-    /// Subtracted from the cost of a polygon's plane, per piece of the set. This reward is scaled by the
-    /// share of the bounding box that the polygon fills, and by 1 + the mean number of cuts per piece. (A
-    /// wall that is not used early is cut again by every plane through it.) Too large: depth is wasted on
-    /// polygons that no plane would cut. Too small: large polygons are cut.
+    /// The reward that is subtracted from the cost of a polygon's plane, per piece of the set. The reward is
+    /// scaled by the share of the bounding box that the polygon fills, and by 1 + the mean number of cuts per
+    /// piece. (A wall that is not used early is cut again by every plane through it.) Too large: depth is
+    /// wasted on polygons that no plane would cut. Too small: large polygons are cut.
     pub reward: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
     /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) boxes

@@ -432,7 +432,7 @@ impl<'a> Sweep<'a> {
 /// The edges on the sweep line, from the lowest to the highest, in blocks of bounded length, so that an
 /// insertion moves few edges. Blocks are split but never merged.
 struct SweepLine {
-    /// No block is empty.
+    /// Blocks of edges, none of which is empty.
     blocks: Vec<Vec<u32>>,
 }
 
