@@ -74,7 +74,7 @@ type Callback<'a> = &'a (dyn Fn(&Watch<'_>) -> ControlFlow<()> + Sync);
 pub(crate) struct Watch<'a> {
     callback: Option<Callback<'a>>,
     total: AtomicUsize,
-    /// In units of 1/`FACE`.
+    /// The faces stored, in units of 1/`FACE`.
     done: AtomicU64,
     /// The number of pieces examined.
     work: AtomicUsize,

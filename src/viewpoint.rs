@@ -92,15 +92,15 @@ impl From<Facing> for Ordering {
 /// | a direction of zeros, or two equal ends | is a point: it meets the polygons that contain it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ray {
-    /// From a point in a direction, without end. The direction may have any length; that length is the unit
-    /// of the parameter.
+    /// A ray from a point in a direction, without end. The direction may have any length; that length is the
+    /// unit of the parameter.
     Endless {
         /// The point where `t` is 0.
         from: DVec3,
         /// The vector to the point where `t` is 1.
         direction: DVec3,
     },
-    /// From one point to another.
+    /// The segment from one point to another.
     Segment {
         /// The point where `t` is 0.
         from: DVec3,
@@ -153,7 +153,7 @@ impl Frustum {
         all
     }
 
-    /// Creates the region of a box, given by its least and largest coordinates. With a
+    /// Creates the region of a box, given by the box's least and largest coordinates. With a
     /// [`Culling`](crate::Culling), orders keep the fragments whose boxes meet the region.
     /// [`BspTree::fragments_in`](crate::BspTree::fragments_in) finds exactly the fragments that meet the
     /// region.
@@ -196,8 +196,8 @@ impl Frustum {
         &self.planes
     }
 
-    /// Returns whether a box, given by its least and largest coordinates, may have points in the region:
-    /// whether no plane has the whole box behind it.
+    /// Returns whether a box, given by the box's least and largest coordinates, may have points in the
+    /// region: whether no plane has the whole box behind it.
     ///
     /// Rounding never makes the result false: the test enlarges the box by about 10⁻¹⁵ of the box's distance
     /// from the origin. The result is also true for a box that lies outside the region, but behind no single

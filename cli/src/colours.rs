@@ -22,7 +22,7 @@ pub enum Colouring {
 pub struct Colours<'a> {
     scene: &'a Scene,
     by: Colouring,
-    /// The numbers of the scene's polygons in the whole scene, if the scene is a part.
+    /// The numbers of the polygons in the whole scene; `None` unless `scene` is a part of a scene.
     numbers: Option<&'a [usize]>,
 }
 
@@ -38,7 +38,7 @@ impl<'a> Colours<'a> {
         Self { numbers: Some(numbers), ..self }
     }
 
-    /// Red, green and blue.
+    /// The colour of a polygon: red, green and blue.
     pub fn rgb(&self, polygon: usize) -> [u8; 3] {
         match self.by {
             Colouring::Material => {
@@ -56,7 +56,7 @@ impl<'a> Colours<'a> {
         self.scene.materials().iter().any(|material| material.opacity < 1.0)
     }
 
-    /// From 0, invisible, to 1, opaque.
+    /// The opacity of a polygon, from 0, invisible, to 1, opaque.
     pub fn opacity(&self, polygon: usize) -> f32 {
         self.scene.material(polygon).opacity
     }

@@ -161,7 +161,7 @@ impl Band {
         for column in columns {
             let (from, to) = (left.max(column as f64), right.min(column as f64 + 1.0));
             let share = if left < right { (to - from) / (right - left) } else { 1.0 };
-            // Its mean distance into the pixel.
+            // The mean distance of the part into the pixel.
             let place = 0.5 * (from + to) - column as f64;
             change[column] += share * height * (1.0 - place);
             change[column + 1] += share * height * place;

@@ -4,7 +4,7 @@ use binspace::raster::Rays;
 use binspace::{Facing, Fragment, Viewpoint};
 use clap::{Args, ValueEnum};
 
-/// Which sides of polygons are left out.
+/// The sides of polygons that are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Cull {
     /// None: polygons are visible from both sides

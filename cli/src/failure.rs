@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io;
 
-/// Why a command stopped before its end.
+/// The reason why a command stopped before its end.
 #[derive(Debug)]
 pub enum Failure {
     /// Bad usage or input, in words for the user.

@@ -1,4 +1,4 @@
-//! Which format a file is written in.
+//! Chooses the format in which a file is written.
 
 use std::ffi::OsStr;
 use std::path::Path;

@@ -82,7 +82,7 @@ fn extent(scene: &Scene, axis: DVec3) -> f64 {
     reach(scene, axis) + reach(scene, -axis)
 }
 
-/// How far the scene reaches in a direction.
+/// The largest coordinate of the scene along a direction.
 fn reach(scene: &Scene, direction: DVec3) -> f64 {
     let corners = scene.polygons().flatten();
     corners.map(|corner| corner.dot(direction)).fold(f64::MIN, f64::max)

@@ -25,7 +25,7 @@ pub(crate) struct Made {
     pub(crate) tree: BspTree,
     /// The time to build the tree, or to read its file.
     pub(crate) seconds: f64,
-    /// How the tree was built; `None` if the tree was read.
+    /// The heuristic of the build; `None` if the tree was read.
     pub(crate) heuristic: Option<Heuristic>,
     /// The scene's name in a file of `binspace build`.
     pub(crate) stored_name: String,
@@ -60,7 +60,7 @@ pub(crate) fn make(scene: &SceneArgs, build: &BuildArgs) -> Result<Made, Failure
     Ok(Made { scene, tree, seconds, heuristic: is_built.then_some(heuristic), stored_name })
 }
 
-/// An error if build options are given for a tree in a file, even with default values.
+/// Returns an error if build options are given for a tree in a file, even with default values.
 pub(crate) fn refuse_options(
     name: impl Display,
     IsGiven(is_given): IsGiven,

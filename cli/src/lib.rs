@@ -46,7 +46,7 @@ use clap::error::ErrorKind;
 use args::{Cli, Command};
 use failure::Failure;
 
-/// How a command ended.
+/// The outcome of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// The command has done its work.

@@ -30,14 +30,14 @@ pub(crate) fn fail_when_exhausted() {
     }
 }
 
-/// An error if there is too little memory for a scene with this many polygons: building it would
+/// Returns an error if there is too little memory for a scene with this many polygons: building it would
 /// end the program.
 pub(crate) fn check(scene: &str, polygons: usize) -> Result<(), Failure> {
     let needed = polygons.saturating_mul(BYTES_EACH);
     find_room(needed).ok_or_else(|| lacking(scene, &count(polygons, "polygon"), needed))
 }
 
-/// An error if there is too little memory to read a file of `size` bytes.
+/// Returns an error if there is too little memory to read a file of `size` bytes.
 pub(crate) fn check_file(name: &str, size: u64) -> Result<(), Failure> {
     let size = usize::try_from(size).unwrap_or(usize::MAX);
     let needed = size.saturating_mul(READING);

@@ -93,8 +93,8 @@ pub(crate) fn rows_at_once([columns, rows]: [u32; 2], samples: u32) -> u32 {
 }
 
 impl Drawing<'_> {
-    /// The pixels of a picture of a kind. Transparency shows only in the painter's picture. A difference
-    /// comes with its figures.
+    /// Draws one kind of picture. Transparency shows only in the painter's picture. With a difference,
+    /// returns the figures of the comparison.
     pub(crate) fn draw(&self, kind: Kind) -> Result<(Vec<u8>, Option<Verification>), Error> {
         match kind {
             Kind::Painter | Kind::ZBuffer => Ok((self.in_parts(kind)?, None)),

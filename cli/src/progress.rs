@@ -12,7 +12,7 @@ use crate::terminal::is_quiet;
 /// Phases shorter than this are not shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A phase of the work: ends when it is dropped.
+/// A phase of the work, which ends when the value is dropped.
 ///
 /// Nothing is written where standard error is not a terminal, or if only errors are asked for.
 #[derive(Debug)]
@@ -64,7 +64,7 @@ impl Progress {
         Self { bar, alarm: alarm.flatten() }
     }
 
-    /// One step more is done.
+    /// Counts one more step as done.
     pub fn step(&self) {
         self.bar.inc(1);
     }
@@ -88,7 +88,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.alarm.take() {
             drop(sender);
-            // It does nothing that could fail.
+            // The thread does nothing that could fail.
             let _ = thread.join();
         }
         self.bar.finish_and_clear();

@@ -26,7 +26,7 @@ pub(crate) fn open(path: &Path) -> Result<(Scene, BspTree), Failure> {
     read(&name, io::BufReader::new(open_existing(path)?))
 }
 
-/// Reads a file; `name` is its name in messages.
+/// Reads a file; `name` is the file's name in messages.
 pub(crate) fn read(name: &str, mut input: impl Read) -> Result<(Scene, BspTree), Failure> {
     let (scene, tree) = read_pair(name, &mut input)?;
     let more = input.read(&mut [0]).map_err(|error| Failure::about(name, error))?;

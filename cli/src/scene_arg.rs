@@ -48,7 +48,7 @@ fn stored_name(scene: &Scene) -> String {
 
 /// The number of bytes requested at a time from standard input.
 const CHUNK: usize = 1 << 20;
-/// How names of files end.
+/// The endings of file names.
 const ENDINGS: [&str; 7] = ["obj", "bsp", "stl", "ply", "off", "glb", "gltf"];
 
 /// The scene that a name means.
@@ -129,7 +129,7 @@ fn of_obj(
 ) -> Result<Scene, Failure> {
     let (scene, mut report) =
         read.map_err(|error| formats::not_obj(name, beginning, error.to_string()))?;
-    // They are among the faces without area, which are named once the tree is built.
+    // Degenerate faces are among the faces without area, which are named once the tree is built.
     report.degenerate_faces = 0;
     if !report.is_clean() {
         remark(name, &report, &report);

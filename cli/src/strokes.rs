@@ -8,7 +8,7 @@ use clap::ValueEnum;
 /// are missing. Too small: the facets of curved surfaces are drawn.
 const CREASE: f64 = 30.0;
 
-/// Which edges are drawn as lines.
+/// The edges that are drawn as lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum EdgeChoice {
     None,
@@ -20,7 +20,7 @@ pub(crate) enum EdgeChoice {
     Silhouettes,
 }
 
-/// How hidden parts of edges are drawn.
+/// The style of hidden parts of edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Hidden {
     /// Dashed and thinner

@@ -33,14 +33,14 @@ pub fn error(message: &str) {
     to_stderr(BAD, "error:", message);
 }
 
-/// Which notes are printed.
+/// The notes that are printed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Notes {
     /// The notes on a scene in one line.
     Brief,
-    /// Each note in a line of its own.
+    /// Each note on a separate line.
     Each,
-    /// None, and no progress.
+    /// No notes, and no progress.
     None,
 }
 

@@ -73,7 +73,7 @@ pub(crate) fn up(text: &str) -> Result<Up, String> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
 
-/// A colour as in SVG and CSS, also by a usual name, or `none`.
+/// A colour: a number as in SVG and CSS, a usual name, or `none`.
 pub(crate) fn background(text: &str) -> Result<Background, String> {
     let digits = match text {
         "none" => return Ok(Background(None)),

@@ -1,4 +1,4 @@
-//! From polygons to a tree, step by step: preparation, division, the finished tree. The same steps extend
+//! Builds a tree from polygons, step by step: preparation, division, the finished tree. The same steps extend
 //! trees and build cells of a scene.
 
 use std::mem::take;

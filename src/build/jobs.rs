@@ -10,7 +10,7 @@ use crate::exact::Vertex;
 use crate::memory::reserve;
 use crate::tree::parts::{Parts, RawNode, Record};
 
-/// Where both sides of a plane have at least this many pieces, one side becomes a separate job. Too small:
+/// The least number of pieces on each side of a plane for which one side becomes a separate job. Too small:
 /// more copying. Too large: threads wait for each other at the end.
 const JOB: usize = 1024;
 

@@ -26,7 +26,7 @@ use crate::faces::Tolerance;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BuildOptions {
-    /// How partition planes are chosen. Default: [`Heuristic::Auto`].
+    /// The heuristic that chooses partition planes. Default: [`Heuristic::Auto`].
     pub heuristic: Heuristic,
     /// The coplanar tolerance: a polygon that reaches no further than this from a plane counts as lying on
     /// the plane. Default: [`Tolerance::Default`], which depends on the precision of the polygons.
@@ -58,7 +58,7 @@ impl BuildOptions {
         chooser: None,
     };
 
-    /// Sets how partition planes are chosen.
+    /// Sets the heuristic that chooses partition planes.
     #[must_use]
     pub const fn with_heuristic(mut self, heuristic: Heuristic) -> Self {
         self.heuristic = heuristic;
@@ -147,7 +147,7 @@ impl Default for BuildOptions {
     }
 }
 
-/// How the plane that splits a set of polygons is chosen.
+/// The strategy that chooses the plane that splits a set of polygons.
 ///
 /// There are two kinds of candidates: the polygons' own planes (an *autopartition*: Fuchs, Kedem and
 /// Naylor, “On visible surface generation by a priori tree structures”, 1980), and *free planes*,

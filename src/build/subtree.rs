@@ -400,8 +400,7 @@ fn settle(
             set.divide(plane, usize::MAX, division);
         }
         let PlaneKind::Face(face) = plane.kind() else { return Ok(()) };
-        // Only in trees of frames, the plane may not pass beside a piece that is larger than the plane's own
-        // piece.
+        // In trees of frames, no piece beside the plane may be larger than the plane's own piece.
         let least = match rules.tuning.frames {
             Some(_) => {
                 let own = set.pieces.iter().filter(|piece| piece.face == face);

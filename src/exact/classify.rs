@@ -129,7 +129,8 @@ impl PreparedPlane {
     /// Whether `band` is the tolerance times the length of the exact normal, within a share of 10⁻⁹.
     #[cfg(feature = "validate")]
     pub(crate) fn has_length_of(&self, faces: &Faces) -> bool {
-        /// More than the error of the normal, and far more than the rounding error of its length.
+        /// A share of the length: more than the error of the normal, and far more than the rounding error of
+        /// the length.
         const SHARE: f64 = 1e-9;
         let exact = faces.tolerance() * faces.plane(self.plane).normal_f64().length();
         self.band <= exact * (1.0 + SHARE) && self.band + 1.0 >= exact * (1.0 - SHARE)

@@ -234,7 +234,7 @@ impl Faces {
         if start + corners.len() >= MAX_NAMES {
             return Err(Kind::CornersInAll(MAX_NAMES).error());
         }
-        // Reserve both first: corners without a face would belong to the previous face.
+        // Reserve both lists first: corners without a face would belong to the previous face.
         reserve(&mut self.corners, corners.len())?;
         reserve(&mut self.faces, 1)?;
         self.corners.extend(corners);

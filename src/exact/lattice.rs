@@ -9,9 +9,9 @@ use super::Int;
 /// The largest magnitude of a lattice coordinate.
 pub const LIMIT: f64 = (1u64 << 51) as f64;
 
-/// At this many steps from the world's origin, two neighbouring `f64` are further apart than the scene is
-/// wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Too large: coordinates that no longer fit integers are treated as if they did.
-/// Too small: a scene far from the origin loses coordinates that differ.
+/// A distance from the world's origin, in steps. This far away, two neighbouring `f64` are further apart than
+/// the scene is wide: 2¹¹⁰ · 2⁻⁵² > 2⁵². Too large: coordinates that no longer fit integers are treated as if
+/// they did. Too small: a scene far from the origin loses coordinates that differ.
 pub(super) const FAR_ORIGIN: f64 = (1u128 << 110) as f64;
 
 /// The largest coplanar tolerance, in lattice units: about 1/256 of the extent. Larger tolerances are reduced
@@ -187,7 +187,7 @@ pub(super) struct PowerOfTwo {
 }
 
 impl Default for PowerOfTwo {
-    /// One.
+    /// The number 1.
     fn default() -> Self {
         Self::new(0)
     }

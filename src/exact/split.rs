@@ -91,8 +91,8 @@ impl StoredVertex {
     }
 }
 
-/// Cuts a piece by a plane; some vertices of the piece must lie in front and some behind. Appends the
-/// vertices of the two parts to `front` and `back`, in the piece's orientation.
+/// Cuts a piece that has vertices in front of a plane and behind the plane. Appends the vertices of the two
+/// parts to `front` and `back`, in the piece's orientation.
 ///
 /// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
 /// strictly on opposite sides. Both parts define the new vertex by the same line and plane, so it is equal

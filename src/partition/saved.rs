@@ -1,4 +1,4 @@
-//! Partitions in files.
+//! Writes and reads partitions.
 
 use std::io::{self, Read, Write};
 

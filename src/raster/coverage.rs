@@ -20,9 +20,9 @@ use super::line::{Boundary, Seen, Sheet, Source};
 use super::rays::{Rays, Window};
 use crate::exact::{EdgeLine, Faces, PlaneId};
 
-/// In windows of at most this many columns every pixel is tested; in wider windows the lines first narrow
-/// each row. Too small: the narrowing takes more time than the narrower windows save. Too large: more pixels
-/// are tested.
+/// The largest number of columns of a window in which every pixel is tested. In wider windows the lines first
+/// narrow each row. Too small: the narrowing takes more time than the narrower windows save. Too large: more
+/// pixels are tested.
 const NARROW: u32 = 8;
 
 /// A piece of a face, for drawing.

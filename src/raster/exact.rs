@@ -6,7 +6,7 @@
 //! complement and carries in every step, so a mistake in one type is not repeated in the other.
 //!
 //! With coordinates below 2⁵¹, a normal has 106 bits and an offset 158; φ and κ (see [`line`](super::line))
-//! stay below 2²⁰⁷, and a determinant of both below 2³⁶⁰.
+//! stay below 2²⁰⁷, and a determinant of φ and κ below 2³⁶⁰.
 
 use std::cmp::Ordering;
 

@@ -243,7 +243,7 @@ const MOVED_CORNERS: f64 = 4.0;
 ///
 /// So a ray that is almost parallel to one of the two planes does not suffice: the other polygon, which the
 /// ray meets at a larger angle, must be within 2 τ as well. This rule uses the polygons, not the partition
-/// planes; [`verify`](crate::verify::verify()) uses both.
+/// planes; [`verify`](crate::verify::verify()) uses the polygons and the partition planes.
 ///
 /// # Panics
 ///

@@ -33,8 +33,8 @@ pub(crate) use rays::RayOrigin;
 pub use rays::Rays;
 pub(crate) use rays::Window;
 
-/// For painters of other orders, which `crates/evidence` compares with the tree's order. These painters name
-/// faces on the lattice, which are not part of the public interface.
+/// Items for painters of other orders, which `crates/evidence` compares with the tree's order. These painters
+/// name faces on the lattice, which are not part of the public interface.
 #[doc(hidden)]
 pub use self::{
     coverage::{Outline, Piece},

@@ -34,7 +34,7 @@ macro_rules! builtin {
         }
 
         impl Builtin {
-            /// All scenes, in the order of lists.
+            /// All generated scenes, in the order in which lists show them.
             pub const ALL: &'static [Self] = &[$(Self::$scene),*];
 
             fn row(self) -> (&'static str, &'static str, Recipe) {

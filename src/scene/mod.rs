@@ -222,7 +222,8 @@ impl Scene {
         self.precision
     }
 
-    /// Returns the texture coordinates of a corner of a polygon. `None` if the file gives none.
+    /// Returns the texture coordinates of a corner of a polygon. `None` if the file gives no such
+    /// coordinates.
     ///
     /// # Panics
     ///

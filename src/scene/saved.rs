@@ -1,4 +1,4 @@
-//! Scenes in files.
+//! Writes and reads scenes.
 
 use std::io::{self, Read, Write};
 

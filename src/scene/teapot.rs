@@ -53,11 +53,11 @@ const SPOUT_UPPER: Tube = [
 /// Returns the Utah teapot, `segments` × `segments` quads on each of its 32 patches; up is z, the spout
 /// points along +x.
 ///
-/// The patches are Martin Newell's of 1975, in the published proportions (3.15 high, the body 4 across), and
-/// the bottom that F. Crow added ("The origins of the teapot", IEEE Computer Graphics and Applications 7(1),
-/// 1987). The order of the patches is the published order: 4 of the rim, 8 of the body, 4 of the handle, 4 of
-/// the spout, 8 of the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of revolution, and handle
-/// and spout are symmetric, so their profiles define all patches.
+/// Rim, body, handle, spout and lid are Martin Newell's patches of 1975, in the published proportions (3.15
+/// high, the body 4 across). F. Crow added the bottom ("The origins of the teapot", IEEE Computer Graphics
+/// and Applications 7(1), 1987). The patches are in the published order: 4 of the rim, 8 of the body, 4 of the
+/// handle, 4 of the spout, 8 of the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of
+/// revolution, and handle and spout are symmetric, so their profiles define all patches.
 ///
 /// There are 32 · `segments`² polygons, which face outwards. The 8 · `segments` polygons at the top of the
 /// lid and the middle of the bottom are triangles. Neighbouring patches share corners bit for bit. As

@@ -285,7 +285,7 @@ impl Figures {
     }
 }
 
-/// An error if options do not fit together.
+/// Returns an error if options do not fit together.
 fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'static str> {
     let is_png = format == DrawFormat::Png;
     if args.json && args.output == Path::new(STANDARD) {
@@ -313,7 +313,7 @@ fn check(args: &DrawArgs, format: DrawFormat, lines: bool) -> Result<(), &'stati
     }
 }
 
-/// An error if a page of the format has no such size.
+/// Returns an error if a page of the format has no such size.
 fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), String> {
     if matches!(format, DrawFormat::Pdf | DrawFormat::Tex) && width.max(height) > LONGEST {
         return Err(format!(
@@ -324,7 +324,8 @@ fn check_page(format: DrawFormat, [width, height]: [u32; 2]) -> Result<(), Strin
     Ok(())
 }
 
-/// An error if the opacity of a polygon is not a number from 0 to 1. Saved files may contain such opacities.
+/// Returns an error if the opacity of a polygon is not a number from 0 to 1. Saved files may contain such an
+/// opacity.
 fn check_opacities(scene: &Scene, colours: &Colours<'_>) -> Result<(), Failure> {
     let is_wrong = |&polygon: &usize| !(0.0..=1.0).contains(&colours.opacity(polygon));
     let Some(polygon) = (0..scene.len()).find(is_wrong) else { return Ok(()) };

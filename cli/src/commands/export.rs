@@ -93,12 +93,12 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
 struct Export<'a> {
     scene: &'a Scene,
     mesh: &'a Mesh,
-    /// Three vertices each, in the order to write.
+    /// The triangles, three vertices each, in the order to write.
     triangles: &'a [u32],
 }
 
 impl Export<'_> {
-    /// Each triangle: the points of its vertices, and its polygon.
+    /// For each triangle: the points of its vertices, and its polygon.
     fn faces(&self) -> impl Iterator<Item = ([u32; 3], usize)> {
         self.triangles.chunks_exact(3).map(|triangle| {
             let vertices = [0, 1, 2].map(|k| self.mesh.vertex(triangle[k]));
@@ -106,7 +106,7 @@ impl Export<'_> {
         })
     }
 
-    /// Red, green, blue in sRGB and opacity.
+    /// The colour of a polygon: red, green and blue in sRGB, and opacity.
     fn colour(&self, polygon: usize) -> [u8; 4] {
         let [r, g, b] = Colours::new(self.scene, Colouring::Material).rgb(polygon);
         let opacity = self.scene.material(polygon).opacity;

@@ -16,8 +16,8 @@ use crate::upright::{note_up, up_of};
 
 /// The shape of the picture for which the first view is chosen.
 const SIZE: [u32; 2] = [1280, 720];
-/// With more fragments than this, a page draws a few pictures a second without a graphics card. Too small:
-/// notes on pages that turn well. Too large: people wait and do not know why.
+/// The number of fragments beyond which a page without a graphics card draws only a few pictures a second.
+/// Too small: notes on pages that turn well. Too large: people wait and do not know why.
 const MANY: usize = 200_000;
 
 /// Runs the command.

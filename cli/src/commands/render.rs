@@ -42,7 +42,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     Ok(seen.map_or(Outcome::Done, |seen| judge(&scene, &seen)))
 }
 
-/// An error if there is no such picture.
+/// Returns an error if there is no such picture.
 fn check(args: &RenderArgs, kind: Kind) -> Result<(), String> {
     let extension = args.output.extension().map(|extension| extension.to_ascii_lowercase());
     let extension = extension.as_ref().map(|extension| extension.to_string_lossy());

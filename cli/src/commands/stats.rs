@@ -25,7 +25,7 @@ const NAME: usize = 13;
 /// The figures of one tree.
 struct Figures<'a> {
     tree: &'a BspTree,
-    /// `None` for a tree from a file.
+    /// The heuristic; `None` for a tree from a file.
     heuristic: Option<Heuristic>,
     /// The number of the tree's cell.
     cell: Option<usize>,

@@ -58,7 +58,7 @@ pub(crate) fn binary(name: &str, bytes: &[u8]) -> Result<Scene, String> {
     Ok(mesh.finish(precision.unit()))
 }
 
-/// What the last two bytes of triangles mean.
+/// The meaning of the last two bytes of triangles.
 enum Colours {
     /// Red, green and blue from the lowest bits on; with the highest bit, the colour of the whole (Magics).
     Magics(Colour),

@@ -26,7 +26,7 @@ fn little(numbers: impl IntoIterator<Item = f32>) -> Vec<u8> {
     numbers.into_iter().flat_map(f32::to_le_bytes).collect()
 }
 
-/// In two solids, the first of which has one face.
+/// An STL text of two solids, the first of which has one face.
 fn stl_text() -> Vec<u8> {
     let mut text = "solid\n".to_owned();
     for (number, face) in FACES.iter().enumerate() {
@@ -42,7 +42,7 @@ fn stl_text() -> Vec<u8> {
     (text + "endsolid second\n").into()
 }
 
-/// With a header that begins as text does.
+/// A binary STL file with a header that begins as text does.
 fn stl_binary() -> Vec<u8> {
     let mut bytes = b"solid".to_vec();
     bytes.resize(80, b' ');
@@ -55,7 +55,7 @@ fn stl_binary() -> Vec<u8> {
     bytes
 }
 
-/// With an element that is unknown, faces before vertices, and colours of faces.
+/// A PLY file with an unknown element, faces before vertices, and colours of faces.
 fn ply(format: &str) -> Vec<u8> {
     let header = format!(
         "ply\nformat {format} 1.0\ncomment by hand\nelement extra 2\nproperty list uchar short numbers\n\
@@ -112,7 +112,7 @@ fn off() -> Vec<u8> {
     text.into()
 }
 
-/// With a first line of text, and big-endian numbers.
+/// A binary OFF file: a first line of text, and big-endian numbers.
 fn off_binary() -> Vec<u8> {
     let mut bytes = b"OFF BINARY\n".to_vec();
     let mut push = |number: [u8; 4]| bytes.extend(number);

@@ -10,7 +10,7 @@ pub(crate) struct Lines<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
     bytes: &'a [u8],
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     number: usize,
 }
 
@@ -19,7 +19,7 @@ impl<'a> Lines<'a> {
         Self::after(0, bytes)
     }
 
-    /// The lines behind a number of lines that were read otherwise.
+    /// The lines after the first `number` lines, which were read otherwise.
     pub(crate) fn after(number: usize, bytes: &'a [u8]) -> Self {
         Self { rest: bytes, number }
     }

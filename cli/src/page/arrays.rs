@@ -42,7 +42,7 @@ pub(super) struct Arrays {
     /// corner's vertex; and the kind of the edge from this corner to the next.
     corners: Packed,
     edge_kinds: Packed,
-    /// Three numbers each.
+    /// The vertices, three numbers each.
     vertices: Packed,
     polygon_materials: Packed,
 }

@@ -20,7 +20,7 @@ pub(super) struct Data {
     materials: Vec<Colour>,
     /// Steps of the grid in a unit.
     steps: f64,
-    /// The number of planes that are planes of nodes: the first ones.
+    /// The number of planes of nodes, which come before all other planes.
     #[serde(rename = "nodePlaneCount")]
     node_planes: usize,
     arrays: Arrays,

@@ -6,7 +6,8 @@ use base64::engine::general_purpose::STANDARD;
 use miniz_oxide::deflate::compress_to_vec;
 use serde::Serialize;
 
-/// How hard to compress, up to 10. Too large: more time for little; too small: longer files.
+/// The level of compression, up to 10. Too large: much more time for slightly shorter files. Too small:
+/// longer files.
 const LEVEL: u8 = 7;
 
 /// An array, as the page's script reads it.
@@ -15,8 +16,8 @@ pub(super) struct Packed {
     kind: &'static str,
     /// The number of bytes.
     bytes: usize,
-    /// The first byte of each number, then the second byte of each, and so on: similar bytes are adjacent, and
-    /// compress better. In deflate (RFC 1951).
+    /// The bytes of the numbers, compressed with deflate (RFC 1951): the first byte of each number, then the
+    /// second byte of each number, and so on. Then similar bytes are adjacent, and compress better.
     base64: String,
 }
 

@@ -12,7 +12,7 @@ function pictureOf(width, height) {
     width, height, image,
     pixels: new Uint32Array(image.data.buffer),
     lineWidth: 1,
-    // For each row, the column of the edge that crosses it downwards, and of the edge that crosses it upwards.
+    // For each row, the columns of the edge that crosses it downwards and of the edge that does so upwards.
     downwards: new Int32Array(height),
     upwards: new Int32Array(height),
   };

@@ -114,7 +114,7 @@ impl Chooser {
     }
 }
 
-/// How a set is divided.
+/// The division of a set: by one plane, or by peeling.
 #[derive(Debug)]
 pub(in crate::build) enum Choice {
     /// This plane divides the set.

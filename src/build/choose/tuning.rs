@@ -4,13 +4,13 @@
 /// of bins in `axis_planes.rs`.) `benches/ABLATION.md` measures the effect of each.
 #[derive(Clone, Copy, Debug)]
 pub struct Tuning {
-    /// In sets of fewer pieces, sorting the pieces finds an axis plane that cuts nothing; `Auto` tries no
-    /// other axis planes on such sets. Too large: fewer axis planes to choose from. Too small: time, because
-    /// counting by bins takes longer than sorting.
+    /// A number of pieces. In sets of fewer pieces, sorting the pieces finds an axis plane that cuts nothing;
+    /// `Auto` tries no other axis planes on such sets. Too large: fewer axis planes to choose from. Too
+    /// small: time, because counting by bins takes longer than sorting.
     pub clean_below: usize,
-    /// On sets of fewer pieces, more own planes are tried, and pieces that need no cut are peeled off. Too
-    /// large: more time and deeper trees for slightly fewer fragments. Too small: more fragments on scans,
-    /// whose surfaces no free plane follows.
+    /// A number of pieces. On sets of fewer pieces, more own planes are tried, and pieces that need no cut
+    /// are peeled off. Too large: more time and deeper trees for slightly fewer fragments. Too small: more
+    /// fragments on scans, whose surfaces no free plane follows.
     pub small: usize,
     /// The number of own planes tried in a small set, and the largest number tried by heuristics that only
     /// score own planes. Too large: time. Too small: more fragments.
@@ -28,13 +28,13 @@ pub struct Tuning {
     /// yields the large piece whose plane is tested as the common plane of all pieces. Too large: time. Too
     /// small: good planes are dropped by chance, and the piece tested for the common plane may be too small.
     pub first_sample: usize,
-    /// Each round keeps 1/`rate` of the own planes and compares them with `rate` times as many pieces. Too
-    /// large: the best are dropped by chance. Too small: time.
+    /// The rate of successive halving. Each round keeps 1/`rate` of the own planes and compares them with
+    /// `rate` times as many pieces. Too large: the best are dropped by chance. Too small: time.
     pub rate: usize,
-    /// Subtracted from the cost of a polygon's plane, per piece of the set. This reward is scaled by the
-    /// share of the bounding box that the polygon fills, and by 1 + the mean number of cuts per piece. (A
-    /// wall that is not used early is cut again by every plane through it.) Too large: depth is wasted on
-    /// polygons that no plane would cut. Too small: large polygons are cut.
+    /// The reward that is subtracted from the cost of a polygon's plane, per piece of the set. The reward is
+    /// scaled by the share of the bounding box that the polygon fills, and by 1 + the mean number of cuts per
+    /// piece. (A wall that is not used early is cut again by every plane through it.) Too large: depth is
+    /// wasted on polygons that no plane would cut. Too small: large polygons are cut.
     pub reward: f64,
     /// The largest number of groups of four pieces per box of the peeling search. Too large: groups are
     /// tested one by one. Too small: more boxes to build. In small sets (of fewer than `small` pieces) boxes
@@ -78,11 +78,11 @@ pub struct FrameTuning {
     /// plane cuts something. Too small: stacks of layers are searched for the best plane, though any plane is
     /// good.
     pub probes: usize,
-    /// If the tolerance is coarse, a piece's plane is used without further search only if the piece fills at
-    /// least this share of the set's bounding box. Corners in `f32` are rounded, so small polygons that were
-    /// meant to lie in one plane have different planes, which separate other polygons of that plane. Too
-    /// small: of 400 pages with forty small cards in one plane, 3 lose their order at 1/16, and 10 at 1/50.
-    /// Too large: each set of layers in `f32` is searched for its best plane.
+    /// A share of a set's bounding box. If the tolerance is coarse, a piece's plane is used without further
+    /// search only if the piece fills at least this share. Corners in `f32` are rounded, so small polygons
+    /// that were meant to lie in one plane have different planes, which separate other polygons of that
+    /// plane. Too small: of 400 pages with forty small cards in one plane, 3 lose their order at 1/16, and 10
+    /// at 1/50. Too large: each set of layers in `f32` is searched for its best plane.
     pub trusted_share: f64,
     /// A tolerance is coarse if it is a larger share of the extent than this. The value is above the default
     /// tolerance of corners in `f64`, and below the default tolerance of corners in `f32`. Too small: layers

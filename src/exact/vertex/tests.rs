@@ -108,7 +108,8 @@ proptest! {
     }
 }
 
-/// A triangle and two almost equal planes. Their weights cancel to any degree.
+/// A triangle and two almost equal planes. The weights of the point where the planes meet cancel to any
+/// degree.
 fn nearly_the_same(random: &mut SplitMix64) -> [[[f64; 3]; 3]; 3] {
     let mut corner = || (random.point(-1.0, 1.0) * (LATTICE_LIMIT - 1e13)).round();
     let (triangle, plane) = ([(); 3].map(|()| corner()), [(); 3].map(|()| corner()));

@@ -75,10 +75,10 @@ fn shared_corner(edges: &[Edge], end: usize, weight: i32) -> u32 {
 /// The fill rule, which also decides how overlapping edges are merged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rule {
-    /// By direction: opposite edges cancel, two edges of the same direction count 2. A point is inside if its
-    /// winding number is not 0. Edges must not cross.
+    /// The nonzero rule, by direction: opposite edges cancel, two edges of the same direction count 2. A
+    /// point is inside if its winding number is not 0. Edges must not cross.
     Signed,
-    /// By parity: any two overlapping edges cancel.
+    /// The even-odd rule, by parity: any two overlapping edges cancel.
     Parity,
 }
 
@@ -225,8 +225,8 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The place on the line of the first edge above a point. Unless `above_all` is set, edges through the
-    /// point count as above the point.
+    /// The place of the first edge above a point, on the sweep line. Unless `above_all` is set, edges through
+    /// the point count as above the point.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -432,7 +432,7 @@ impl<'a> Sweep<'a> {
 /// The edges on the sweep line, from the lowest to the highest, in blocks of bounded length, so that an
 /// insertion moves few edges. Blocks are split but never merged.
 struct SweepLine {
-    /// No block is empty.
+    /// Blocks of edges, none of which is empty.
     blocks: Vec<Vec<u32>>,
 }
 

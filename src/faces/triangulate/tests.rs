@@ -272,8 +272,8 @@ fn polygons_that_cross_themselves_come_to_an_end() {
     }
 }
 
-/// A few crossings change only their neighbourhood. In a spiral, two exchanged corners reach across all its
-/// arms.
+/// A few crossings change only their neighbourhood. In a spiral, two exchanged corners reach across all arms
+/// of the spiral.
 #[test]
 fn a_loop_in_a_large_outline_is_a_small_fault() {
     let mut count = 0;

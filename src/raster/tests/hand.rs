@@ -164,7 +164,7 @@ fn near_is_bright_in_a_depth_map_or_far() {
 #[test]
 fn nothing_behind_the_eye_is_shown_mirrored() {
     // A floor that reaches behind the eye, with its right edge just right of the eye. By this edge alone,
-    // rays to the left are inside, also upwards, where they leave the floor behind them.
+    // rays to the left are inside, also those upwards, although the floor is behind them.
     let floor = [(-9.0, 9.0), (0.1, 9.0), (0.1, -9.0), (-9.0, -9.0)];
     let floor = floor.map(|(x, z)| DVec3::new(x, -1.0, z));
     let scene = faces(&[floor.to_vec()], None);

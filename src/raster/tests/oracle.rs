@@ -28,7 +28,7 @@ fn integer(point: [f64; 3]) -> Vector {
     point.map(|c| IBig::from_f64(c).unwrap())
 }
 
-/// A plane's normal and a point on it.
+/// The normal of a face's plane, and a point on the plane.
 fn plane(faces: &Faces, face: u32) -> (Vector, Vector) {
     let [p, q, r] = faces.reference_triangle(face).map(|c| integer(faces.corner(c)));
     let (u, w) = (minus(&q, &p), minus(&r, &p));
@@ -142,7 +142,7 @@ pub(crate) fn meets_piece(
     meets(rays, faces, face, x, y).is_some() && lines.iter().all(is_inside)
 }
 
-/// The normal of any plane and a point on it.
+/// The normal of a named plane, and a point on the plane.
 fn named(faces: &Faces, plane_id: PlaneId) -> (Vector, Vector) {
     match plane_id.kind() {
         PlaneKind::Face(face) => plane(faces, face),

@@ -69,7 +69,7 @@ fn a_floor_far_behind_a_wall_is_not_contested_by_the_polygons() {
     }
 }
 
-/// A wall that reaches below the floor's plane within the tolerance is excused only there.
+/// A wall that reaches below the floor's plane within the tolerance is excused only below the plane.
 #[test]
 fn walls_across_the_plane_within_the_tolerance_are_excused() {
     let floor = [(3.0, 5.0), (4.0, 5.0), (4.0, 6.0), (3.0, 6.0)].map(|(x, y)| [x, y, 0.0]);

@@ -117,7 +117,7 @@ fn errors(chapter: &mut Chapter) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Two sheets: the pictures of formats, the predictions, and the picture of the tree.
+/// Shows z-fighting of two sheets: the pictures of formats, the predictions, and the picture of the tree.
 fn fighting(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.heading("Z-fighting");
     chapter.text(

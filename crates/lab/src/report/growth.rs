@@ -170,7 +170,7 @@ fn timed<T>(build: impl Fn() -> Result<T, String>) -> Result<(T, f64), String> {
     Ok((tree, seconds))
 }
 
-/// The seconds that one order takes: the least of five.
+/// The seconds that one order takes: the least time of five runs.
 fn time_order(mut order: impl FnMut(Viewpoint, &mut Vec<u32>)) -> f64 {
     let mut list = Vec::new();
     let mut time = || {

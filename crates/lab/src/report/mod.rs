@@ -72,7 +72,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     if args.scenes.iter().filter(|&name| name == STANDARD).count() > 1 {
         return Err(Failure::about("standard input", "it can be read only once"));
     }
-    // Files are read first, so that an unreadable one is reported at once.
+    // Files are read first, so that an unreadable file is reported at once.
     let scenes = args.scenes.iter().map(|name| load(args, name)).collect::<Result<Vec<_>, _>>()?;
     make_folder(&args.output)?;
     try_to_write(&args.output)?;

@@ -36,7 +36,7 @@ impl Table {
         table
     }
 
-    /// As Markdown.
+    /// Returns the table as Markdown.
     pub(super) fn markdown(&self) -> String {
         let mut table = self.aligned(self.columns.clone(), |cell| escaped(cell));
         // In the rule above the first row.
@@ -45,7 +45,7 @@ impl Table {
         format!("{table}\n")
     }
 
-    /// As columns for a terminal, with one word of a title per line.
+    /// Returns the table as columns for a terminal, with one word of a title per line.
     pub(super) fn plain(&self) -> String {
         // A slash stays with the word before it.
         let title = |title: &String| title.replace(" / ", "/ ").replace(' ', "\n");

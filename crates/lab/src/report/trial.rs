@@ -19,7 +19,8 @@ use binspace_cli::camera;
 use binspace_cli::failure::Failure;
 use binspace_cli::job;
 
-/// Builds and paints that take less time are repeated, to reduce the effect of clock steps and cold caches.
+/// Builds and paints that take less time than this are repeated, to reduce the effect of clock steps and cold
+/// caches.
 const LONG_ENOUGH: Duration = Duration::from_millis(5);
 /// The most repetitions.
 const REPEATS: usize = 5;
