@@ -352,9 +352,9 @@ struct Search {
     counts: Vec<[u32; 2]>,
 }
 
-/// Stands for no component; also for the number of a node that is not searched.
+/// The number that stands for no component, and for a node that is not searched.
 const NONE: u32 = u32::MAX;
-/// Stands for the number of a node that is searched but was not visited yet.
+/// The number that stands for a node that is searched but was not visited yet.
 const UNMET: u32 = u32::MAX - 1;
 
 impl<'p> Graph<'p> {
@@ -494,7 +494,7 @@ impl Wanted<'_> {
         Self { is_marked: &|_| true, needs_both: true, is_wanted: &|_| true };
 }
 
-/// States that the node `below` has to be drawn before the node `above`.
+/// A pair of nodes: the node `below` has to be drawn before the node `above`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) below: u32,

@@ -29,7 +29,7 @@ pub(super) const NO_POINT: u32 = u32::MAX;
 /// Faces with more corners than this are not searched for corners that a cut goes through. Too small: more
 /// intersections are computed in integers. Too large: the search takes longer.
 const FEW: usize = 8;
-/// More than the distance of any tile's border from the origin, in steps.
+/// A length, in steps, that exceeds the distance of every tile's border from the origin.
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// The lines of a picture: the edges of all faces that the picture may show, and the cuts of their pieces.
@@ -437,7 +437,7 @@ pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Hashes the numbers of a key.
+/// A hasher for keys that consist of numbers.
 #[derive(Debug, Default)]
 pub(super) struct Mixer(u64);
 
@@ -559,7 +559,7 @@ fn step_of(number: f64) -> i64 {
     (number / STEP).floor() as i64
 }
 
-/// Borders of tiles are at multiples of 1/`STEPS` of a pixel.
+/// The number of steps per pixel. Borders of tiles are at whole steps.
 pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
 pub(super) const STEP_BITS: u32 = 24;
 
@@ -571,7 +571,7 @@ pub(super) const STEP_BITS: u32 = 24;
 pub(super) struct HalfPlane(u64);
 
 const BORDER: u64 = 1 << 63;
-/// Added to the place of a border, so that all numbers are positive.
+/// The number added to the place of a border, so that all numbers are positive.
 const OFFSET: i64 = 1 << 60;
 
 impl HalfPlane {

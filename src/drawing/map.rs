@@ -315,7 +315,7 @@ const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
-/// Reports the progress of operations to a callback, if any. The callback can cancel the operations.
+/// A reporter of the progress of operations to a callback, if any. The callback can cancel the operations.
 #[derive(Default)]
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 

@@ -173,7 +173,7 @@ impl Layers {
         Ok(coarsest)
     }
 
-    /// The only place where a tree is built.
+    /// Builds the tree of all outlines. No other method builds a tree.
     fn build(&mut self, tolerance: f64) -> Result<(), Error> {
         let Self { builder, layers, outlines, corners, by_plane, .. } = self;
         let polygons = (0..outlines.len()).map(|k| Clipped(corners_of(outlines, corners, k)));

@@ -116,8 +116,8 @@ impl LayerVertex {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedCorner {
     pub(super) vertex: LayerVertex,
-    /// The edge of the rectangle or of an ancestor's rectangle that begins here; `None` if the box made the
-    /// edge.
+    /// The edge that begins at this corner: an edge of the rectangle or of an ancestor's rectangle. `None` if
+    /// the box made the edge.
     pub(super) edge: Option<u8>,
 }
 

@@ -298,7 +298,7 @@ fn add(
     positions.extend(places);
 }
 
-/// A part of a tree: the fragments below a node, or of a leaf.
+/// A part of a tree: the fragments of a subtree, or of a leaf.
 #[derive(Clone, Debug)]
 struct Region {
     of: Whose,

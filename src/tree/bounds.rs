@@ -300,7 +300,7 @@ fn union(a: Flat, b: Flat) -> Flat {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpace {
     normal: [f32; 3],
-    /// Less than the offset, by more than the rounding error of all compared values.
+    /// The plane's offset, reduced by more than the rounding error of all compared values.
     offset: f32,
     /// The indices, in a box, of the coordinates of two corners: the furthest corner along the normal, and
     /// the nearest.
@@ -318,8 +318,7 @@ const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 /// Error bound of the plane's position in `f64`, as a share of the sum of its terms' magnitudes.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
-/// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
-/// is 1.
+/// A bound on the distance of a corner from the scene's middle, along a normal whose largest coordinate is 1.
 const OUTSIDE: f64 = 4.0;
 
 impl HalfSpace {
@@ -449,7 +448,7 @@ impl Normals {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::tree) struct Arms {
     eye: [f64; 3],
-    /// 1, or 0 for an eye at infinity.
+    /// The eye's homogeneous coordinate: 1, or 0 for an eye at infinity.
     w: f64,
 }
 

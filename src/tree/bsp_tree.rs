@@ -407,12 +407,12 @@ impl fmt::Debug for BspTree {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// Convex faces: polygons, and the triangles of polygons that were triangulated;
-    /// [`BspTree::face_count`].
+    /// The number of convex faces: polygons, and the triangles of polygons that were triangulated
+    /// ([`BspTree::face_count`]).
     pub faces: usize,
-    /// Fragments in the tree.
+    /// The number of fragments in the tree.
     pub fragments: usize,
-    /// Partition planes.
+    /// The number of partition planes.
     pub nodes: usize,
     /// The largest number of nodes on a path from the root.
     pub depth_max: usize,
@@ -425,8 +425,8 @@ pub struct Stats {
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Faces that count as on a partition plane only because of the tolerance. Faces on one plane are painted
-    /// in input order.
+    /// The number of faces that count as on a partition plane only because of the tolerance. Faces on one
+    /// plane are painted in input order.
     pub nearly_coplanar: usize,
     /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from the
     /// partition plane that the face counts as on, a length.

@@ -35,7 +35,8 @@ const ERROR: f32 = 1.505 * f32::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     eye: Eye,
-    /// Homogeneous, in units of 2⁵¹ lattice steps, scaled so that the largest coordinate is 1.
+    /// The homogeneous coordinates of the viewpoint, in units of 2⁵¹ lattice steps, scaled so that the
+    /// largest coordinate is 1.
     point: Vec4,
     /// The largest error of a rounded distance.
     bound: f32,

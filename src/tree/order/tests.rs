@@ -90,7 +90,7 @@ impl Side {
     }
 }
 
-/// Compares the order for some signs with the walk, in empty buffers and in buffers that are too large.
+/// A tree, and the data for comparing the written orders of the tree with the walk.
 struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,
