@@ -821,7 +821,7 @@ mod join_tests {
         assert!(added > 500 && moved > 500 && refused > 500, "{added} {moved} {refused}");
     }
 
-    /// The search visits all nodes in between. The search fails if there are more such nodes than its budget.
+    /// A search visits all nodes between two nodes, and fails if there are more nodes than the budget allows.
     #[test]
     fn searches_end_at_their_budget() {
         for (between, expected) in [(BUDGET - 2, true), (BUDGET + 2, false)] {

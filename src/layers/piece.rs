@@ -203,9 +203,9 @@ impl Layer {
     /// itself is painted only if it is also in the list of layers.
     ///
     /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the visible part is
-    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the same
-    /// matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor
-    /// is seen edge-on, nothing remains.
+    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the
+    /// same matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the
+    /// ancestor is seen edge-on, nothing remains.
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};

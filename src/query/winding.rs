@@ -84,8 +84,8 @@ impl BspTree {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
 
-    /// The faces with a box above a point, each once. The list includes all faces that a ray from the point
-    /// along z crosses.
+    /// The faces with a box that reaches above a point, each once. The list includes all faces that a ray
+    /// from the point along z crosses.
     fn faces_above(&self, point: DVec3) -> Vec<u32> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [x, y, z] = self.faces.lattice().to_lattice(point).map(|c| c * unit);

@@ -390,8 +390,8 @@ pub(in crate::tree) struct Normals {
 /// Bounds the total error of rounding a unit normal's coordinate to `f32` and then adding this constant. With
 /// ε = 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is
 /// less than ε / 1000. Rounding to `f32` moves a coordinate of at most 1 by ε / 4, and a sum of more than 1
-/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal. Too
-/// large: fewer subtrees are decided at once.
+/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal.
+/// Too large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {

@@ -362,8 +362,8 @@ impl BspTree {
         &self.faces
     }
 
-    /// Returns whether this is the tree of one cell of a [`Partition`](crate::partition::Partition), not of
-    /// whole polygons.
+    /// Returns whether the tree is the tree of one cell of a [`Partition`](crate::partition::Partition). The
+    /// tree of a cell contains the parts of polygons inside the cell.
     pub fn is_of_cell(&self) -> bool {
         self.faces.corners_of_cell() > 0
     }

@@ -1,8 +1,8 @@
 //! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
-//! A file contains no vertices, so a forged file cannot make wrong pieces: whatever planes the file has, each
-//! piece is on the correct side of all planes above the piece, and the pieces of each face cover the face. The
-//! file's numbers of fragments only limit the number of pieces.
+//! A file contains no vertices. So a forged file cannot make wrong pieces: whatever planes the file has, each
+//! piece is on the correct side of all planes above the piece, and the pieces of each face cover the face.
+//! The file's numbers of fragments only limit the number of pieces.
 
 use std::mem::{replace, take};
 use std::ops::Range;
