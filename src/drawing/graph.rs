@@ -18,7 +18,7 @@ use crate::progress::Watch;
 pub(super) struct Ordered {
     /// All nodes; for each pair, `below` precedes `above` unless `below` is clipped and `above` is opaque.
     pub(super) order: Vec<u32>,
-    /// Nodes of which only the visible part is drawn: they need not precede any opaque node.
+    /// Whether only the visible part of a node is drawn. Such a node need not precede any opaque node.
     pub(super) is_clipped: Vec<bool>,
 }
 

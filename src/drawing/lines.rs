@@ -1,12 +1,12 @@
 //! The lines of a picture: their origins and numbers, their intersections, and the side of a line on which
 //! two other lines meet.
 //!
-//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
-//! k₀ + x·k₁ + y·k₂ = 0. The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the
-//! picture, is called a half of the line. The edge between two points is the plane through both points and
-//! the eye. The cut of a face f by a plane h consists of the rays that meet f and h in one point. Let κ be
-//! the value of a plane at the eye (for parallel rays, the plane's slope along the rays), and φ the plane's
-//! value along a ray. Then k = κ_f φ_h − κ_h φ_f.
+//! Three integers k define a line: the points (x, y) of the picture, in pixels, with k₀ + x·k₁ + y·k₂ = 0.
+//! The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the picture, is called a half
+//! of the line. The edge between two points is the plane through both points and the eye. The cut of a face f
+//! by a plane h consists of the rays that meet f and h in one point. Let κ be the value of a plane at the eye
+//! (for parallel rays, the plane's slope along the rays), and φ the plane's value along a ray. Then k = κ_f
+//! φ_h − κ_h φ_f.
 //!
 //! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
 //! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
@@ -723,8 +723,8 @@ impl ViewFrame<'_> {
         }
     }
 
-    /// The edge from one lattice point to another. Its direction in the picture is (k₂, −k₁). Inside a face
-    /// whose front is seen, the face's edges are negative.
+    /// The edge from one lattice point to another. The direction of the edge in the picture is (k₂, −k₁).
+    /// Inside a face whose front is seen, the face's edges are negative.
     pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ExactLine {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let integer = |p: [f64; 3]| p.map(|c| c as i64);

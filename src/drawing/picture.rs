@@ -250,7 +250,7 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint. They are also
+    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint. The paths are also
     /// [trapped](Drawing::trapped), which closes the seams between paths. `paint` is called once for each
     /// polygon that has a path, with the polygon's number.
     ///

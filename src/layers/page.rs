@@ -21,7 +21,7 @@ const REACH: f64 = (1 << 20) as f64;
 /// merged, or, because of one layer with few digits, all thin layers of the page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
-/// 2⁻⁵² of the page's extent. It exceeds the tolerance of `TOLERANCES[0]` only if a layer reaches further
+/// 2⁻⁵² of the page's extent. This limit exceeds the limit of `TOLERANCES[0]` only if a layer reaches further
 /// than 35 000 times the viewport's longer side. Too small: a step is more than the tolerance, and coplanar
 /// layers whose matrices differ lose their document order (without this limit, in 8 of 2000 unclipped pages).
 /// Too large: thin layers are merged.

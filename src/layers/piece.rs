@@ -26,8 +26,8 @@ impl<'p> LayerPiece<'p> {
         self.is_whole
     }
 
-    /// Returns the vertices, in the sense of the rotation from u to v. This is clockwise on the screen if the
-    /// layer is seen from its front.
+    /// Returns the vertices, in the sense of the rotation from u to v: clockwise on the screen if the layer
+    /// is seen from its front.
     ///
     /// Pieces of one layer that share a vertex have the same bits for the vertex's position. The place in the
     /// layer is u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the

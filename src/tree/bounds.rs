@@ -183,8 +183,8 @@ impl Bounds {
         (self.fragments as usize).div_ceil(BLOCK.pow(level as u32))
     }
 
-    /// The largest aligned block that begins at the start of a run of fragments and lies within the run: its
-    /// level, and its number of fragments.
+    /// Finds the largest aligned block that begins at the start of a run of fragments and lies within the
+    /// run. Returns the block's level and number of fragments.
     pub(crate) fn block(&self, run: &Range<u32>) -> (usize, u32) {
         let (mut level, mut len) = (0, 1_u32);
         while level + 1 < self.levels.len()

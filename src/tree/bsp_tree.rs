@@ -43,9 +43,9 @@ use crate::faces::Preparation;
 /// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
 /// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, and its vertices with
-/// their weights over the polygon's corners. It also returns which edges of the fragment are edges of the
-/// polygon, and which side of the fragment [faces](crate::Fragment::facing) a viewpoint. Fragments are
-/// numbered from 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
+/// their weights over the polygon's corners. A fragment also returns which of its edges are edges of the
+/// polygon, and which of its sides [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from
+/// 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
 ///
 /// # Order
 ///

@@ -120,8 +120,8 @@ impl View {
         for (g, group) in groups.iter().enumerate() {
             let distances = self.distances(group);
             let bound = Vec4::splat(self.bound);
-            // No early exit for doubtful planes: they are rare, and a word at a time can be decided without
-            // a branch.
+            // No early exit for doubtful planes: doubtful planes are rare, and a word at a time can be
+            // decided without a branch.
             front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
             sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
         }
