@@ -5,8 +5,8 @@
 //! The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the picture, is called a half
 //! of the line. The edge between two points is the plane through both points and the eye. The cut of a face f
 //! by a plane h consists of the rays that meet f and h in one point. Let κ be the value of a plane at the eye
-//! (for parallel rays, the plane's slope along the rays), and φ the plane's value along a ray. Then k = κ_f
-//! φ_h − κ_h φ_f.
+//! (for parallel rays, the plane's slope along the rays), and φ the plane's value along a ray. Then
+//! k = κ_f φ_h − κ_h φ_f.
 //!
 //! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
 //! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
@@ -639,7 +639,7 @@ impl LineTable<'_> {
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
     }
 
-    /// The point where two lines meet, from integers, and a bound on its rounding error.
+    /// The point where two lines meet, computed from integers, and a bound on the point's rounding error.
     #[cold]
     pub(super) fn exact_meeting(&self, halves: [HalfPlane; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));

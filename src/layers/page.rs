@@ -15,10 +15,10 @@ use crate::viewpoint::Viewpoint;
 /// viewport, also the largest x and y. Too large: coordinates are rounded to more than the least tolerance.
 /// Too small: layers that pass near the eye lose a visible part.
 const REACH: f64 = (1 << 20) as f64;
-/// The least and the largest tolerance, as shares of the viewport's size, like the limits of
-/// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
-/// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers are
-/// merged, or, because of one layer with few digits, all thin layers of the page.
+/// The least and the largest tolerance, as shares of the viewport's size.
+/// ([`Tolerance::Default`](crate::Tolerance::Default) has the same limits, as shares of the extent.) Too
+/// small: cards meant to be in one plane cut each other. Too large: thin layers are merged. A single layer
+/// with few digits can merge all thin layers of the page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
 /// 2⁻⁵² of the page's extent. This limit exceeds the limit of `TOLERANCES[0]` only if a layer reaches further

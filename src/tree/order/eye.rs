@@ -113,7 +113,7 @@ impl View {
         groups.all(|(w, groups)| self.signs(tree, w, groups) == other.signs(tree, w, groups))
     }
 
-    /// The bits of the nodes of word `w`, whose planes are in `groups`.
+    /// The word `w` of signs: a bit for each node whose plane is in `groups`.
     #[inline]
     fn signs(&self, tree: &BspTree, w: usize, groups: &[[Vec4; 4]]) -> u32 {
         let (mut front, mut sure) = (0, 0);

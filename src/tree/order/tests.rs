@@ -6,7 +6,7 @@ use crate::tree::node::{NodeRecord, finish};
 use crate::tree::order::{OrderLayout, ROOT, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
-/// A node: the number of fragments on its plane, and its front and back sides.
+/// A node: the number of fragments on the node's plane, and the front and back sides of the plane.
 #[derive(Clone, Debug)]
 struct Tree {
     own: u32,
