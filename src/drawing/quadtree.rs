@@ -212,7 +212,7 @@ impl Candidate {
     }
 }
 
-/// The items, front to back, or the faces that may reach into a part of the picture.
+/// The items or the faces that may reach into a part of the picture. Items are sorted front to back.
 #[derive(Debug)]
 pub(super) struct Candidates<'p> {
     pub(super) primitives: &'p Primitives<'p>,
