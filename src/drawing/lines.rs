@@ -100,8 +100,8 @@ impl<'t> LineTable<'t> {
     }
 
     /// The half of a new key's line. Collinear edges, cuts and borders of tiles share one line, for instance
-    /// the edges of walls side by side. Otherwise sides of cells would not be known to be collinear, and
-    /// integers would have to decide this repeatedly.
+    /// the edges of walls side by side. Otherwise integers would have to decide repeatedly whether sides of
+    /// cells are collinear.
     fn half_of_line(
         &mut self,
         key: Key,

@@ -49,9 +49,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If an edge is open, because no edges of other polygons run back along that edge. The error names the
-    /// edge's polygon, and [`open_edges`](Self::open_edges) returns all open edges. Also if the tree is the
-    /// tree of a cell.
+    /// If the tree is the tree of a cell, or if an edge is open: no edges of other polygons run back along
+    /// that edge. The error names the edge's polygon, and [`open_edges`](Self::open_edges) returns all open
+    /// edges.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
