@@ -34,8 +34,8 @@ const FINE: f64 = 1e-6;
 /// A convex polygon with area: a list of sides. Each side begins at the end of the previous side. The sides
 /// turn from the x axis towards the y axis, which is clockwise in the picture.
 ///
-/// A corner is defined by the two lines that meet there; its rounded position is for output and for filters
-/// only. So a cell is as exact as its lines, however often it is cut.
+/// The two lines that meet at a corner define the corner exactly. The corner's rounded position is for output
+/// and for filters only. So a cell is as exact as its lines, however often the cell is cut.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub(super) sides: SmallVec<[Side; 5]>,
@@ -126,8 +126,8 @@ impl Cell {
         Ok(Some(part))
     }
 
-    /// The cost of all corners, in pieces that a build examines. It is 0 for few corners, because the cost of
-    /// the cell includes them.
+    /// The cost of all corners, in pieces that a build examines. The cost is 0 for few corners, because the
+    /// cost of the cell includes a few corners.
     fn corners_work(&self) -> usize {
         if self.sides.len() > FEW_CORNERS { self.sides.len() } else { 0 }
     }

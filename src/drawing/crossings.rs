@@ -284,7 +284,7 @@ const SHARE: usize = 256;
 /// Two faces, and the line in which they cross each other.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
-    /// As in [`CommonSide`].
+    /// The faces, in the order of [`CommonSide::faces`].
     faces: [u32; 2],
     segment: ProjectedSegment,
 }

@@ -237,7 +237,7 @@ impl Faces {
         [corners[k as usize], corners[next]]
     }
 
-    /// The start of a face's edge `k`, as given.
+    /// The start of a face's edge `k`: the given corner, before the tolerance moved it.
     fn given_start(&self, face: u32, k: u32) -> [f64; 3] {
         self.given_corner(self.corner_range(face).start as u32 + k)
     }

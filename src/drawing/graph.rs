@@ -18,7 +18,7 @@ use crate::progress::Watch;
 pub(super) struct Ordered {
     /// All nodes; for each pair, `below` precedes `above` unless `below` is clipped and `above` is opaque.
     pub(super) order: Vec<u32>,
-    /// Nodes of which only the visible part is drawn: they need not precede any opaque node.
+    /// Whether only the visible part of a node is drawn. Such a node need not precede any opaque node.
     pub(super) is_clipped: Vec<bool>,
 }
 
@@ -352,9 +352,9 @@ struct Search {
     counts: Vec<[u32; 2]>,
 }
 
-/// Stands for no component; also for the number of a node that is not searched.
+/// The number that stands for no component, and for a node that is not searched.
 const NONE: u32 = u32::MAX;
-/// Stands for the number of a node that is searched but was not visited yet.
+/// The number that stands for a node that is searched but was not visited yet.
 const UNMET: u32 = u32::MAX - 1;
 
 impl<'p> Graph<'p> {
@@ -494,7 +494,7 @@ impl Wanted<'_> {
         Self { is_marked: &|_| true, needs_both: true, is_wanted: &|_| true };
 }
 
-/// States that the node `below` has to be drawn before the node `above`.
+/// A pair of nodes: the node `below` has to be drawn before the node `above`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Pair {
     pub(super) below: u32,
@@ -821,7 +821,7 @@ mod join_tests {
         assert!(added > 500 && moved > 500 && refused > 500, "{added} {moved} {refused}");
     }
 
-    /// The search visits all nodes in between. The search fails if there are more such nodes than its budget.
+    /// A search visits all nodes between two nodes, and fails if there are more nodes than the budget allows.
     #[test]
     fn searches_end_at_their_budget() {
         for (between, expected) in [(BUDGET - 2, true), (BUDGET + 2, false)] {

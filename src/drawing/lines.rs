@@ -1,12 +1,12 @@
 //! The lines of a picture: their origins and numbers, their intersections, and the side of a line on which
 //! two other lines meet.
 //!
-//! A line is given by three integers k: it goes through the points (x, y) of the picture, in pixels, with
-//! k₀ + x·k₁ + y·k₂ = 0. The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the
-//! picture, is called a half of the line. The edge between two points is the plane through both points and
-//! the eye. The cut of a face f by a plane h consists of the rays that meet f and h in one point. Let κ be
-//! the value of a plane at the eye (for parallel rays, the plane's slope along the rays), and φ the plane's
-//! value along a ray. Then k = κ_f φ_h − κ_h φ_f.
+//! Three integers k define a line: the points (x, y) of the picture, in pixels, with k₀ + x·k₁ + y·k₂ = 0.
+//! The line's slope is the vector (k₁, k₂). One side of a line, a half-plane of the picture, is called a half
+//! of the line. The edge between two points is the plane through both points and the eye. The cut of a face f
+//! by a plane h consists of the rays that meet f and h in one point. Let κ be the value of a plane at the eye
+//! (for parallel rays, the plane's slope along the rays), and φ the plane's value along a ray. Then
+//! k = κ_f φ_h − κ_h φ_f.
 //!
 //! If the coordinates of corners are below 2⁵², of rays below 2⁶⁰ and of the eye below 2⁸¹, the integers of
 //! an edge have 197 bits and of a cut 361 bits. The determinant of three lines has less than 1088 bits.
@@ -29,7 +29,7 @@ pub(super) const NO_POINT: u32 = u32::MAX;
 /// Faces with more corners than this are not searched for corners that a cut goes through. Too small: more
 /// intersections are computed in integers. Too large: the search takes longer.
 const FEW: usize = 8;
-/// More than the distance of any tile's border from the origin, in steps.
+/// A length, in steps, that exceeds the distance of every tile's border from the origin.
 const FURTHEST: f64 = (1u64 << 50) as f64;
 
 /// The lines of a picture: the edges of all faces that the picture may show, and the cuts of their pieces.
@@ -100,8 +100,8 @@ impl<'t> LineTable<'t> {
     }
 
     /// The half of a new key's line. Collinear edges, cuts and borders of tiles share one line, for instance
-    /// the edges of walls side by side. Otherwise sides of cells would not be known to be collinear, and
-    /// integers would have to decide this repeatedly.
+    /// the edges of walls side by side. Otherwise integers would have to decide repeatedly whether sides of
+    /// cells are collinear.
     fn half_of_line(
         &mut self,
         key: Key,
@@ -437,7 +437,7 @@ pub(super) type Table<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 /// 2⁶⁴ divided by the golden ratio: odd, and without a pattern in its bits.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Hashes the numbers of a key.
+/// A hasher for keys that consist of numbers.
 #[derive(Debug, Default)]
 pub(super) struct Mixer(u64);
 
@@ -559,7 +559,7 @@ fn step_of(number: f64) -> i64 {
     (number / STEP).floor() as i64
 }
 
-/// Borders of tiles are at multiples of 1/`STEPS` of a pixel.
+/// The number of steps per pixel. Borders of tiles are at whole steps.
 pub(super) const STEPS: f64 = (1u64 << STEP_BITS) as f64;
 pub(super) const STEP_BITS: u32 = 24;
 
@@ -571,7 +571,7 @@ pub(super) const STEP_BITS: u32 = 24;
 pub(super) struct HalfPlane(u64);
 
 const BORDER: u64 = 1 << 63;
-/// Added to the place of a border, so that all numbers are positive.
+/// The number added to the place of a border, so that all numbers are positive.
 const OFFSET: i64 = 1 << 60;
 
 impl HalfPlane {
@@ -639,7 +639,7 @@ impl LineTable<'_> {
         if corner[0].is_negative() == corner[1].is_negative() { side } else { side.reverse() }
     }
 
-    /// The point where two lines meet, from integers, and a bound on its rounding error.
+    /// The point where two lines meet, computed from integers, and a bound on the point's rounding error.
     #[cold]
     pub(super) fn exact_meeting(&self, halves: [HalfPlane; 2]) -> ([f64; 2], f64) {
         let exact = halves.map(|half| self.exact(half));
@@ -723,8 +723,8 @@ impl ViewFrame<'_> {
         }
     }
 
-    /// The edge from one lattice point to another. Its direction in the picture is (k₂, −k₁). Inside a face
-    /// whose front is seen, the face's edges are negative.
+    /// The edge from one lattice point to another. The direction of the edge in the picture is (k₂, −k₁).
+    /// Inside a face whose front is seen, the face's edges are negative.
     pub(super) fn edge(&self, [a, b]: [[f64; 3]; 2]) -> ExactLine {
         let Rays { base, right, down, pencil, .. } = self.rays;
         let integer = |p: [f64; 3]| p.map(|c| c as i64);

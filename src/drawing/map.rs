@@ -315,7 +315,7 @@ const SORTED_AT_ONCE: usize = 1 << 16;
 
 type Report<'c> = dyn Fn(&Watch<'_>) -> ControlFlow<()> + Send + Sync + 'c;
 
-/// Reports the progress of operations to a callback, if any. The callback can cancel the operations.
+/// A reporter of the progress of operations to a callback, if any. The callback can cancel the operations.
 #[derive(Default)]
 pub(super) struct Reporter<'c>(Option<Box<Report<'c>>>);
 
@@ -401,7 +401,7 @@ pub(super) fn sort_by<T>(
     watch: &Watch<'_>,
     compare: impl Fn(&T, &T) -> Ordering,
 ) -> Result<(), Error> {
-    // The sort is compiled once for each type of item, not for each function: it is long.
+    // The sort is long, so it is compiled once for each type of item, not once for each function.
     let compare: &dyn Fn(&T, &T) -> Ordering = &compare;
     for part in list.chunks_mut(SORTED_AT_ONCE) {
         watch.work(part.len() * SORTED)?;

@@ -13,8 +13,8 @@
 //! | [`VisibilityMap::regions`] | the parts of the picture in which the same translucent polygons lie one behind the other |
 //! | [`polylines`] | runs joined into few long polylines, sorted to shorten pen travel |
 //!
-//! A [`VectorPicture`] combines any of these with colours and line styles of your choice. It writes SVG, TikZ
-//! and, with the feature `pdf`, PDF.
+//! A [`VectorPicture`] combines these results with colours and line styles of your choice. The picture can be
+//! written as SVG, TikZ and, with the feature `pdf`, PDF.
 //!
 //! [`ViewOptions::opacities`] makes polygons translucent. [`Drawing::translucent`] hides nothing and needs no
 //! map.

@@ -239,7 +239,7 @@ pub(super) struct Area {
 
 /// The cost of following an outline to its next piece, in work units: pieces that a build examines.
 const FOLLOWED: usize = 16;
-/// No piece.
+/// The number that stands for no piece.
 const NONE: u32 = u32::MAX;
 
 /// The numbered sides of all parts. A corner has the number of the side that begins at the corner.
@@ -369,7 +369,7 @@ impl<'a> Sides<'a> {
         Ok(Self { lines, sides: &area.sides, before, after })
     }
 
-    /// The sides, without the common parts of sides in opposite directions.
+    /// The pieces of all sides, without the common parts of sides in opposite directions.
     fn pieces(&self, points: &mut Union, watch: &Watch<'_>) -> Result<Vec<Piece>, Error> {
         let half = |side: u32| self.sides[side as usize].half;
         let mut by_line: Vec<u32> = (0..self.sides.len() as u32).collect();

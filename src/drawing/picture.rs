@@ -250,9 +250,9 @@ impl VectorPicture {
         Self { background: Some(colour), ..self }
     }
 
-    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint. They are also
-    /// [trapped](Drawing::trapped), which closes the seams between paths. `paint` is called once for each
-    /// polygon that has a path, with the polygon's number.
+    /// Adds the paths of a drawing. The paths are [batched](Drawing::batched) by paint, and
+    /// [trapped](Drawing::trapped) to close the seams between paths. `paint` is called once for each polygon
+    /// that has a path, with the polygon's number.
     ///
     /// A stroke follows the polygon's own [edges](Path::edges). The stroke is painted directly after its
     /// path, so later paths cover the stroke. Drawings with strokes are not batched. The lines and points of

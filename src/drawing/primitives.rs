@@ -149,7 +149,8 @@ impl<'t> Primitives<'t> {
     /// picture.
     ///
     /// A ray that meets the face's plane behind the eye, or is parallel to the plane, is never in all these
-    /// half-planes: its intersection with the plane would be outside every edge of a bounded convex polygon.
+    /// half-planes: the intersection of the ray's line and the plane would be outside every edge of a bounded
+    /// convex polygon.
     pub(super) fn outline(&self, face: u32) -> &[HalfPlane] {
         self.at(self.views[face as usize].halves)
     }
@@ -240,8 +241,8 @@ impl<'t> Primitives<'t> {
         self.tree.preparation().polygons
     }
 
-    /// The cost of all edges of a face, in pieces that a build examines. It is 0 for faces of few corners,
-    /// because the cost of such a face includes the edges.
+    /// The cost of all edges of a face, in pieces that a build examines. The cost is 0 for faces of few
+    /// corners, because the cost of such a face includes the edges.
     pub(super) fn edges_work(&self, face: u32) -> usize {
         let corners = self.lines.frame.faces.corners(face).len();
         if corners > FEW_CORNERS { corners } else { 0 }

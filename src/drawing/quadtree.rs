@@ -21,7 +21,7 @@ use crate::memory::place;
 use crate::progress::Watch;
 use crate::{Error, parallel_map};
 
-/// A rectangle of the picture. Its borders are given in steps.
+/// A rectangle of the picture, with borders in steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
     pub(super) low: [i64; 2],
@@ -212,7 +212,7 @@ impl Candidate {
     }
 }
 
-/// The items, front to back, or the faces that may reach into a part of the picture.
+/// The items or the faces that may reach into a part of the picture. Items are sorted front to back.
 #[derive(Debug)]
 pub(super) struct Candidates<'p> {
     pub(super) primitives: &'p Primitives<'p>,

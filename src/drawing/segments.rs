@@ -1,4 +1,4 @@
-//! Segments and points of the scene in the picture, and their passes in front of pieces or behind pieces.
+//! Segments and points of the scene in the picture, and the pieces that are in front of them or behind them.
 //!
 //! The number of polygons in front of a segment is its quantitative invisibility (A. Appel, "The notion of
 //! quantitative invisibility and the machine rendering of solids", 1967).
@@ -20,7 +20,7 @@ use crate::Error;
 use crate::exact::{Faces, Int, PlaneId, PreparedPlane};
 use crate::progress::Watch;
 
-/// The part of a segment of the scene that is in the picture.
+/// A segment of the scene, projected and clipped to the picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProjectedSegment {
     source: Source,

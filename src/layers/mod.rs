@@ -95,9 +95,9 @@
 //! | outside the box: behind the eye, beside the viewport, or at a depth of more than 2²⁰ longer sides of the viewport, such as 10¹⁸ pixels | no piece |
 //! | any, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
-//! | outside an ancestor that [clips](Layer::clipped_by) it, or clipped by an ancestor that its matrix maps to a line or a point | no piece |
-//! | a matrix that maps it to a line or a point | no piece |
-//! | seen edge-on, up to the rounding of the matrix; this includes a rectangle so far from its own origin that this rounding is as large as its area on the screen | no piece |
+//! | outside an ancestor that [clips](Layer::clipped_by) the layer, or clipped by an ancestor whose matrix maps the ancestor to a line or a point | no piece |
+//! | mapped by its matrix to a line or a point | no piece |
+//! | seen edge-on, up to the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
 //! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
 //! | smaller on the screen than the rounding of positions, 2⁻⁵² of the page's reach | no piece |
 //! | any other | a convex polygon of at most ten corners, and four more for each ancestor that clips it, in one piece or, if other layers cut it, several |

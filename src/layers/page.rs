@@ -15,13 +15,13 @@ use crate::viewpoint::Viewpoint;
 /// viewport, also the largest x and y. Too large: coordinates are rounded to more than the least tolerance.
 /// Too small: layers that pass near the eye lose a visible part.
 const REACH: f64 = (1 << 20) as f64;
-/// The least and the largest tolerance, as shares of the viewport's size, like the limits of
-/// [`Tolerance::Default`](crate::Tolerance::Default) as shares of the extent (there the second is
-/// `LARGEST_ROUNDING`). Too small: cards meant to be in one plane cut each other. Too large: thin layers are
-/// merged, or, because of one layer with few digits, all thin layers of the page.
+/// The least and the largest tolerance, as shares of the viewport's size.
+/// ([`Tolerance::Default`](crate::Tolerance::Default) has the same limits, as shares of the extent.) Too
+/// small: cards meant to be in one plane cut each other. Too large: thin layers are merged. A single layer
+/// with few digits can merge all thin layers of the page.
 const TOLERANCES: [f64; 2] = [DEFAULT_TOLERANCE, 1e-5];
 /// The least tolerance as a share of the largest coordinate: at least 32 steps of the grid, whose step is
-/// 2⁻⁵² of the page's extent. It exceeds the tolerance of `TOLERANCES[0]` only if a layer reaches further
+/// 2⁻⁵² of the page's extent. This limit exceeds the limit of `TOLERANCES[0]` only if a layer reaches further
 /// than 35 000 times the viewport's longer side. Too small: a step is more than the tolerance, and coplanar
 /// layers whose matrices differ lose their document order (without this limit, in 8 of 2000 unclipped pages).
 /// Too large: thin layers are merged.
@@ -173,7 +173,7 @@ impl Layers {
         Ok(coarsest)
     }
 
-    /// The only place where a tree is built.
+    /// Builds the tree of all outlines. No other method builds a tree.
     fn build(&mut self, tolerance: f64) -> Result<(), Error> {
         let Self { builder, layers, outlines, corners, by_plane, .. } = self;
         let polygons = (0..outlines.len()).map(|k| Clipped(corners_of(outlines, corners, k)));

@@ -26,8 +26,8 @@ impl<'p> LayerPiece<'p> {
         self.is_whole
     }
 
-    /// Returns the vertices, in the sense of the rotation from u to v. This is clockwise on the screen if the
-    /// layer is seen from its front.
+    /// Returns the vertices, in the sense of the rotation from u to v: clockwise on the screen if the layer
+    /// is seen from its front.
     ///
     /// Pieces of one layer that share a vertex have the same bits for the vertex's position. The place in the
     /// layer is u = Σ λ u/w ÷ Σ λ/w, and v likewise, with the weights λ of the vertex over the corners on the
@@ -116,8 +116,8 @@ impl LayerVertex {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClippedCorner {
     pub(super) vertex: LayerVertex,
-    /// The edge of the rectangle or of an ancestor's rectangle that begins here; `None` if the box made the
-    /// edge.
+    /// The edge that begins at this corner: an edge of the rectangle or of an ancestor's rectangle. `None` if
+    /// the box made the edge.
     pub(super) edge: Option<u8>,
 }
 
@@ -203,9 +203,9 @@ impl Layer {
     /// itself is painted only if it is also in the list of layers.
     ///
     /// CSS flattens the content of such an ancestor. So both layers lie in one plane, and the visible part is
-    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the same
-    /// matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the ancestor
-    /// is seen edge-on, nothing remains.
+    /// the intersection of both outlines. This part is rounded to `f64`, or exact if both layers have the
+    /// same matrix. Layers in different planes are cut along the ancestor's outline on the screen. If the
+    /// ancestor is seen edge-on, nothing remains.
     ///
     /// ```
     /// use binspace::glam::{DMat4, DVec3};

@@ -124,9 +124,9 @@ use crate::viewpoint::Ray;
 /// nearest marker may be painted first. Move the eye a little, or pass the markers in another order.)
 ///
 /// Shapes in one plane are painted in this order: polygons, then lines in input order, then points. This
-/// holds for shapes that coincide in *space*, and for all shapes in a dividing plane that is seen edge-on. So
-/// an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut at the plane, and a
-/// point at the cut is painted between the two parts.
+/// order applies to shapes that coincide in *space*, and to all shapes in a dividing plane that is seen
+/// edge-on. So an axis drawn on a wall is painted over the wall. A line that crosses a plane is cut at the
+/// plane, and a point at the cut is painted between the two parts.
 ///
 /// Where no polygon is involved, a point at a corner of a line is painted after both adjoining segments,
 /// provided that no point lies at the line's previous or next corner. Closed lines and repeated corners

@@ -124,7 +124,7 @@ impl Work<'_> {
         let mut start = pieces.start;
         self.placer.front.clear();
         self.placer.own.clear();
-        // The box belongs to this set only: its parts have other boxes.
+        // The box belongs to this set only: the parts of the set have other boxes.
         let crowd = self.placer.crowd.take();
         self.watch.work(pieces.len())?;
         if self.tree.len() + self.pieces.records.len() > MOST_FRAGMENTS {
@@ -298,7 +298,7 @@ fn add(
     positions.extend(places);
 }
 
-/// A part of a tree: the fragments below a node, or of a leaf.
+/// A part of a tree: the fragments of a subtree, or of a leaf.
 #[derive(Clone, Debug)]
 struct Region {
     of: Whose,

@@ -210,9 +210,9 @@ impl BspTree {
     /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
     /// exact. So hits do not depend on how a tree was built.
     ///
-    /// The iterator searches only as far along the ray as the next hit requires. It allocates nothing unless
-    /// dozens of parts of the tree or more than eight fragments are pending at once, or the ray lies in the
-    /// plane of a polygon.
+    /// The iterator searches only as far along the ray as the next hit requires. The iterator allocates
+    /// nothing unless dozens of parts of the tree or more than eight fragments are pending at once, or the
+    /// ray lies in the plane of a polygon.
     ///
     /// Time is proportional to the number of boxes that the ray crosses until you stop reading. The first
     /// call computes the boxes, in O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one

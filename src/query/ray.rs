@@ -18,7 +18,7 @@ pub(super) struct RayQuery {
     /// The point of parameter t is at origin + t · direction. For an endless ray, the unit of t is chosen so
     /// that the largest coordinate here is from 2⁵¹ to 2⁵².
     pub(super) direction: [f64; 3],
-    /// More than any coordinate of the difference between the origin and a corner.
+    /// A bound that exceeds every coordinate of the difference between the origin and a corner.
     pub(super) reach: f64,
     /// The largest magnitude of a coordinate of the direction.
     pub(super) speed: f64,

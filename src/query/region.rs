@@ -47,7 +47,7 @@ impl<'t> FragmentsIn<'t> {
         Self { tree, bounds: tree.boxes(), sides, rest: 0..tree.len() as u32, inside: 0..0 }
     }
 
-    /// Whether a fragment has a point in the region, exactly.
+    /// Whether a fragment has a point in the region. The decision is exact.
     fn meets(&self, number: u32) -> bool {
         let (fragment, faces) = (self.tree.fragment(number), &self.tree.faces);
         let bounds = &self.bounds.get(0, number);

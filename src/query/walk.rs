@@ -40,7 +40,7 @@ pub(super) struct Walk<'t> {
 /// meet the part.
 #[derive(Clone, Copy, Debug)]
 struct Pending {
-    /// [`LEAF`] for fragments without nodes.
+    /// The root of the subtree; [`LEAF`] for fragments without nodes.
     node: u32,
     first: u32,
     end: u32,

@@ -49,9 +49,9 @@ impl BspTree {
     ///
     /// # Errors
     ///
-    /// If an edge is open, because no edges of other polygons run back along that edge. The error names the
-    /// edge's polygon, and [`open_edges`](Self::open_edges) returns all open edges. Also if the tree is the
-    /// tree of a cell.
+    /// If the tree is the tree of a cell, or if an edge is open: no edges of other polygons run back along
+    /// that edge. The error names the edge's polygon, and [`open_edges`](Self::open_edges) returns all open
+    /// edges.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
@@ -84,8 +84,8 @@ impl BspTree {
         self.open_edges.get_or_init(|| open_edges(&self.faces))
     }
 
-    /// The faces with a box above a point, each once. The list includes all faces that a ray from the point
-    /// along z crosses.
+    /// The faces with a box that reaches above a point, each once. The list includes all faces that a ray
+    /// from the point along z crosses.
     fn faces_above(&self, point: DVec3) -> Vec<u32> {
         let unit = 1.0 / LATTICE_LIMIT;
         let [x, y, z] = self.faces.lattice().to_lattice(point).map(|c| c * unit);

@@ -55,8 +55,8 @@ const SPOUT_UPPER: Tube = [
 ///
 /// Rim, body, handle, spout and lid are Martin Newell's patches of 1975, in the published proportions (3.15
 /// high, the body 4 across). F. Crow added the bottom ("The origins of the teapot", IEEE Computer Graphics
-/// and Applications 7(1), 1987). The patches are in the published order: 4 of the rim, 8 of the body, 4 of the
-/// handle, 4 of the spout, 8 of the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of
+/// and Applications 7(1), 1987). The patches are in the published order: 4 of the rim, 8 of the body, 4 of
+/// the handle, 4 of the spout, 8 of the lid, 4 of the bottom. Rim, body, lid and bottom are surfaces of
 /// revolution, and handle and spout are symmetric, so their profiles define all patches.
 ///
 /// There are 32 · `segments`² polygons, which face outwards. The 8 · `segments` polygons at the top of the

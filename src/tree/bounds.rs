@@ -183,8 +183,8 @@ impl Bounds {
         (self.fragments as usize).div_ceil(BLOCK.pow(level as u32))
     }
 
-    /// The largest aligned block that begins at the start of a run of fragments and lies within the run: its
-    /// level, and its number of fragments.
+    /// Finds the largest aligned block that begins at the start of a run of fragments and lies within the
+    /// run. Returns the block's level and number of fragments.
     pub(crate) fn block(&self, run: &Range<u32>) -> (usize, u32) {
         let (mut level, mut len) = (0, 1_u32);
         while level + 1 < self.levels.len()
@@ -300,7 +300,7 @@ fn union(a: Flat, b: Flat) -> Flat {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HalfSpace {
     normal: [f32; 3],
-    /// Less than the offset, by more than the rounding error of all compared values.
+    /// The plane's offset, reduced by more than the rounding error of all compared values.
     offset: f32,
     /// The indices, in a box, of the coordinates of two corners: the furthest corner along the normal, and
     /// the nearest.
@@ -318,8 +318,7 @@ const DISTANCE_ERROR: f64 = 4.2 / (1_u64 << 24) as f64;
 /// Error bound of the plane's position in `f64`, as a share of the sum of its terms' magnitudes.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
-/// More than the distance of any corner from the scene's middle, along a normal whose largest coordinate
-/// is 1.
+/// A bound on the distance of a corner from the scene's middle, along a normal whose largest coordinate is 1.
 const OUTSIDE: f64 = 4.0;
 
 impl HalfSpace {
@@ -391,8 +390,8 @@ pub(in crate::tree) struct Normals {
 /// Bounds the total error of rounding a unit normal's coordinate to `f32` and then adding this constant. With
 /// ε = 2⁻²³: a normal is within 2⁻³⁴ of its longest coordinate and is normalised in `f64`, so its error is
 /// less than ε / 1000. Rounding to `f32` moves a coordinate of at most 1 by ε / 4, and a sum of more than 1
-/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal. Too
-/// large: fewer subtrees are decided at once.
+/// by ε / 2. The constant is more than twice that total. Too small: a box may not contain the exact normal.
+/// Too large: fewer subtrees are decided at once.
 const NORMAL_ERROR: f32 = 2.0 * f32::EPSILON;
 
 impl Normals {
@@ -449,7 +448,7 @@ impl Normals {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::tree) struct Arms {
     eye: [f64; 3],
-    /// 1, or 0 for an eye at infinity.
+    /// The eye's homogeneous coordinate: 1, or 0 for an eye at infinity.
     w: f64,
 }
 

@@ -43,9 +43,9 @@ use crate::faces::Preparation;
 /// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
 ///
 /// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, and its vertices with
-/// their weights over the polygon's corners. It also returns which edges of the fragment are edges of the
-/// polygon, and which side of the fragment [faces](crate::Fragment::facing) a viewpoint. Fragments are
-/// numbered from 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
+/// their weights over the polygon's corners. A fragment also returns which of its edges are edges of the
+/// polygon, and which of its sides [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from
+/// 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
 ///
 /// # Order
 ///
@@ -362,8 +362,8 @@ impl BspTree {
         &self.faces
     }
 
-    /// Returns whether this is the tree of one cell of a [`Partition`](crate::partition::Partition), not of
-    /// whole polygons.
+    /// Returns whether the tree is the tree of one cell of a [`Partition`](crate::partition::Partition). The
+    /// tree of a cell contains the parts of polygons inside the cell.
     pub fn is_of_cell(&self) -> bool {
         self.faces.corners_of_cell() > 0
     }
@@ -407,12 +407,12 @@ impl fmt::Debug for BspTree {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// Convex faces: polygons, and the triangles of polygons that were triangulated;
-    /// [`BspTree::face_count`].
+    /// The number of convex faces: polygons, and the triangles of polygons that were triangulated
+    /// ([`BspTree::face_count`]).
     pub faces: usize,
-    /// Fragments in the tree.
+    /// The number of fragments in the tree.
     pub fragments: usize,
-    /// Partition planes.
+    /// The number of partition planes.
     pub nodes: usize,
     /// The largest number of nodes on a path from the root.
     pub depth_max: usize,
@@ -425,8 +425,8 @@ pub struct Stats {
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// Faces that count as on a partition plane only because of the tolerance. Faces on one plane are painted
-    /// in input order.
+    /// The number of faces that count as on a partition plane only because of the tolerance. Faces on one
+    /// plane are painted in input order.
     pub nearly_coplanar: usize,
     /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from the
     /// partition plane that the face counts as on, a length.

@@ -37,7 +37,7 @@ pub struct Culling {
 }
 
 impl Culling {
-    /// Leaves out nothing.
+    /// The culling that leaves out nothing.
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
     /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
@@ -72,7 +72,7 @@ const LONG: usize = 64 * BLOCK;
 /// A subtree, or fragments without nodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Subtree {
-    /// Empty for fragments without nodes.
+    /// The numbers of the subtree's nodes; empty for fragments without nodes.
     pub(crate) nodes: Range<u32>,
     pub(crate) fragments: Range<u32>,
 }

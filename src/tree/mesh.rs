@@ -84,7 +84,7 @@ pub struct Mesh {
 pub struct MeshVertex<'m> {
     /// The number of the vertex's point. All polygons that meet at the point share this number.
     pub point: u32,
-    /// The position of that point.
+    /// The position of the vertex's point.
     pub position: DVec3,
     /// The index of the vertex's polygon, in input order.
     pub polygon: usize,
@@ -257,7 +257,7 @@ fn assemble(source: Source<'_>, weld: bool) -> Result<(Assembled, Triangles), Er
     Ok((assembler.made, triangles))
 }
 
-/// Stands for no point and for no corner.
+/// The number that stands for no point, and for no corner.
 const NONE: u32 = u32::MAX;
 
 /// Identifies a vertex of a polygon: the point, and the corners that have weights at the vertex. (A polygon

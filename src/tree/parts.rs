@@ -24,8 +24,8 @@ pub(crate) enum RawChild {
     Node,
 }
 
-/// A stored fragment. Its vertices end where the next fragment's vertices begin; a whole face has no stored
-/// vertices.
+/// A stored fragment. The fragment's vertices end where the next fragment's vertices begin; a whole face has
+/// no stored vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Record {
     /// The face that the fragment is a piece of.

@@ -19,9 +19,9 @@ use crate::parallel_map;
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at};
 
 const KIND: Kind = Kind { name: *b"tree", version: 3 };
-/// Set in the flags of a tree for one view.
+/// The flag of a tree for one view.
 const FOR_ONE_VIEW: u32 = 1;
-/// Set in the flags of a tree of a cell.
+/// The flag of the tree of a cell.
 const OF_CELL: u32 = 2;
 /// Trees with more fragments are checked by two threads. Too small: waking a thread takes longer than the
 /// thread's work. Too large: one thread works while the other is idle.

@@ -1,7 +1,7 @@
 //! Cameras: the viewpoint of a picture, and the place of world points in the picture.
 //!
-//! A picture is `width` × `height` pixels; x points right, and y points down. Pixel (0, 0) is at the top
-//! left. It covers the square from (0, 0) to (1, 1), so its centre is at (0.5, 0.5).
+//! A picture is `width` × `height` pixels; x points right, and y points down. Pixel (0, 0) at the top left
+//! covers the square from (0, 0) to (1, 1), so its centre is at (0.5, 0.5).
 
 mod around;
 mod matrix;

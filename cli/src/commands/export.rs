@@ -72,7 +72,7 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
     let library = target.with_extension("mtl");
     if library == target {
         let problem =
-            "the file of materials needs this name: give the output a name that ends in .obj";
+            "the file of materials gets this name: name the output .obj";
         return Err(Failure::about(output.display(), problem));
     }
     if library.metadata().is_ok_and(|data| data.is_file()) {

@@ -1,6 +1,7 @@
 """Exact back-to-front orders of polygons from one BSP tree.
 
-Build a `Tree` once. It cuts polygons where they cross. For any viewpoint it returns the order in which to paint them:
+Build a `Tree` once. The tree cuts polygons that cross. For any viewpoint, the tree returns the order to paint the
+polygons:
 
 >>> import binspace
 >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
@@ -50,7 +51,7 @@ __version__ = "0.1.0"
 
 
 def _points(array, name="points"):
-    """Returns points as rows of three f64 or f32, without a copy if they are such rows. Masked numbers become NaN."""
+    """Returns points as rows of three f64 or f32. Such rows are not copied. Masked numbers become NaN."""
     try:
         if isinstance(array, np.ma.MaskedArray):
             array = np.ma.filled(array.astype(float), np.nan)
@@ -107,7 +108,7 @@ class Tree(_binspace.Tree):
         A tuple of two is never read as a list of two polygons. Arrays of f64 and f32 are read without a copy. A polygon with
         NaN or masked numbers is left out, but keeps its number.
     opacity : array of float, optional
-        The opacity of each polygon, from 0 to 1. By default all are opaque.
+        The opacity of each polygon, from 0 to 1. By default all polygons are opaque.
     tolerance : float, optional
         Polygons that reach no further than this from a plane count as lying on the plane. The default follows the
         precision of the numbers.
@@ -116,8 +117,8 @@ class Tree(_binspace.Tree):
     max_fragments : int, optional
         The largest number of fragments. By default 2**25.
     progress : callable, optional
-        A function that is called several times a second with the finished and the total work. An exception in it
-        cancels the build.
+        A function that is called several times a second with the finished and the total work. An exception in this
+        function cancels the build.
 
     Raises
     ------
@@ -187,13 +188,13 @@ class Tree(_binspace.Tree):
     def fragments(self) -> Fragments:
         """All fragments as arrays.
 
-        Fragment `i` is a part of ``polygon[i]``. Its vertices are the rows of `points` from ``offsets[i]`` to
-        ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that contains the side from vertex `v` to the next
-        vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+        Fragment `i` is a part of ``polygon[i]``. The vertices of the fragment are the rows of `points` from
+        ``offsets[i]`` to ``offsets[i + 1]``. ``edges[v]`` is the edge of the polygon that contains the side from vertex
+        `v` to the next vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
 
         Vertex `v` is a weighted sum of corners of the polygon. The entries from ``weight_offsets[v]`` to
         ``weight_offsets[v + 1]`` of `weight_corners` are the numbers of these corners, and the same entries of `weights`
-        are their weights.
+        are the weights of the corners.
         """
         return self._fragments()
 
@@ -203,7 +204,7 @@ class Tree(_binspace.Tree):
         Parameters
         ----------
         start : array of shape (3,) or (n, 3)
-            Where rays begin.
+            The start of each ray.
         direction, end : array of the same shape
             The direction of each ray, or the point where each segment ends.
         limit : int, optional
@@ -223,8 +224,8 @@ class Tree(_binspace.Tree):
         return self._hits(start, other, direction is None, limit)
 
     def is_occluded(self, start, end):
-        """Returns whether a polygon lies between two points. For two lists of points, returns an array: a result for each
-        pair."""
+        """Returns whether a polygon lies between two points. For two lists of points, returns an array with a result for
+        each pair."""
         start, end, is_single = _pair(start, end)
         occluded = self._is_occluded(start, end)
         return bool(occluded[0]) if is_single else occluded
@@ -352,11 +353,12 @@ class Visibility:
         return tuple(self._map.size)
 
     def polygons(self) -> VisiblePolygons:
-        """Returns the visible polygons: `polygon`, visible `area` in square pixels, and a `point` where each is visible."""
+        """Returns the visible polygons: `polygon`, visible `area` in square pixels, and a `point` where the polygon is
+        visible."""
         return self._map.polygons()
 
     def drawing(self, *, progress=None) -> Drawing:
-        """Returns one path for each visible polygon, in the order to paint them."""
+        """Returns one path for each visible polygon, in painting order."""
         return self._map.drawing(progress=progress)
 
     def edges(self, hidden="skip", *, progress=None) -> EdgeRuns:
@@ -373,11 +375,11 @@ class Visibility:
         return self._map.lines(overlay, hidden, progress=progress)
 
     def markers(self, overlay, *, progress=None) -> Markers:
-        """Returns the points of an overlay that are in the picture, and whether they are visible."""
+        """Returns the points of an overlay that are in the picture, and whether each point is visible."""
         return self._map.markers(overlay, progress=progress)
 
     def to_svg(self, path=None, **options):
-        """Returns the picture as SVG, or writes it to a file.
+        """Returns the picture as SVG, or writes the SVG to a file.
 
         Parameters
         ----------
@@ -400,7 +402,7 @@ class Visibility:
         return self._write("svg", path, **options)
 
     def to_pdf(self, path=None, **options):
-        """Returns the picture as PDF in bytes, or writes it to a file. For the options see `to_svg`."""
+        """Returns the picture as PDF in bytes, or writes the PDF to a file. For the options see `to_svg`."""
         return self._write("pdf", path, **options)
 
     def _write(

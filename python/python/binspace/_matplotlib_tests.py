@@ -62,7 +62,7 @@ REASONS = {
     "TestVoxels::test_xyz": SEAMS,
 }
 
-# The beginnings of the messages of known failures: a picture differs, or the name of the class.
+# The beginnings of the messages of known failures: a differing picture, or the name of the axes' class.
 PICTURE = "matplotlib.testing.exceptions.ImageComparisonFailure: images not close"
 NAMED = 'assert "<ExactAxes3D'
 
@@ -93,8 +93,8 @@ def results(folder, axes):
 
 
 def reason(name, failures):
-    """Returns the reason why a test fails, or None if it is unknown. Exceptions of a listed test, and other failures
-    without a known beginning, are unknown."""
+    """Returns the reason why a test fails, or None if the reason is unknown. Exceptions of a listed test, and other
+    failures without a known beginning, are unknown."""
     why = REASONS.get(name)
     begin = NAMED if why == NAME else PICTURE
     return why if all(failure.startswith(begin) for failure in failures) else None
@@ -104,7 +104,7 @@ def main(tests):
     """Prints the tests that fail only with exact axes. `tests` is the folder lib/mpl_toolkits/mplot3d/tests of matplotlib's
     sources, which has the expected pictures."""
     with tempfile.TemporaryDirectory() as folder:
-        # Copied out of the source tree, because the sources in it are not built.
+        # Copied out of the source tree, because the sources in that tree are not built.
         shutil.copytree(tests, os.path.join(folder, "tests"))
         before, ours = (results(folder, axes) for axes in ("mplot3d", "exact"))
     if not ours or all(before.values()):

@@ -1,4 +1,4 @@
-"""Scenes that matplotlib's 3D axes are known to draw wrong: each function draws one on given axes."""
+"""Scenes that matplotlib's 3D axes are known to draw wrong. Each function draws one scene on given axes."""
 
 import numpy as np
 from matplotlib.patches import Circle, Rectangle

@@ -1,9 +1,9 @@
-"""Judges pictures of matplotlib's 3D axes and of exact ones, pixel by pixel.
+"""Judges pictures of matplotlib's 3D axes and of exact axes, pixel by pixel.
 
-``python -m binspace.compare`` draws each scene on both without antialiasing, and prints how many pixels are wrong. Each
-polygon has its own colour, so the colour of a pixel tells which polygon was painted last. The judge is a depth buffer of
-the same view in float64. It shares no arithmetic with the library. Pixels next to a visible edge, and pixels where two
-depths are almost equal, are doubtful and not judged.
+``python -m binspace.compare`` draws each scene on both kinds of axes without antialiasing, and prints how many pixels
+are wrong. Each polygon has its own colour, so the colour of a pixel tells which polygon was painted last. The judge is a
+depth buffer of the same view in float64. This judge shares no arithmetic with the library. Pixels next to a visible
+edge, and pixels where two depths are almost equal, are doubtful and not judged.
 
 Lines, markers and texts are judged at points along them. The depth buffer decides which of these points must be visible.
 """
@@ -59,7 +59,7 @@ class View:
 
 
 class Faces:
-    """The polygons of a scene. Each has a list of outlines, which are lists of points, and a colour."""
+    """The polygons of a scene. Each polygon has a list of outlines and a colour; an outline is a list of points."""
 
     def __init__(self):
         self.outlines, self.colors = [], []
@@ -182,7 +182,7 @@ class Depths:
             return
         x, y = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
         if len(outlines) == 1 and len(every) in (3, 4):
-            # A quad may be bent. Then it may be divided into two triangles by either diagonal.
+            # Either diagonal may divide a bent quad into two triangles.
             ways = [[(0, 1, 2)]] if len(every) == 3 else [[(0, 1, 2), (0, 2, 3)], [(0, 1, 3), (1, 2, 3)]]
             found = []
             for way in ways:
@@ -218,7 +218,7 @@ class Depths:
         self.layers.append((pixels, nearest[rows, columns], furthest[rows, columns], np.full(len(rows), number)))
 
     def _mark_edges(self):
-        """Computes for each pixel the least depth of the edges next to it."""
+        """Computes for each pixel the least depth of the edges next to the pixel."""
         a, b, d, e = (np.concatenate(part) for part in zip(*self.edges))
         counts = np.minimum(np.ceil(np.hypot(*(b - a).T) * 2).astype(int) + 1, 20_000)
         owner = np.repeat(np.arange(len(a)), counts)
@@ -294,7 +294,7 @@ def _spread(image, radius, combine):
 
 
 def _samples(view, lines):
-    """Returns points along lines, about two pixels apart, and their depths."""
+    """Returns points along lines, about two pixels apart, and the depths of these points."""
     places, depths = [np.empty((0, 2))], [np.empty(0)]
     for line in lines:
         at, depth = view(line)
@@ -321,7 +321,7 @@ class Result:
 
 
 def drawn(scene, projection, dpi):
-    """Draws a scene in a new figure. Returns its canvas and axes."""
+    """Draws a scene in a new figure. Returns the figure's canvas and axes."""
     figure = Figure(figsize=(4, 4), dpi=dpi)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1), projection=projection)
@@ -331,7 +331,7 @@ def drawn(scene, projection, dpi):
 
 
 def judged(scene, projection="exact3d", dpi=300, keep=None):
-    """Draws a scene and judges its picture.
+    """Draws a scene and judges the picture.
 
     Parameters
     ----------
@@ -374,8 +374,8 @@ def judged(scene, projection="exact3d", dpi=300, keep=None):
 
 
 def _judge_probes(view, depths, probes, image, dpi, keep):
-    """Returns the mask of pixels that lines, markers and texts may cover, and the numbers of their wrong, judged and
-    doubtful points."""
+    """Returns the mask of pixels that lines, markers and texts may cover. Also returns the numbers of wrong, judged and
+    doubtful points of lines, markers and texts."""
     shape = image.shape[:2]
     covers, found = [], []
     for color, lines, points, radius in probes:

@@ -8,8 +8,9 @@ Importing this module registers the projection ``"exact3d"``:
 
 `exact` makes existing axes exact, and `install` makes ``"3d"`` itself exact.
 
-Polygons are cut where they cross, and lines where they pass through polygons. Polygons of one plane, and lines and points
-on this plane, are painted by `zorder`. If their `zorder` is equal, they are painted in the order in which they were added.
+Polygons are cut where two polygons cross, and lines where a line passes through a polygon. Polygons of one plane, and
+lines and points on this plane, are painted by `zorder`. Items with equal `zorder` are painted in the order in which they
+were added.
 """
 
 from __future__ import annotations
@@ -74,8 +75,8 @@ def _placed(axes, artist, points):
 
 class _Polygons:
     """Polygons of an artist. `points` has the corners of all polygons, and `lengths` the number of corners of each polygon.
-    `rows` has the row of each polygon in the artist's colours. `own` has for each corner whether the edge from there is an
-    edge of the artist."""
+    `rows` has the row of each polygon in the artist's colours. `own` has for each corner whether the edge that begins at
+    the corner is an edge of the artist."""
 
     def __init__(self, points, lengths, rows, own):
         self.points, self.lengths, self.rows, self.own = points, lengths, rows, own
@@ -95,7 +96,7 @@ def _joined_polygons(polygons):
 
 
 def _rings(points, codes):
-    """Returns the closed outlines of a path, and its lines that are not closed. Curves become lines."""
+    """Returns the closed outlines of a path, and the path's lines that are not closed. Curves become lines."""
     if codes is None:
         return [points] if len(points) > 1 else [], []
     rings, lines, ring = [], [], []
@@ -162,10 +163,11 @@ def _nested(rings):
 
 
 def _without_holes(rings):
-    """Makes polygons of rings in one plane. A bridge joins each hole to its outline. Also returns which edges belong to rings.
+    """Makes polygons of rings in one plane. A bridge joins each hole to the outline around the hole. Also returns which
+    edges belong to rings.
 
-    Bridges go from the rightmost corner of a hole to a corner that it sees (D. Eberly, "Triangulation by ear clipping",
-    2002). Areas inside an odd number of rings are filled.
+    Bridges go from the rightmost corner of a hole to a corner visible from there (D. Eberly, "Triangulation by ear
+    clipping", 2002). Areas inside an odd number of rings are filled.
     """
     rings = [ring[:-1] if len(ring) > 1 and np.array_equal(ring[0], ring[-1]) else ring for ring in rings]
     rings = [ring for ring in rings if len(ring) > 2 and not np.isnan(ring).any()]
@@ -227,13 +229,15 @@ def _seen_corner(ring, point):
     side = numbers[nearest]
     ends = [side, (side + 1) % len(ring)]
     corner = max(ends, key=lambda i: ring[i, 0])
-    # Other corners in the triangle of the point, the place to its right, and the corner may hide the corner.
+    # The triangle has three vertices: the point, the place to the right of the point, and the corner. Other corners in
+    # this triangle may hide the corner.
     place = np.array([right[nearest], point[1]])
     triangle = np.array([point, place, ring[corner]])
     if _area(triangle) < 0:
         triangle = triangle[::-1]
     edges = triangle[[1, 2, 0]] - triangle
-    # If the triangle has no area, all corners on its line count as inside. Its bounds exclude corners beyond it.
+    # If the triangle has no area, all corners on the triangle's line count as inside. The bounds of the triangle exclude
+    # corners beyond its ends.
     low, high = triangle.min(0), triangle.max(0)
     x, y = ring.T
     candidates = np.flatnonzero((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1]))
@@ -252,7 +256,7 @@ _areas_of = weakref.WeakKeyDictionary()
 
 
 class _Source:
-    """An artist: its polygons, lines and points in scaled data coordinates, and its style."""
+    """An artist's polygons, lines and points in scaled data coordinates, and the artist's style."""
 
     def __init__(self, artist):
         self.artist = artist
@@ -288,7 +292,7 @@ class _Source:
         return (self.edge[rows % len(self.edge), 3] > 0) & (self.widths[rows % len(self.widths)] > 0)
 
     def set_areas(self, polygons):
-        """Sets the filled polygons. Other polygons become lines along their edges."""
+        """Sets the filled polygons. Polygons without a fill become lines along the polygon's edges."""
         filled = self.is_filled(polygons.rows)
         if filled.all():
             self.polygons = polygons
@@ -332,7 +336,7 @@ class _Source:
 
 
 def _own_lines(own):
-    """Returns the lines along those edges of an outline that are its own, as numbers of corners."""
+    """Returns the lines along those edges of an outline that are the outline's own, as numbers of corners."""
     count = len(own)
     if own.all():
         return [np.append(np.arange(count), 0)]
@@ -501,8 +505,9 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The paths, or the colours, of a collection in the plane of the picture. They are projected when they are first read:
-    picking reads them, painting does not. Collections that were removed from the axes are projected too."""
+    """The paths, or the colours, of a collection in the plane of the picture. The collection is projected when the paths
+    or colours are first read: picking reads them, painting does not. Collections that were removed from the axes are
+    projected too."""
 
     def __init__(self, artist, name):
         self._artist, self._axes, self._name = artist, artist.axes, name
@@ -577,7 +582,7 @@ def _to_pixels(matrix, to_display):
 
 
 def _viewpoint(matrix):
-    """Returns the eye of a matrix, or its direction if the projection is parallel. There x, y and w are 0."""
+    """Returns the eye of a matrix, where x, y and w are 0. For a parallel projection, returns the direction of view."""
     rows = matrix[[0, 1, 3]]
     rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
     null = np.linalg.svd(rows)[2][3]
@@ -607,7 +612,8 @@ def _camera(matrix, to_display, size):
 
 
 class _Built:
-    """A tree of polygons, with an overlay of lines and points. The tree is reused while polygons, lines and points are unchanged."""
+    """A tree of polygons, with an overlay of lines and points. The tree is reused while polygons, lines and points are
+    unchanged."""
 
     def __init__(self, points, lengths, own, opacity, lines, line_lengths, markers, progress):
         self.given = points, lengths, own, opacity, lines, line_lengths, markers
@@ -654,7 +660,7 @@ class _Built:
 
 
 def _are_equal(some, others):
-    """Returns whether each array (or None) equals its counterpart."""
+    """Returns whether each array (or None) equals the array at the same place in the other list."""
     return all(
         a is b
         or (a is not None and b is not None)
@@ -665,13 +671,14 @@ def _are_equal(some, others):
 
 
 def _are_all(values, starts, lengths):
-    """Returns for each range, given by its start and length, whether all its values are true."""
+    """Returns for each range, given by its start and length, whether all values in the range are true."""
     wrong = np.append(0, np.cumsum(~values))
     return wrong[starts] == wrong[starts + lengths]
 
 
 def _planes(points, starts, ends, numbers):
-    """Returns the planes of the outlines with these numbers: normals, and the product of each with a corner."""
+    """Returns the planes of the outlines with these numbers: normals, and the scalar product of each normal with a
+    corner."""
     starts, lengths = starts[numbers], (ends - starts)[numbers]
     corners, owner = _ranges(starts, lengths)
     last = np.cumsum(lengths) - 1
@@ -697,7 +704,8 @@ def _ranges(starts, lengths):
 
 
 def _closed(offsets):
-    """Closes outlines. Returns the numbers of their corners, the first repeated at the end; codes; and where each begins."""
+    """Closes outlines. Returns the numbers of all corners, with each outline's first corner repeated at its end; codes;
+    and where each outline begins."""
     count = len(offsets) - 1
     closed = offsets + np.arange(count + 1)
     corners = np.arange(closed[-1]) - np.repeat(np.arange(count), np.diff(closed))
@@ -709,7 +717,8 @@ def _closed(offsets):
 
 
 def _without_repeats(places, offsets):
-    """Returns the corners of outlines, and where each outline begins, without corners that repeat the previous one."""
+    """Returns the corners of outlines, and where each outline begins, without corners that repeat the previous
+    corner."""
     is_other = (np.abs(np.diff(places, axis=0)) > _JOINED).any(1)
     keep = np.append(True, is_other)[: len(places)]
     keep[offsets[:-1]] = True
@@ -717,7 +726,8 @@ def _without_repeats(places, offsets):
 
 
 class _Outline(Path):
-    """A path with plain attributes instead of properties, because renderers read them for each path of a collection."""
+    """A path with plain attributes instead of properties, because renderers read these attributes for each path of a
+    collection."""
 
     __slots__ = ("vertices", "codes")
     should_simplify = _should_simplify = False
@@ -730,8 +740,8 @@ class _Outline(Path):
 
 
 def _views(offsets):
-    """Returns closed paths of outlines, the numbers of all their corners, and the array of their positions. The paths are
-    views of this array."""
+    """Returns closed paths of outlines, the numbers of all corners of these paths, and the array of the corners'
+    positions. The paths are views of this array."""
     lengths = np.diff(offsets)
     places = np.zeros((offsets[-1] + len(lengths), 2))
     corners, paths, start = [np.empty(0, int)], np.empty(len(lengths), object), 0
@@ -755,8 +765,8 @@ def _paths(places, codes, offsets):
 
 
 def _stroked(starts, lengths, own):
-    """Returns lines along those edges of outlines that are their own: numbers of corners, codes, and where the lines of each
-    outline begin."""
+    """Returns lines along those edges of each outline that are the outline's own: numbers of corners, codes, and where
+    the lines of each outline begin."""
     corners, owner = _ranges(starts, lengths)
     first = np.cumsum(lengths) - lengths
     # Each line begins after an edge that is not its outline's own.
@@ -777,15 +787,15 @@ def _stroked(starts, lengths, own):
 
 
 class _Shown:
-    """The items of a picture in the order to paint them. Kind 0 is an area, kind 1 a part of a line, and kind 2 a point.
-    Each item has its number in the lists below. Positions are in display coordinates."""
+    """The items of a picture in painting order. Kind 0 is an area, kind 1 a part of a line, and kind 2 a point. Each
+    item has its number in the lists below. Positions are in display coordinates."""
 
     def __init__(self, kinds, numbers):
         self.kinds, self.numbers = kinds, numbers
         self.polygon = self.line = self.segment = self.marker = np.empty(0, int)
         self.ends = np.empty((0, 2, 2))
         self.at = np.empty((0, 2))
-        # The path of each area, and whether all its sides are edges of its polygon.
+        # The path of each area, and whether all sides of the area are edges of the area's polygon.
         self.fills, self.is_whole = np.empty(0, object), np.empty(0, bool)
 
     def sort_markers(self, depths):
@@ -805,9 +815,9 @@ class _Shown:
 
 
 def _runs(built, order, view, may_join):
-    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon form a run if the polygon
-    may be joined and they show the same side: outlines of two sides may overlap. Each other fragment, part of a line, and
-    point is a run by itself."""
+    """Divides an order into runs, and returns where they begin. Consecutive fragments of a polygon form a run if the
+    polygon may be joined and the fragments show the same side: outlines of two sides may overlap. Each other fragment,
+    part of a line, and point is a run by itself."""
     *normals, shift = built.planes
     eye, shift = (view["eye"], shift) if "eye" in view else (-view["direction"], 0)
     # The polygon and the side of each fragment.
@@ -821,7 +831,7 @@ def _runs(built, order, view, may_join):
 
 class _Ordered(_Shown):
     """The fragments of a tree in the order of the tree: fast, for any view. Consecutive fragments of a polygon form one
-    area. If an area is a whole polygon, its path is the polygon's outline."""
+    area. If an area is a whole polygon, the path of the area is the polygon's outline."""
 
     def __init__(self, built, matrix, to_display):
         view = _viewpoint(matrix)
@@ -881,7 +891,7 @@ class _Ordered(_Shown):
         return _paths(places, codes, closed[ends])
 
     def _before_eye(self, fragment, matrix):
-        """Returns the path of the part of a fragment in front of the eye, and the path of its strokes."""
+        """Clips a fragment in front of the eye. Returns the clipped outline, and the path to stroke."""
         part = slice(self.built.starts[fragment], self.built.ends[fragment])
         points, own = self.built.points[part], self.built.own[part]
         return _before_eye(points, own, points @ matrix[3, :3] + matrix[3, 3], self.least, self.place)
@@ -966,7 +976,8 @@ class _Drawn(_Shown):
 
     def _leave_out_hidden(self, seen, overlay, place, are_texts):
         """Leaves out hidden polygons and hidden parts of lines, which would show through seams of the polygons in front.
-        Also leaves out markers whose middle is hidden, because they would cover polygons in front, beside the middle."""
+        Also leaves out markers whose middle is hidden, because such a marker would cover a polygon in front, beside the
+        middle."""
         is_visible = np.zeros(self.polygon.max(initial=-1) + 1, bool)
         visible = seen.polygons().polygon
         is_visible[visible[visible < len(is_visible)]] = True
@@ -979,7 +990,7 @@ class _Drawn(_Shown):
         keep[is_area] = is_visible[self.polygon[self.numbers[is_area]]]
         keep[is_marker] = is_shown[self.marker[self.numbers[is_marker]]]
         self.kinds, self.numbers, is_line = self.kinds[keep], self.numbers[keep], is_line[keep]
-        # Intersects each part of a line with each visible part of its segment.
+        # Intersects each part of a line with each visible part of the part's segment.
         runs = seen.lines(overlay)
         most = 1 + max(runs.segment.max(initial=0), self.segment.max(initial=0))
         keys = runs.line.astype(np.int64) * most + runs.segment
@@ -1010,7 +1021,7 @@ class _Drawn(_Shown):
 
 
 class _Looks:
-    """The styles of polygons: a row for each."""
+    """The styles of polygons: a row for each polygon."""
 
     def __init__(self, parts, hatches):
         def rows(values):
@@ -1031,7 +1042,7 @@ class _Looks:
 
 
 class _LineLooks:
-    """The styles of lines: a row for each."""
+    """The styles of lines: a row for each line."""
 
     def __init__(self, sources, owners, rows):
         sources = [sources[owner] for owner in owners.tolist()]
@@ -1198,7 +1209,8 @@ class _Composite(martist.Artist):
         return batch
 
     def _areas(self, shown, areas, position):
-        """Returns areas: their positions in the order, paths, colours of faces and edges, widths, antialiasing, and dashes."""
+        """Returns areas as lists: positions in the order, paths, colours of faces and edges, widths, antialiasing, and
+        dashes."""
         look, polygon = self.looks, shown.polygon[areas]
         is_apart = look.is_stroked[polygon] & ~shown.is_whole[areas]
         fills = shown.fills[areas]
@@ -1268,8 +1280,8 @@ class _Composite(martist.Artist):
 
 
 def _chains(shown, numbers, run, may_sort):
-    """Joins consecutive parts of lines of one run to chains. Returns for each chain the number of its first part, its line,
-    and the segment where it begins. Also returns the corners of all chains, and where each chain begins."""
+    """Joins consecutive parts of lines of one run to chains. Returns for each chain the number of the first part, the
+    line, and the segment where the chain begins. Also returns the corners of all chains, and where each chain begins."""
     line, segment, ends = shown.line[numbers], shown.segment[numbers], shown.ends[numbers]
     # The position of each part along its segment. All parts of a segment have the same direction.
     step = ends[:, 1] - ends[:, 0]
@@ -1341,7 +1353,7 @@ def _paint_scatter(renderer, artist, rows, at):
     is_sorted = isinstance(artist, art3d.Path3DCollection)
 
     def unsorted(colors):
-        """Returns colours in the order of the points. mplot3d has sorted them by depth."""
+        """Returns colours in the order of the points. mplot3d has sorted the colours by depth."""
         if len(colors) != count or count < 2 or not is_sorted:
             return colors
         result = np.empty_like(colors)
@@ -1352,7 +1364,8 @@ def _paint_scatter(renderer, artist, rows, at):
         if len(values) < 2:
             return values
         chosen = [values[row % len(values)] for row in rows]
-        # Agg rounds the positions of markers if they are all alike. A second row prevents this for markers that differ.
+        # Agg rounds the positions of markers if all markers are alike. A second row prevents this rounding for markers
+        # that differ.
         return chosen * 2 if len(chosen) == 1 else chosen
 
     face, edge = unsorted(artist.get_facecolor()), unsorted(artist.get_edgecolor())
@@ -1386,8 +1399,8 @@ class _Exact:
     """The differences between exact axes and mplot3d's axes."""
 
     _exact_composite = None
-    # A function that is called with the finished and the total work while a tree is built. An exception in it cancels the
-    # drawing.
+    # A function that is called with the finished and the total work while a tree is built. An exception in this function
+    # cancels the drawing.
     exact_progress = None
 
     def __getstate__(self):
@@ -1403,7 +1416,7 @@ class _Exact:
         return [child for child in children if id(child) not in taken] + [self._exact_composite]
 
     def draw(self, renderer):
-        """Draws the axes. If `computed_zorder` is true, their contents are painted in one exact order."""
+        """Draws the axes. If `computed_zorder` is true, the contents of the axes are painted in one exact order."""
         if not self.get_visible() or not self.computed_zorder:
             return super().draw(renderer)
         taken = [
@@ -1435,7 +1448,7 @@ class ExactAxes3D(_Exact, Axes3D):
     """`mpl_toolkits.mplot3d.axes3d.Axes3D` with contents painted in exact order: projection ``"exact3d"``.
 
     Set the attribute `exact_progress` to a function that is called with the finished and the total work while a tree of many
-    polygons is built. An exception in it, or Ctrl-C, cancels the drawing.
+    polygons is built. An exception in this function, or Ctrl-C, cancels the drawing.
     """
 
     name = "exact3d"

@@ -346,8 +346,8 @@ impl Points {
         Ok(points)
     }
 
-    /// The node that represents a node's point: the least node of that point. It is a corner if any node of
-    /// the point is a corner.
+    /// The node that represents a node's point: the least node of that point. The least node is a corner if
+    /// any node of the point is a corner.
     pub(super) fn root(&self, node: Node) -> Node {
         self.same.root(node)
     }

@@ -241,9 +241,9 @@ impl Triangles {
     }
 
     /// Copies each fragment's indices into a small buffer. Each copy has [`CHUNK`] indices, and the next
-    /// fragment overwrites the excess. This is faster than a branch on the number of indices, because no
-    /// processor can predict that number. The buffer is necessary because the caller's memory may be written
-    /// only once.
+    /// fragment overwrites the excess. Such copies are faster than a branch on the number of indices, because
+    /// no processor can predict that number. The buffer is necessary because the caller's memory may be
+    /// written only once.
     fn write_staged(&self, order: &[u32], mut places: &mut [u32]) {
         let mut stage = [0_u32; STAGE + CHUNK];
         let mut filled = 0;

@@ -35,7 +35,8 @@ const ERROR: f32 = 1.505 * f32::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     eye: Eye,
-    /// Homogeneous, in units of 2⁵¹ lattice steps, scaled so that the largest coordinate is 1.
+    /// The homogeneous coordinates of the viewpoint, in units of 2⁵¹ lattice steps, scaled so that the
+    /// largest coordinate is 1.
     point: Vec4,
     /// The largest error of a rounded distance.
     bound: f32,
@@ -112,15 +113,15 @@ impl View {
         groups.all(|(w, groups)| self.signs(tree, w, groups) == other.signs(tree, w, groups))
     }
 
-    /// The bits of the nodes of word `w`, whose planes are in `groups`.
+    /// The word `w` of signs: a bit for each node whose plane is in `groups`.
     #[inline]
     fn signs(&self, tree: &BspTree, w: usize, groups: &[[Vec4; 4]]) -> u32 {
         let (mut front, mut sure) = (0, 0);
         for (g, group) in groups.iter().enumerate() {
             let distances = self.distances(group);
             let bound = Vec4::splat(self.bound);
-            // No early exit for doubtful planes: they are rare, and a word at a time can be decided without
-            // a branch.
+            // No early exit for doubtful planes: doubtful planes are rare, and a word at a time can be
+            // decided without a branch.
             front |= distances.cmpgt(bound).bitmask() << (GROUP * g);
             sure |= distances.abs().cmpgt(bound).bitmask() << (GROUP * g);
         }

@@ -7,8 +7,8 @@ use crate::Error;
 use crate::memory::push;
 use crate::tree::node::NodeRecord;
 
-/// Shorter chains are stored as ordinary inner nodes. Too small: branches on chains take longer than short
-/// chains save. Too large: long chains are ordered node by node.
+/// The least length of a chain. Shorter chains are stored as ordinary inner nodes. Too small: branches on
+/// chains take longer than short chains save. Too large: long chains are ordered node by node.
 const SHORTEST_CHAIN: usize = 8;
 
 impl OrderLayout {
@@ -261,7 +261,7 @@ pub(in crate::tree) struct Inner {
     pub(in crate::tree) own_first: u32,
 }
 
-/// Marks an [`Inner`] that is a chain.
+/// The bit that marks an [`Inner`] as a chain.
 pub(super) const CHAIN: u32 = 1 << 31;
 
 /// Consecutive nodes. Each node has one fragment on its plane, and a single child with all other fragments of

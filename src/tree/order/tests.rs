@@ -6,7 +6,7 @@ use crate::tree::node::{NodeRecord, finish};
 use crate::tree::order::{OrderLayout, ROOT, write_order};
 use crate::tree::parts::{RawChild, RawNode};
 
-/// A node: the number of fragments on its plane, and its front and back sides.
+/// A node: the number of fragments on the node's plane, and the front and back sides of the plane.
 #[derive(Clone, Debug)]
 struct Tree {
     own: u32,
@@ -90,7 +90,7 @@ impl Side {
     }
 }
 
-/// Compares the order for some signs with the walk, in empty buffers and in buffers that are too large.
+/// A tree, and the data for comparing the written orders of the tree with the walk.
 struct Checker<'a> {
     tree: &'a Tree,
     nodes: usize,

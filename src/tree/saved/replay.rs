@@ -1,8 +1,8 @@
 //! Splits the faces of a file by the planes of its nodes, like the builder.
 //!
-//! A file contains no vertices, so a forged file cannot make wrong pieces: whatever planes the file has, each
-//! piece is on the correct side of all planes above the piece, and the pieces of each face cover the face. The
-//! file's numbers of fragments only limit the number of pieces.
+//! A file contains no vertices. So a forged file cannot make wrong pieces: whatever planes the file has, each
+//! piece is on the correct side of all planes above the piece, and the pieces of each face cover the face.
+//! The file's numbers of fragments only limit the number of pieces.
 
 use std::mem::{replace, take};
 use std::ops::Range;
@@ -20,7 +20,8 @@ const WORTH_A_THREAD: usize = 4096;
 /// Subtrees of less than 1/`JOBS` of the fragments are handed over to other threads. Too small: threads wait
 /// for the last subtree. Too large: more of the tree is split before threads share the work.
 const JOBS: usize = 32;
-/// Subtrees of less than 1/`MOST_JOBS` of the fragments are not worth handing over.
+/// Subtrees of less than 1/`MOST_JOBS` of the fragments are not handed over, because handing over takes
+/// longer than it saves.
 const MOST_JOBS: usize = 512;
 
 /// The number of pieces in a list that share a bounding box. (A *list* is a sequence of nodes with one child
@@ -29,7 +30,7 @@ const BLOCK: usize = 16;
 /// The fewest fragments of a list whose pieces get boxes. Too small: boxes take longer to make than they
 /// save. Too large: all pieces are tested against each plane.
 const LARGE: usize = 8 * BLOCK;
-/// Replaces the face of a piece that is no longer in a list.
+/// The number that replaces the face of a piece that is no longer in a list.
 const GONE: u32 = u32::MAX;
 
 type Bounds = [[f64; 3]; 2];
@@ -46,7 +47,7 @@ fn union([low, high]: Bounds, other: Bounds) -> Bounds {
 /// A piece of a face that has not yet reached the node or leaf where it stays.
 struct Piece {
     face: u32,
-    /// Empty for a whole face.
+    /// The vertices of the piece; empty for a whole face.
     vertices: Vec<Vertex>,
     /// The bounding box of the rounded vertices.
     bounds: Bounds,

@@ -17,8 +17,8 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
          range overlaps P's. Each of five tests can prove that P does not hide Q, the cheapest first: 1. P \
          and Q do not overlap from left to right; 2. P and Q do not overlap from top to bottom; 3. P is \
          behind the plane of Q; 4. Q is in front of the plane of P; 5. the projections of P and Q do not \
-         overlap. If all tests fail, Q takes the place of P in the list. But if Q has been moved before, or if P \
-         and Q penetrate each other, one of them is split by the plane of the other.",
+         overlap. If all tests fail, Q takes the place of P in the list. But if Q has been moved before, or \
+         if P and Q penetrate each other, the plane of one polygon splits the other polygon.",
     );
     let towards = DVec3::new(0.7, -1.0, 0.5);
     let scenes = [
