@@ -47,7 +47,7 @@ pub(crate) struct ViewArgs {
     pub(crate) size: [u32; 2],
     /// Empty border around a whole scene, in percent of the picture on each side
     #[arg(long, value_name = "PERCENT", default_value = "4", value_parser = values::margin)]
-    #[arg(hide_short_help = true)]
+    #[arg(allow_negative_numbers = true, hide_short_help = true)]
     pub(crate) margin: f64,
 }
 
@@ -115,10 +115,7 @@ pub(crate) fn asked(args: &ViewArgs, scene: &Scene, scale: Option<f64>) -> Resul
         (None, None, None) => return whole(scene, up, fov, size, margin),
         (Some(eye), ..) => upright(scene, up, |up| Camera::perspective(eye, target, up, fov, size)),
         (None, Some(direction), target) => upright(scene, up, |up| {
-            let whole = framing::parallel(direction, up, scene, size, scale, margin)?;
-            let size = whole.size();
-            let height = whole.pixel_size()[1] * f64::from(size[1]);
-            target.map_or(Ok(whole), |target| Camera::parallel(direction, up, target, height, size))
+            framing::parallel(direction, up, scene, target, size, scale, margin)
         }),
         (None, None, Some(target)) => upright(scene, up, |up| {
             let roughly = Camera::looking_at_all(bounds(scene), up, size)?;
@@ -280,7 +277,8 @@ mod tests {
         let [low, high] = CORNERS;
         let target = DVec3::new(2.0, 0.0, 3.0);
         for (options, size, points) in [
-            ("--scale 100 --margin 0", [200, 300], [(low, [0.0, 300.0]), (high, [200.0, 0.0])]),
+            // No edge lies exactly on the border of the picture.
+            ("--scale 100 --margin 0", [201, 301], [(low, [0.5, 300.5]), (high, [200.5, 0.5])]),
             (
                 "--scale 100 --margin 25",
                 [400, 600],
@@ -288,8 +286,8 @@ mod tests {
             ),
             (
                 "--scale 100 --margin 0 --target=2,0,3",
-                [200, 300],
-                [(target, [100.0, 150.0]), (target - DVec3::X, [0.0, 150.0])],
+                [401, 601],
+                [(target, [200.5, 300.5]), (target - DVec3::X, [100.5, 300.5])],
             ),
             (
                 "--size 400x600 --margin 25",

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use binspace::internals::open_regular;
 use tempfile::NamedTempFile;
 
+use crate::args::SceneArgs;
 use crate::failure::Failure;
 use crate::signals;
 
@@ -49,17 +50,22 @@ enum Place {
 pub const STANDARD: &str = "-";
 
 impl Output {
-    /// Output to a file, or to standard output for the name `-`.
-    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+    /// Output to a file, or to standard output for the name `-`. The file of the scene is refused.
+    pub(crate) fn open(path: &Path, scene: &SceneArgs) -> Result<Self, Failure> {
         if path == Path::new(STANDARD) {
             return Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock())));
+        }
+        let [output, input] = [path, Path::new(&scene.name)].map(|path| path.canonicalize().ok());
+        if output.is_some_and(|output| output.is_file() && Some(output) == input) {
+            let problem = "this is the scene's own file: name another output";
+            return Err(about_output(path, problem));
         }
         NewFile::create(path).map(Self::File)
     }
 
     /// Like [`open`](Self::open), for content that a terminal cannot show.
-    pub(crate) fn open_binary(path: &Path, what: &str) -> Result<Self, Failure> {
-        let output = Self::open(path)?;
+    pub(crate) fn open_binary(path: &Path, scene: &SceneArgs, what: &str) -> Result<Self, Failure> {
+        let output = Self::open(path, scene)?;
         let is_terminal = match &output {
             Self::Standard(out) => out.get_ref().is_terminal(),
             Self::File(file) => file.writer.get_ref().is_terminal(),

@@ -5,6 +5,10 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
+/// The largest share of a picture that a scene fills. With 1, edges of the scene may lie exactly on the border of
+/// the picture, where they are not drawn.
+const FULL: f64 = 1.0 - 1e-6;
+
 /// A perspective camera with the direction of another camera, moved so that the scene just fills the picture.
 ///
 /// The eye sees all corners p if, for each side of the picture, all p lie on the inner side of the plane
@@ -13,7 +17,7 @@ use binspace::view::Camera;
 /// p·b)) / 2t; the same holds up and down.
 pub(crate) fn near(like: &Camera, scene: &Scene, fov: f64, margin: f64) -> Result<Camera, Error> {
     let [width, height] = like.size().map(f64::from);
-    let tangent = (0.5 * fov).tan() * (1.0 - 2.0 * margin);
+    let tangent = (0.5 * fov).tan() * (1.0 - 2.0 * margin).min(FULL);
     let (right, up, back) = (like.right(), like.up(), -like.forward());
     let sides = [(right, tangent * width / height), (up, tangent)];
     let reaches = sides.map(|(axis, t)| [axis, -axis].map(|side| reach(scene, side / t + back)));
@@ -47,11 +51,12 @@ fn middle(scene: &Scene, axis: DVec3, back: DVec3, distance: f64, mut limits: [f
 }
 
 /// A parallel camera along `direction` that just holds the scene. The picture has a size or, with a number of
-/// pixels for each unit, is as large as that takes.
+/// pixels for each unit, is as large as the scene takes. A target is at the centre of the picture.
 pub(crate) fn parallel(
     direction: DVec3,
     up: DVec3,
     scene: &Scene,
+    target: Option<DVec3>,
     size: [u32; 2],
     scale: Option<f64>,
     margin: f64,
@@ -62,19 +67,25 @@ pub(crate) fn parallel(
     for axis in [axes.right(), axes.up(), axes.forward()] {
         centre += axis * (0.5 * reach(scene, axis) - 0.5 * reach(scene, -axis));
     }
-    let fill = 1.0 - 2.0 * margin;
-    let sides = [axes.right(), axes.up()].map(|axis| extent(scene, axis));
+    let at = target.unwrap_or(centre);
+    let fill = (1.0 - 2.0 * margin).min(FULL);
+    let axes_of_picture = [axes.right(), axes.up()];
     if let Some(scale) = scale {
-        // Numbers too large for an integer become the largest, which is an error of the camera.
-        let size = sides.map(|side| (side * scale / fill).ceil().max(1.0) as u32);
-        return Camera::parallel(direction, up, centre, f64::from(size[1]) / scale, size);
+        let size = axes_of_picture.map(|axis| {
+            let half = [axis, -axis].map(|side| reach(scene, side) - at.dot(side));
+            let side = 2.0 * half[0].max(half[1]) * scale;
+            // Numbers too large for an integer become the largest, which is an error of the camera.
+            (side / fill).ceil().max(side.floor() + 1.0) as u32
+        });
+        return Camera::parallel(direction, up, at, f64::from(size[1]) / scale, size);
     }
+    let sides = axes_of_picture.map(|axis| extent(scene, axis));
     let [width, height] = size.map(f64::from);
     let shown = sides[1].max(sides[0] * height / width) / fill;
     // A scene seen edge-on, or a point, has no extent: show its surroundings.
     let fallback = extent(scene, axes.forward()).max(centre.length() * 1e-3);
     let shown = [shown, fallback, 1.0].into_iter().find(|&length| length > 0.0).unwrap_or(1.0);
-    Camera::parallel(direction, up, centre, shown, size)
+    Camera::parallel(direction, up, at, shown, size)
 }
 
 /// The extent of the scene along an axis.

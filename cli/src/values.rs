@@ -131,6 +131,12 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     Some(finite(text)?).filter(|&n| n > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
+/// The width of lines in pixels. Thinner lines have too many dashes, and wider ones do not fit into formats.
+pub(crate) fn line_width(text: &str) -> Result<f64, String> {
+    let width = Some(finite(text)?).filter(|width| (0.01..=1000.0).contains(width));
+    width.ok_or_else(|| "expected 0.01 to 1000 pixels".to_owned())
+}
+
 /// A length of 0 or more.
 pub(crate) fn length(text: &str) -> Result<f64, String> {
     let length = finite(text)?;

@@ -70,6 +70,7 @@ pub(crate) struct DrawArgs {
     pub(crate) view: ViewArgs,
     /// Millimetres of paper per unit of the scene; needs --view or --direction
     #[arg(long, value_name = "MM", value_parser = values::positive, help_heading = "View")]
+    #[arg(allow_negative_numbers = true)]
     #[arg(requires = "parallel", conflicts_with = "size", hide_short_help = true)]
     pub(crate) scale: Option<f64>,
     #[command(flatten)]
@@ -96,7 +97,8 @@ pub(crate) struct LineArgs {
     #[arg(long, value_name = "STYLE", value_enum, default_value_t, hide_possible_values = true)]
     pub(crate) hidden: Hidden,
     /// Width of lines in pixels
-    #[arg(long, value_name = "PX", default_value = "1", value_parser = values::positive)]
+    #[arg(long, value_name = "PX", default_value = "1", value_parser = values::line_width)]
+    #[arg(allow_negative_numbers = true)]
     pub(crate) line_width: f64,
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn run(args: &BuildFileArgs) -> Result<Outcome, Failure> {
         cells::build::run(args, cells as usize)?;
         return Ok(Outcome::Done);
     }
-    let output = Output::open_binary(&args.output, "a tree")?;
+    let output = Output::open_binary(&args.output, &args.scene, "a tree")?;
     let Made { scene, tree, stored_name, .. } = job::make(&args.scene, &args.build)?;
     let scene = scene.with_name(stored_name);
     let _progress = Progress::spinner("writing");

@@ -48,8 +48,10 @@ pub(crate) fn run(args: &DrawArgs) -> Result<Outcome, Failure> {
         check_page(format, args.view.size).map_err(|problem| about_output(&problem))?;
     }
     let output = match format {
-        DrawFormat::Pdf | DrawFormat::Png => Output::open_binary(&args.output, "a PDF or PNG")?,
-        _ => Output::open(&args.output)?,
+        DrawFormat::Pdf | DrawFormat::Png => {
+            Output::open_binary(&args.output, &args.scene, "a PDF or PNG")?
+        }
+        _ => Output::open(&args.output, &args.scene)?,
     };
     let Made { scene, tree, seconds: tree_seconds, .. } = job::make(&args.scene, &args.build)?;
     note_up(&scene, &args.view.up);

@@ -24,7 +24,7 @@ use crate::samples::linear;
 /// Runs the command.
 pub(crate) fn run(args: &ExportArgs) -> Result<Outcome, Failure> {
     let format = format(&args.output, args.format)?;
-    let output = Output::open(&args.output)?;
+    let output = Output::open(&args.output, &args.scene)?;
     // Colours of OBJ files are in a file beside it.
     let library = match format {
         ExportFormat::Obj => library(&args.output)?,
@@ -71,8 +71,7 @@ fn library(output: &Path) -> Result<Option<PathBuf>, Failure> {
     let target = behind_links(output).map_err(|error| Failure::about(output.display(), error))?;
     let library = target.with_extension("mtl");
     if library == target {
-        let problem =
-            "the file of materials gets this name: name the output .obj";
+        let problem = "the file of materials gets this name: name the output .obj";
         return Err(Failure::about(output.display(), problem));
     }
     if library.metadata().is_ok_and(|data| data.is_file()) {

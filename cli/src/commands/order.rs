@@ -17,7 +17,7 @@ use crate::progress::Progress;
 
 /// Runs the command.
 pub(crate) fn run(args: &OrderArgs) -> Result<Outcome, Failure> {
-    let output = Output::open(&args.output)?;
+    let output = Output::open(&args.output, &args.scene)?;
     let viewpoints: Vec<Viewpoint> = match args.direction {
         Some(direction) => vec![Viewpoint::Direction(direction)],
         None => args.eye.iter().copied().map(Viewpoint::Eye).collect(),

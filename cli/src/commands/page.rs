@@ -22,7 +22,7 @@ const MANY: usize = 200_000;
 
 /// Runs the command.
 pub(crate) fn run(args: &PageArgs) -> Result<Outcome, Failure> {
-    let output = Output::open_binary(&args.output, "a page")?;
+    let output = Output::open_binary(&args.output, &args.scene, "a page")?;
     let made = job::make(&args.scene, &args.build)?;
     let Made { scene, tree, .. } = &made;
     note_up(scene, &args.up);

@@ -22,7 +22,7 @@ use crate::{camera, cells, png_file};
 pub(crate) fn run(args: &RenderArgs) -> Result<Outcome, Failure> {
     let kind = Kind::asked(&args.kind);
     check(args, kind).map_err(|problem| about_output(&args.output, &problem))?;
-    let output = Output::open_binary(&args.output, "a PNG")?;
+    let output = Output::open_binary(&args.output, &args.scene, "a PNG")?;
     if let Some(path) = cells::folder::asked(&args.scene, &args.build)? {
         cells::draw::render(args, path, output)?;
         return Ok(Outcome::Done);

@@ -1,9 +1,11 @@
 //! glTF 2.0 files: triangles of meshes in a tree of nodes, with base colours. Up is y.
 
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::io;
 use std::path::{Component, Path};
 use std::rc::Rc;
+use std::slice::ChunksExact;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -67,6 +69,10 @@ pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Re
     let about = |problem: String| Failure::about(name, problem);
     let gltf = parsed(bytes).map_err(about)?;
     let buffers = buffers(name, &gltf, folder)?;
+    for accessor in gltf.accessors() {
+        let sparse = Sparse::of(&accessor, &buffers).map_err(about)?;
+        sparse.map_or(Ok(()), |sparse| sparse.check(&accessor)).map_err(about)?;
+    }
     let instances = instances(&gltf.document).map_err(about)?;
     let used = &gltf.as_json().extensions_used;
     let has_copies = used.iter().any(|name| name == INSTANCING);
@@ -433,8 +439,75 @@ struct Values<'a> {
     data_type: DataType,
     /// The integer that stands for 1.
     full: f64,
-    /// The values that a sparse accessor replaces, by number.
-    replaced: HashMap<usize, &'a [u8]>,
+    sparse: Option<Sparse<'a>>,
+}
+
+/// The values that a sparse accessor replaces. Many primitives may share the accessor, so nothing is copied.
+struct Sparse<'a> {
+    /// The increasing numbers of the replaced values.
+    numbers: ChunksExact<'a, u8>,
+    /// The new values.
+    values: ChunksExact<'a, u8>,
+}
+
+impl<'a> Sparse<'a> {
+    fn of(accessor: &Accessor<'_>, buffers: &'a [Rc<Vec<u8>>]) -> Result<Option<Self>, String> {
+        let Some(sparse) = accessor.sparse() else { return Ok(None) };
+        let (indices, values) = (sparse.indices(), sparse.values());
+        let chunks = |view, offset, size: usize| {
+            let bytes = within(buffers, view, offset)?.get(..size.checked_mul(sparse.count())?)?;
+            Some(bytes.chunks_exact(size))
+        };
+        let numbers = chunks(indices.view(), indices.offset(), indices.index_type().size());
+        let values = chunks(values.view(), values.offset(), accessor.size());
+        let problem = "its sparse values do not fit into their buffer";
+        let (numbers, values) = numbers.zip(values).ok_or_else(|| said(accessor, problem))?;
+        Ok(Some(Self { numbers, values }))
+    }
+
+    fn number(bytes: &[u8]) -> usize {
+        bytes.iter().rev().fold(0, |n, &byte| n << 8 | usize::from(byte))
+    }
+
+    /// Returns an error if the numbers do not increase, or are not below `count`.
+    fn check(&self, accessor: &Accessor<'_>) -> Result<(), String> {
+        let mut least = 0;
+        for number in self.numbers.clone().map(Self::number) {
+            if number < least || number >= accessor.count() {
+                return Err(said(
+                    accessor,
+                    "its sparse indices do not increase, or are out of range",
+                ));
+            }
+            least = number + 1;
+        }
+        Ok(())
+    }
+
+    /// The bytes that replace a value.
+    fn get(&self, number: usize) -> Option<&'a [u8]> {
+        let (mut low, mut high) = (0, self.numbers.len());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            match Self::number(self.numbers.clone().nth(middle)?).cmp(&number) {
+                Ordering::Less => low = middle + 1,
+                Ordering::Greater => high = middle,
+                Ordering::Equal => return self.values.clone().nth(middle),
+            }
+        }
+        None
+    }
+}
+
+/// An error about an accessor.
+fn said(accessor: &Accessor<'_>, problem: &str) -> String {
+    format!("accessor {} (from 0): {problem}", accessor.index())
+}
+
+/// The bytes of a view, from an offset on.
+fn within<'a>(buffers: &'a [Rc<Vec<u8>>], view: View<'_>, offset: usize) -> Option<&'a [u8]> {
+    let bytes = buffers[view.buffer().index()].get(view.offset()..)?;
+    bytes.get(..view.length())?.get(offset..)
 }
 
 impl<'a> Values<'a> {
@@ -444,28 +517,11 @@ impl<'a> Values<'a> {
         is_share: bool,
         buffers: &'a [Rc<Vec<u8>>],
     ) -> Result<Self, String> {
-        let about = |problem: String| format!("accessor {} (from 0): {problem}", accessor.index());
-        let view = accessor.view().ok_or_else(|| about("it has no buffer view".into()))?;
+        let view = accessor.view().ok_or_else(|| said(accessor, "it has no buffer view"))?;
         let (count, size) = (accessor.count(), accessor.size());
         let stride = view.stride().unwrap_or(size).max(size);
-        let within = |view: View<'_>, offset: usize| {
-            let bytes = buffers[view.buffer().index()].get(view.offset()..)?;
-            bytes.get(..view.length())?.get(offset..)
-        };
-        let mut replaced = HashMap::new();
-        if let Some(sparse) = accessor.sparse() {
-            let (indices, values) = (sparse.indices(), sparse.values());
-            let bytes = within(indices.view(), indices.offset()).unwrap_or_default();
-            let indices = bytes.chunks_exact(indices.index_type().size()).take(sparse.count());
-            let bytes = within(values.view(), values.offset()).unwrap_or_default();
-            let values = bytes.chunks_exact(size).take(sparse.count());
-            if indices.len().min(values.len()) < sparse.count() {
-                return Err(about("its sparse values do not fit into their buffer".into()));
-            }
-            let index = |bytes: &[u8]| bytes.iter().rev().fold(0, |n, &b| n << 8 | usize::from(b));
-            replaced.extend(indices.map(index).zip(values));
-        }
-        let bytes = within(view, accessor.offset());
+        let sparse = Sparse::of(accessor, buffers)?;
+        let bytes = within(buffers, view, accessor.offset());
         let needed =
             count.checked_sub(1).map(|last| last.saturating_mul(stride).saturating_add(size));
         match bytes {
@@ -480,9 +536,9 @@ impl<'a> Values<'a> {
                     DataType::U16 => 65_535.0,
                     DataType::U32 | DataType::F32 => 1.0,
                 };
-                Ok(Self { bytes, stride, count, dimensions, data_type, full, replaced })
+                Ok(Self { bytes, stride, count, dimensions, data_type, full, sparse })
             }
-            _ => Err(about(format!("its {count} values do not fit into its buffer"))),
+            _ => Err(said(accessor, &format!("its {count} values do not fit into its buffer"))),
         }
     }
 
@@ -491,8 +547,8 @@ impl<'a> Values<'a> {
         if index >= self.count {
             return None;
         }
-        let value =
-            self.replaced.get(&index).copied().unwrap_or(&self.bytes[index * self.stride..]);
+        let replaced = self.sparse.as_ref().and_then(|sparse| sparse.get(index));
+        let value = replaced.unwrap_or(&self.bytes[index * self.stride..]);
         let mut numbers = [1.0; 4];
         let size = self.data_type.size();
         for (number, bytes) in

@@ -421,7 +421,7 @@ fn ply_files_have_strips_of_triangles() {
     let text = String::from_utf8(ply("ascii")).unwrap();
     let start = text.find("3 0 2 1").unwrap();
     let end = text.find("0.1 0.2").unwrap();
-    let strips = "14 0 2 1 3 3 -1 0 1 3 -1 2 0 3 -1 1 2 3 4\n";
+    let strips = "17 0 2 1 3 3 -1 0 1 3 -1 2 0 3 -1 0 1 0 1 2 3 4\n";
     let header = text[..start].replace("face 4", "tristrips 1");
     let file = header + strips + &text[end..];
     let scene = read(MeshKind::Ply, file.as_bytes()).unwrap();
@@ -431,8 +431,12 @@ fn ply_files_have_strips_of_triangles() {
         assert_eq!(scene.polygon(number), whole.polygon(face));
         assert_eq!(scene.material(number).color, [1.0, 2.0, 3.0].map(|c| c / 255.0));
     }
-    let message = read(MeshKind::Ply, file.replace("2 1 3 3", "2 1 9 3").as_bytes()).unwrap_err();
-    assert!(message.contains("index 9 is out of range: 4 vertices"), "{message}");
+    for index in ["9", "1.5"] {
+        let file = file.replace("2 1 3 3", &format!("2 1 {index} 3"));
+        let message = read(MeshKind::Ply, file.as_bytes()).unwrap_err();
+        let problem = format!("index {index} is out of range: 4 vertices");
+        assert!(message.contains(&problem), "{message}");
+    }
 }
 
 /// Vertices with normals, colours and texture coordinates.
@@ -474,13 +478,13 @@ fn sparse_values_replace_others() {
     // Its number in 16 bits, and itself.
     buffer.extend([1, 0, 0, 0]);
     buffer.extend(little([corners[1], [0.0; 3]].concat()));
-    // The lengths of the numbers and of the values, in bytes.
-    let file = |count: usize, base: &str, [numbers, values]: [usize; 2]| {
+    // The lengths of the numbers and of the values, in bytes, and where the values begin.
+    let file = |count: usize, base: &str, [numbers, values, offset]: [usize; 3]| {
         format!(
             r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
             "accessors":[{{{base}"componentType":5126,"count":3,"type":"VEC3","sparse":{{"count":{count},
-            "indices":{{"bufferView":1,"componentType":5123}},"values":{{"bufferView":2}}}}}}],
+            "indices":{{"bufferView":1,"componentType":5123}},"values":{{"bufferView":2,"byteOffset":{offset}}}}}}}],
             "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":{numbers}}},
             {{"buffer":0,"byteOffset":40,"byteLength":{values}}}],
             "buffers":[{{"uri":"data:;base64,{}","byteLength":64}}]}}"#,
@@ -488,12 +492,15 @@ fn sparse_values_replace_others() {
         )
     };
     let base = "\"bufferView\":0,";
-    let scene = read(MeshKind::Gltf, file(1, base, [2, 12]).as_bytes()).unwrap();
+    let scene = read(MeshKind::Gltf, file(1, base, [2, 12, 0]).as_bytes()).unwrap();
     assert_eq!(scene.polygon(0), corners.map(|corner| DVec3::from(corner.map(f64::from))));
+    let scene = read(MeshKind::Gltf, file(1, base, [2, 24, 12]).as_bytes()).unwrap();
+    assert_eq!(scene.polygon(0)[1], DVec3::ZERO);
     for (file, problem) in [
-        (file(2, base, [2, 24]), "accessor 0 (from 0): its sparse values do not fit"),
-        (file(2, base, [4, 12]), "accessor 0 (from 0): its sparse values do not fit"),
-        (file(1, "", [2, 12]), "accessor 0 (from 0): it has no buffer view"),
+        (file(2, base, [4, 24, 0]), "accessor 0 (from 0): its sparse indices do not increase"),
+        (file(2, base, [2, 24, 0]), "accessor 0 (from 0): its sparse values do not fit"),
+        (file(2, base, [4, 12, 0]), "accessor 0 (from 0): its sparse values do not fit"),
+        (file(1, "", [2, 12, 0]), "accessor 0 (from 0): it has no buffer view"),
     ] {
         let message = read(MeshKind::Gltf, file.as_bytes()).unwrap_err();
         assert!(message.contains(problem), "{message}");

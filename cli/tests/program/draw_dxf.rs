@@ -279,3 +279,23 @@ fn a_dxf_to_scale_is_in_millimetres_of_paper() {
         assert!((extent - 30.0).abs() < 1e-4, "{extent}");
     }
 }
+
+/// Also without a margin, where the outline would be on the border of the paper.
+#[test]
+fn all_lines_are_drawn_to_scale() {
+    let folder = Folder::new("dxf_scale");
+    folder.write("cards.obj", CARDS);
+    folder.write("cards.mtl", CARDS_MATERIALS);
+    for scale in [10.0, 10.0625] {
+        let view = "cards.obj --direction=0,0,-1 --up y --margin 0";
+        folder.run(&format!("draw {view} --scale {scale} -o a.dxf")).good();
+        let dxf = Dxf::parse(&fs::read_to_string(folder.path("a.dxf")).unwrap());
+        // The plate has 4 by 2 units.
+        for (axis, side) in [4.0, 2.0].into_iter().enumerate() {
+            let places = dxf.lines.iter().flat_map(|line| &line.points).map(|point| point[axis]);
+            let low = places.clone().fold(f64::MAX, f64::min);
+            let high = places.fold(f64::MIN, f64::max);
+            assert!((high - low - side * scale).abs() < 1e-5, "{scale}: from {low} to {high}");
+        }
+    }
+}

@@ -170,6 +170,24 @@ fn a_file_has_the_permissions_of_the_one_it_replaces_or_the_usual_ones() {
     }
 }
 
+#[test]
+fn the_file_of_a_scene_is_not_replaced() {
+    let folder = Folder::new("output_same");
+    folder.write("s.obj", CROSSING);
+    for command in [
+        "build s.obj -o s.obj",
+        "order s.obj --eye=3,2,6 -o ./s.obj",
+        "draw s.obj --format svg -o s.obj",
+        "page s.obj -o s.obj",
+        "export s.obj -o s.obj",
+    ] {
+        let message = folder.run(command).refused();
+        assert!(message.contains("this is the scene's own file"), "{command}: {message}");
+        assert_eq!(fs::read_to_string(folder.path("s.obj")).unwrap(), CROSSING, "{command}");
+    }
+    folder.run("order newell --eye=3,2,6 -o s.obj").good();
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn output_that_cannot_be_written_is_an_error_in_every_command() {
