@@ -105,7 +105,7 @@ def shares(table, rows, wrong, judged):
         return found
     # “0” for no errors, as in the benches.
     percent = [100 * value(cell) / value(count) for cell, count in zip(found, column(table, judged, rows))]
-    return [f"{share:.2g} %" if share else "0" for share in percent]
+    return [f"{share:.{0 if share >= 10 else 2}{'f' if share >= 10 else 'g'}} %" if share else "0" for share in percent]
 
 
 def peer(tables, work, name, title, ratio, only, ours, theirs, judged):

@@ -41,6 +41,7 @@ pub(crate) struct ViewArgs {
     pub(crate) up: UpArgs,
     /// Vertical field of view in degrees
     #[arg(long, value_name = "DEGREES", default_value = "40", value_parser = values::field_of_view)]
+    #[arg(allow_negative_numbers = true)]
     pub(crate) fov: f64,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = values::size)]

@@ -15,6 +15,7 @@ use tempfile::NamedTempFile;
 
 use crate::args::SceneArgs;
 use crate::failure::Failure;
+use crate::scene_arg::{Source, source};
 use crate::signals;
 
 /// The most symbolic links that are followed: more count as a cycle, as in most systems.
@@ -55,8 +56,11 @@ impl Output {
         if path == Path::new(STANDARD) {
             return Ok(Self::Standard(BufWriter::with_capacity(1 << 16, io::stdout().lock())));
         }
-        let [output, input] = [path, Path::new(&scene.name)].map(|path| path.canonicalize().ok());
-        if output.is_some_and(|output| output.is_file() && Some(output) == input) {
+        if let Source::File(input) = source(&scene.name)?
+            && path.is_file()
+            && let (Ok(input), Ok(output)) = (input.canonicalize(), path.canonicalize())
+            && input == output
+        {
             let problem = "this is the scene's own file: name another output";
             return Err(about_output(path, problem));
         }

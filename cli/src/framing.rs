@@ -5,8 +5,8 @@ use binspace::glam::DVec3;
 use binspace::scene::Scene;
 use binspace::view::Camera;
 
-/// The largest share of a picture that a scene fills. With 1, edges of the scene may lie exactly on the border of
-/// the picture, where they are not drawn.
+/// The largest share of a picture that a scene fills. With 1, edges of the scene may lie exactly on the
+/// border of the picture, where they are not drawn.
 const FULL: f64 = 1.0 - 1e-6;
 
 /// A perspective camera with the direction of another camera, moved so that the scene just fills the picture.
@@ -75,7 +75,7 @@ pub(crate) fn parallel(
             let half = [axis, -axis].map(|side| reach(scene, side) - at.dot(side));
             let side = 2.0 * half[0].max(half[1]) * scale;
             // Numbers too large for an integer become the largest, which is an error of the camera.
-            (side / fill).ceil().max(side.floor() + 1.0) as u32
+            (side / fill).ceil().max(1.0) as u32
         });
         return Camera::parallel(direction, up, at, f64::from(size[1]) / scale, size);
     }

@@ -60,6 +60,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<Outcome, Failure> {
 
 fn verdict(total: &Comparison, all_right: bool) -> String {
     let found = match total.wrong() {
+        0 if !all_right => "no pixel is wrong, but orders are: see the notes".to_owned(),
         0 => "no pixel is wrong".to_owned(),
         1 => "1 pixel is wrong".to_owned(),
         wrong => format!("{wrong} pixels are wrong"),

@@ -69,9 +69,14 @@ pub(crate) fn read(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Re
     let about = |problem: String| Failure::about(name, problem);
     let gltf = parsed(bytes).map_err(about)?;
     let buffers = buffers(name, &gltf, folder)?;
+    // As many checks as the buffers have bytes, whatever accessors share.
+    let mut checks = buffers.iter().map(|bytes| bytes.len()).sum::<usize>();
     for accessor in gltf.accessors() {
-        let sparse = Sparse::of(&accessor, &buffers).map_err(about)?;
-        sparse.map_or(Ok(()), |sparse| sparse.check(&accessor)).map_err(about)?;
+        if let Some(sparse) = Sparse::of(&accessor, &buffers).map_err(about)? {
+            let left = checks.checked_sub(sparse.numbers.len());
+            checks = left.ok_or_else(|| about("accessors share sparse indices".into()))?;
+            sparse.check(&accessor).map_err(about)?;
+        }
     }
     let instances = instances(&gltf.document).map_err(about)?;
     let used = &gltf.as_json().extensions_used;
@@ -461,7 +466,8 @@ impl<'a> Sparse<'a> {
         let numbers = chunks(indices.view(), indices.offset(), indices.index_type().size());
         let values = chunks(values.view(), values.offset(), accessor.size());
         let problem = "its sparse values do not fit into their buffer";
-        let (numbers, values) = numbers.zip(values).ok_or_else(|| said(accessor, problem))?;
+        let (numbers, values) =
+            numbers.zip(values).ok_or_else(|| about_accessor(accessor, problem))?;
         Ok(Some(Self { numbers, values }))
     }
 
@@ -469,12 +475,12 @@ impl<'a> Sparse<'a> {
         bytes.iter().rev().fold(0, |n, &byte| n << 8 | usize::from(byte))
     }
 
-    /// Returns an error if the numbers do not increase, or are not below `count`.
+    /// Returns an error if the numbers do not increase, or are not below the accessor's count.
     fn check(&self, accessor: &Accessor<'_>) -> Result<(), String> {
         let mut least = 0;
         for number in self.numbers.clone().map(Self::number) {
             if number < least || number >= accessor.count() {
-                return Err(said(
+                return Err(about_accessor(
                     accessor,
                     "its sparse indices do not increase, or are out of range",
                 ));
@@ -500,7 +506,7 @@ impl<'a> Sparse<'a> {
 }
 
 /// An error about an accessor.
-fn said(accessor: &Accessor<'_>, problem: &str) -> String {
+fn about_accessor(accessor: &Accessor<'_>, problem: &str) -> String {
     format!("accessor {} (from 0): {problem}", accessor.index())
 }
 
@@ -517,7 +523,9 @@ impl<'a> Values<'a> {
         is_share: bool,
         buffers: &'a [Rc<Vec<u8>>],
     ) -> Result<Self, String> {
-        let view = accessor.view().ok_or_else(|| said(accessor, "it has no buffer view"))?;
+        let view = accessor.view().ok_or_else(|| {
+            about_accessor(accessor, "it has no buffer view, which is not supported")
+        })?;
         let (count, size) = (accessor.count(), accessor.size());
         let stride = view.stride().unwrap_or(size).max(size);
         let sparse = Sparse::of(accessor, buffers)?;
@@ -538,7 +546,10 @@ impl<'a> Values<'a> {
                 };
                 Ok(Self { bytes, stride, count, dimensions, data_type, full, sparse })
             }
-            _ => Err(said(accessor, &format!("its {count} values do not fit into its buffer"))),
+            _ => Err(about_accessor(
+                accessor,
+                &format!("its {count} values do not fit into its buffer"),
+            )),
         }
     }
 

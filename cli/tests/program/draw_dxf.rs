@@ -283,7 +283,7 @@ fn a_dxf_to_scale_is_in_millimetres_of_paper() {
 /// Also without a margin, where the outline would be on the border of the paper.
 #[test]
 fn all_lines_are_drawn_to_scale() {
-    let folder = Folder::new("dxf_scale");
+    let folder = Folder::new("dxf_all_lines");
     folder.write("cards.obj", CARDS);
     folder.write("cards.mtl", CARDS_MATERIALS);
     for scale in [10.0, 10.0625] {
@@ -295,7 +295,7 @@ fn all_lines_are_drawn_to_scale() {
             let places = dxf.lines.iter().flat_map(|line| &line.points).map(|point| point[axis]);
             let low = places.clone().fold(f64::MAX, f64::min);
             let high = places.fold(f64::MIN, f64::max);
-            assert!((high - low - side * scale).abs() < 1e-5, "{scale}: from {low} to {high}");
+            assert!((high - low - side * scale).abs() < 1e-4, "{scale}: from {low} to {high}");
         }
     }
 }

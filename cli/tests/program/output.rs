@@ -185,7 +185,16 @@ fn the_file_of_a_scene_is_not_replaced() {
         assert!(message.contains("this is the scene's own file"), "{command}: {message}");
         assert_eq!(fs::read_to_string(folder.path("s.obj")).unwrap(), CROSSING, "{command}");
     }
-    folder.run("order newell --eye=3,2,6 -o s.obj").good();
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("s.obj", folder.path("link.obj")).unwrap();
+        let message = folder.run("order link.obj --eye=3,2,6 -o s.obj").refused();
+        assert!(message.contains("this is the scene's own file"), "{message}");
+    }
+    // The name of a built-in scene is no file.
+    for _ in 0..2 {
+        folder.run("order newell --eye=3,2,6 -o newell").good();
+    }
 }
 
 #[cfg(target_os = "linux")]

@@ -721,7 +721,7 @@ def _without_repeats(places, offsets):
     corner."""
     is_other = (np.abs(np.diff(places, axis=0)) > _JOINED).any(1)
     keep = np.append(True, is_other)[: len(places)]
-    keep[offsets[:-1]] = True
+    keep[offsets[:-1][offsets[:-1] < len(keep)]] = True
     return places[keep], np.append(0, np.cumsum(keep))[offsets]
 
 
