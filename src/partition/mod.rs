@@ -179,7 +179,7 @@ impl Partition {
     }
 
     /// Returns the numbers of all cells, furthest first: no cell hides a later cell. O(cells). An eye on a
-    /// plane between two cells counts as on either side of that plane, as in a tree.
+    /// plane between two cells may be treated as lying on either side of that plane, as in a tree.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let eye = Eye::new(viewpoint, &self.lattice);
         let mut order = Vec::with_capacity(self.cells());
@@ -363,7 +363,8 @@ impl Layer {
         Self { from, normal, least: least - slack, most: most + slack }
     }
 
-    /// Whether the layer meets a box that reaches no further than the corners and the margin.
+    /// Whether the layer meets a box. The box must lie in the bounding box of the corners, widened by the
+    /// margin: the bounds on rounding assume this.
     fn meets(&self, [low, high]: &CellBox) -> bool {
         let [low, high] = [low, high].map(|&corner| DVec3::from(corner) - self.from);
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
