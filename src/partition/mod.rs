@@ -329,9 +329,10 @@ const MARGIN: [f64; 2] = [3.0, 2.0];
 /// computation. The rounding of the normal itself does not matter, because the layer is right for any normal.
 /// Let u = 2⁻⁵³: arms of corners are exact, so a scalar product with an arm is off by 3u, for the product and
 /// the sums. An end of a box is off by u, and the difference of an end and a corner by u. The box's middle
-/// and half size are off by u more, and the products of each of these two by 3u. Together with the sums and
-/// differences in `meets`, and the slack itself, the error is less than 20u. Too small: cells miss polygons.
-/// Too large: cells receive polygons that do not reach them.
+/// and half size are off by u more. The scalar product of the middle with the normal, and that of the half
+/// size, are each off by 3u. Together with the sums and differences in `meets`, and the slack itself, the
+/// error is less than 20u. Too small: cells miss polygons. Too large: cells receive polygons that do not
+/// reach them.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.

@@ -403,7 +403,7 @@ pub struct ObjReport {
     /// The number of malformed `vt` and `vn` lines, and of references to such lines that are malformed or
     /// name a missing line. The corners with such references lack that attribute.
     pub skipped_attributes: usize,
-    /// The number of lines that begin with any other unknown word, such as the statements for free-form
+    /// The number of lines that begin with another, unknown word, such as the statements for free-form
     /// curves and surfaces.
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.
