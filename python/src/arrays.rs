@@ -7,7 +7,7 @@ pub(crate) type Array1<T> = Py<PyArray1<T>>;
 pub(crate) type Array2<T> = Py<PyArray2<T>>;
 pub(crate) type Array3<T> = Py<PyArray3<T>>;
 
-/// An array of as many numbers.
+/// An array of the list's numbers.
 pub(crate) fn array1<T: Element>(py: Python<'_>, list: Vec<T>) -> Array1<T> {
     list.into_pyarray(py).unbind()
 }

@@ -20,7 +20,7 @@ use crate::overlay::{LineRuns, Markers, Overlay};
 use crate::task::{Turns, Watch, exception, run};
 use crate::tree::Tree;
 
-/// A camera of a matrix to clip coordinates.
+/// A camera, made from a matrix that maps the world to clip coordinates.
 #[pyclass(frozen, subclass, module = "binspace._binspace")]
 pub(crate) struct Camera {
     camera: view::Camera,
@@ -41,13 +41,13 @@ impl Camera {
         self.camera.size()
     }
 
-    /// The eye; None of a parallel projection.
+    /// The eye; None for a parallel projection.
     #[getter]
     fn eye(&self) -> Option<[f64; 3]> {
         self.camera.eye().map(|eye| eye.to_array())
     }
 
-    /// The direction in which a parallel projection looks; None of a perspective one.
+    /// The direction in which a parallel projection looks; None for a perspective projection.
     #[getter]
     fn direction(&self) -> Option<[f64; 3]> {
         match self.camera.viewpoint() {
@@ -206,8 +206,8 @@ impl Visibility {
         overlay.markers(py, &views)
     }
 
-    /// The view as an SVG or a PDF file. `colors` has a row for each polygon or one for all; strokes are widths and
-    /// colours.
+    /// Returns the view as an SVG or a PDF file. `colors` has a row for each polygon, or one row for all
+    /// polygons. A stroke is a width and a colour.
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn _picture<'py>(
         &self,
@@ -261,14 +261,18 @@ impl Visibility {
     }
 }
 
-/// Filled outlines in the order to paint them, with lines and points between them: `Visibility.drawing`,
+/// Filled outlines in painting order, with lines and points between them: `Visibility.drawing`,
 /// `Tree.translucent`.
 ///
-/// Path `i` is the polygon `polygon[i]`, or if `is_clipped[i]` a part of it. It has the outlines from `path_offsets[i]` to
-/// `path_offsets[i + 1]`, filled together by the nonzero rule. Outline `o` has the rows of `corners` from `outline_offsets[o]` to
-/// `outline_offsets[o + 1]`, in pixels from the top left corner. `edges[c]` is the edge of the polygon from corner `c` to
-/// the next, by the number of its first corner; -1 if it is none. `items` has the order of everything, of shape (n, 2):
-/// 0 and the number of a path, 1 and the number of a row of `lines`, or 2 and the number of a row of
+/// Path `i` shows the polygon `polygon[i]`, or only a part of this polygon if `is_clipped[i]` is true. The
+/// path consists of the outlines from `path_offsets[i]` to `path_offsets[i + 1]`, filled together by the
+/// nonzero rule. The corners of outline `o` are the rows of `corners` from `outline_offsets[o]` to
+/// `outline_offsets[o + 1]`, in pixels from the top left corner of the picture. `edges[c]` is the edge of the
+/// polygon that contains the side from corner `c` to the next corner, or -1 if no edge contains this side.
+/// Edge `k` begins at the polygon's corner `k`.
+///
+/// `items` lists all paths, lines and points in painting order, in the shape (n, 2). A row consists of 0 and
+/// the number of a path, of 1 and the number of a row of `lines`, or of 2 and the number of a row of
 /// `markers`. Without an overlay, `lines` and `markers` are None. `size` is the width and the height of the
 /// picture in pixels.
 #[pyclass(frozen, module = "binspace._binspace")]
@@ -284,7 +288,7 @@ const MARKER: u32 = 2;
 
 #[pymethods]
 impl Drawing {
-    /// All polygons of a tree as paths, nothing hidden.
+    /// Makes paths of all polygons of a tree, with no hidden parts removed.
     #[new]
     fn new(
         py: Python<'_>,
@@ -313,7 +317,7 @@ impl Drawing {
         self.drawing.paths().len()
     }
 
-    /// The same drawing, with the outlines of opaque polygons extended under later opaque neighbours.
+    /// Returns this drawing with the outlines of opaque polygons extended under later opaque neighbours.
     fn _trapped(&self, py: Python<'_>, is_opaque: Vec<bool>) -> Self {
         let is_opaque = |polygon: usize| is_opaque.get(polygon).copied().unwrap_or(true);
         let drawing = py.detach(|| self.drawing.trapped(is_opaque));
@@ -397,7 +401,8 @@ impl Drawing {
     }
 }
 
-/// Where lists of these lengths begin, one after the other, and where the last ends.
+/// The start of each list, and the end of the last list, if lists of these lengths are stored one after the
+/// other.
 fn offsets(counts: impl Iterator<Item = usize>) -> Vec<u32> {
     let ends = counts.scan(0, |end, count| {
         *end += count as u32;
@@ -408,8 +413,9 @@ fn offsets(counts: impl Iterator<Item = usize>) -> Vec<u32> {
 
 /// The visible polygons: `Visibility.polygons`.
 ///
-/// The number of each `polygon`, its visible `area` in square pixels, and a `point` at which it is visible, in pixels from
-/// the top left corner, of shape (n, 2).
+/// For each visible polygon: its number in `polygon`, its visible `area` in square pixels, and in `point` a
+/// point where the polygon is visible. `point` has the shape (n, 2), in pixels from the top left corner of
+/// the picture.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct VisiblePolygons {
     polygon: Array1<u32>,
@@ -417,13 +423,14 @@ pub(crate) struct VisiblePolygons {
     point: Array2<f64>,
 }
 
-/// Parts of edges, or of lines in which polygons cross: `Visibility.edges`, `Visibility.crossings`.
+/// Parts of edges, or of lines where polygons cross each other: `Visibility.edges`, `Visibility.crossings`.
 ///
-/// Each belongs to the edge `edge` of a `polygon`, by the number of its first corner; -1 if it is none. `kind` is 0 for a
-/// border, 1 for a silhouette, 2 for a crease, 3 for a crossing. `angle` is a crease's angle in radians, otherwise NaN, and
-/// `other` the second polygon of a crossing, otherwise -1. `ends` are in pixels from the top left corner, of shape
-/// (n, 2, 2). `is_visible` is false for hidden parts, and `layers` the number of polygons in front; -1 if they were not
-/// counted.
+/// `polygon` is the number of a polygon. `edge` is the number of an edge of this polygon, or -1 if the part
+/// lies on no edge. Edge `k` begins at corner `k`. `kind` is 0 for a border, 1 for a silhouette, 2 for a
+/// crease, and 3 for a crossing. `angle` is the angle of a crease in radians; for other kinds it is NaN.
+/// `other` is the second polygon of a crossing; for other kinds it is -1. `ends` are the two ends in pixels
+/// from the top left corner of the picture, in the shape (n, 2, 2). `is_visible` is false for hidden parts.
+/// `layers` is the number of polygons in front, or -1 if these polygons were not counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct EdgeRuns {
     polygon: Array1<u32>,

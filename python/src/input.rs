@@ -65,8 +65,8 @@ fn row<T: Copy>(array: &ArrayView2<'_, T>, i: usize) -> [T; 3] {
     [0, 1, 2].map(|axis| array[[i, axis]])
 }
 
-/// Lists of points: the list `i` has the numbers from `offsets[i]` to `offsets[i + 1]`, of points or of indices of
-/// points.
+/// Lists of points. List `i` consists of the entries from `offsets[i]` to `offsets[i + 1]` of `indices`, or
+/// of `points` if there are no indices.
 pub(crate) struct Lists<'py> {
     points: Points<'py>,
     indices: Option<PyReadonlyArray1<'py, i64>>,
@@ -82,7 +82,7 @@ impl<'py> Lists<'py> {
         Self { points, indices, offsets }
     }
 
-    /// The lists, checked: whatever the numbers are, none leads outside of the arrays.
+    /// Checks that all offsets and indices are inside the arrays, and returns the lists.
     pub(crate) fn view(&self) -> PyResult<ListsView<'_>> {
         let points = self.points.view()?;
         let indices = self.indices.as_ref().map(|indices| indices.as_array());
@@ -130,7 +130,8 @@ impl<'a> ListsView<'a> {
         self.offsets.len() - 1
     }
 
-    /// Where a list is. It may have been changed by another thread since it was checked.
+    /// The range of a list's entries. The range is clamped, because another thread may have changed the
+    /// arrays after the check.
     pub(crate) fn range(&self, list: usize) -> std::ops::Range<usize> {
         let at = |i: usize| usize::try_from(self.offsets[i]).unwrap_or(0).min(self.count());
         at(list)..at(list + 1)
@@ -148,7 +149,7 @@ impl<'a> ListsView<'a> {
         self.points.get(at.min(self.points.len() - 1))
     }
 
-    /// Calls `build` with the lists as polygons; those with NaN have no corners.
+    /// Calls `build` with the lists as polygons. A list with a NaN becomes a polygon without corners.
     pub(crate) fn polygons<R>(&self, build: impl Build<R>) -> R {
         let lists = *self;
         match self.points {
@@ -164,7 +165,7 @@ impl<'a> ListsView<'a> {
     }
 }
 
-/// A function of polygons of any type.
+/// A function that accepts polygons of any type.
 pub(crate) trait Build<R> {
     fn with<P: Polygon>(self, polygons: impl Iterator<Item = P>) -> R;
 }
@@ -188,7 +189,7 @@ impl<P: Point> Polygon for Rows<'_, P> {
     }
 }
 
-/// A viewpoint of an eye or a direction, of which there must be one.
+/// Makes a viewpoint from an eye or a direction. Exactly one of the two must be given.
 pub(crate) fn viewpoint(eye: Option<[f64; 3]>, direction: Option<[f64; 3]>) -> PyResult<Viewpoint> {
     let numbers = eye.iter().chain(&direction).flatten();
     if numbers.clone().any(|c| c.is_nan()) {

@@ -1,5 +1,5 @@
-//! The compiled half of the Python package `binspace`: numbers in, numbers out. Shapes and types of arguments are
-//! prepared by the other half, in `python/binspace/__init__.py`.
+//! The compiled half of the Python package `binspace`. The other half, `python/binspace/__init__.py`,
+//! converts arguments to the shapes and types that this half expects.
 
 mod arrays;
 mod drawing;

@@ -21,7 +21,8 @@ pub(crate) struct Overlay {
     numbers: Numbers,
 }
 
-/// The numbers by which the caller knows lines and points. A line is broken where it has NaN.
+/// The caller's numbers of lines and points. The overlay has other numbers, because a line with NaN is
+/// divided at each NaN.
 #[derive(Default)]
 pub(crate) struct Numbers {
     /// For each line of the overlay: the caller's line number and the number of the first segment.
@@ -30,7 +31,7 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// The caller's line and segment.
+    /// The caller's numbers of a line and a segment.
     fn segment(&self, line: usize, segment: usize) -> [u32; 2] {
         let [given, first] = self.lines.get(line).copied().unwrap_or_default();
         [given, first + segment as u32]
@@ -98,10 +99,11 @@ impl Overlay {
         self.overlay.len()
     }
 
-    /// Returns the numbers of all fragments and pieces in the order to paint them, back to front. Pieces are numbered
-    /// after the fragments of the tree.
+    /// Returns the numbers of all fragments and pieces in back-to-front order, the painting order. The
+    /// numbers of pieces follow the numbers of the tree's fragments.
     ///
-    /// Give either `eye`, a point, or `direction`, in which a parallel projection looks; three numbers each.
+    /// Give either `eye`, the point from which the viewer looks, or `direction`, in which the viewer of a
+    /// parallel projection looks. Each is three numbers.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -121,7 +123,7 @@ impl Overlay {
         Ok(array1(py, numbers.map_err(exception)?))
     }
 
-    /// The pieces of lines, and the points, in the order of their numbers.
+    /// The pieces of lines and the points, sorted by their numbers in `order`.
     #[getter]
     fn pieces(&self, py: Python<'_>) -> PyResult<Pieces> {
         let first = self.tree.len() as u32;
@@ -182,8 +184,9 @@ impl Overlay {
 
 /// Pieces of lines, and points: `Overlay.pieces`.
 ///
-/// `number` is the line or the point among those that were given, and `segment` the number of the line's segment; -1 for a
-/// point. `ends` are both ends in space, of shape (n, 2, 3), and `shares` their places on the segment, from 0 to 1.
+/// `number` is the number of a line or a point in the input. `segment` is the number of the segment within
+/// its line, or -1 for a point. `ends` are the two ends of the piece in space, in the shape (n, 2, 3).
+/// `shares` are the places of these ends on the segment, from 0 to 1.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Pieces {
     number: Array1<u32>,
@@ -194,9 +197,10 @@ pub(crate) struct Pieces {
 
 /// Parts of lines in a picture: `Visibility.lines`, `Drawing.lines`.
 ///
-/// Each is a part of a `segment` of a `line`, by their numbers, from end to end visible or hidden (`is_visible`). `ends` are
-/// in pixels from the top left corner, of shape (n, 2, 2). `layers` is the number of polygons in front; -1 if they were not
-/// counted.
+/// Each part is entirely visible or entirely hidden. `line` is the number of a line, and `segment` the number
+/// of the segment within this line. `ends` are the two ends of the part in pixels from the top left corner of
+/// the picture, in the shape (n, 2, 2). `is_visible` is false for hidden parts. `layers` is the number of
+/// polygons in front, or -1 if these polygons were not counted.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct LineRuns {
     line: Array1<u32>,
@@ -208,8 +212,8 @@ pub(crate) struct LineRuns {
 
 /// Points in a picture: `Visibility.markers`, `Drawing.markers`.
 ///
-/// `point` is the number of the point, `at` its place in pixels from the top left corner, of shape (n, 2), and
-/// `is_visible` is false if a polygon hides it.
+/// `point` is the number of the point. `at` is the position of the point in pixels from the top left corner
+/// of the picture, in the shape (n, 2). `is_visible` is false if a polygon hides the point.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Markers {
     point: Array1<u32>,

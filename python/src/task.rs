@@ -12,11 +12,12 @@ use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// How often the calling thread looks for signals and calls the callback. Too small: it takes the interpreter from
-/// other threads. Too large: Ctrl-C is late.
+/// The interval at which the calling thread handles signals and calls the callback. Too small: this thread
+/// takes the interpreter from other threads. Too large: Ctrl-C takes effect late.
 const PULSE: Duration = Duration::from_millis(20);
 
-/// The progress of an operation, and whether it is cancelled: shared by the calling thread and the workers.
+/// The progress of an operation, and whether the operation is cancelled. The calling thread and the workers
+/// share a watch.
 #[derive(Default)]
 pub(crate) struct Watch {
     done: AtomicUsize,
@@ -47,7 +48,8 @@ impl Watch {
     }
 }
 
-/// The operations of a map, one after the other, each with its own watch: the map has one callback for all.
+/// Lets the operations of a map run one after the other. A map has only one callback, so the callback has to
+/// report to the watch of the current operation.
 #[derive(Default)]
 pub(crate) struct Turns {
     turn: Mutex<()>,
@@ -55,7 +57,7 @@ pub(crate) struct Turns {
 }
 
 impl Turns {
-    /// Waits until no other operation has its turn.
+    /// Waits until no other operation of the map runs.
     fn take(&self, watch: &Arc<Watch>) -> MutexGuard<'_, ()> {
         let turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         *self.watch.lock().unwrap_or_else(PoisonError::into_inner) = watch.clone();
@@ -67,8 +69,9 @@ impl Turns {
     }
 }
 
-/// Runs `work` without the interpreter, in another thread, once it has its turn. This thread handles signals and calls
-/// `progress` with the finished and the total work; an exception of either cancels the work.
+/// Runs `work` in another thread, without the interpreter. With `turns`, waits first until no other operation
+/// of the map runs. The calling thread handles signals, and calls `progress` with the finished and the total
+/// work. An exception in a signal handler or in `progress` cancels the work.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
@@ -82,7 +85,8 @@ pub(crate) fn run<T: Send>(
         let result = std::thread::scope(|scope| {
             let (end, ended) = channel::<()>();
             let worker = scope.spawn(move || {
-                // Not within the pool, whose threads may begin this while they wait for parts of other work.
+                // Waits outside the pool. Otherwise a pool thread that waits for a part of other work could
+                // block here.
                 let _turn = turns.map(|turns| turns.take(watch));
                 let result = pool.install(work);
                 drop(end);
@@ -109,15 +113,15 @@ pub(crate) fn run<T: Send>(
     })
 }
 
-/// The threads of this process. A fork has none of its parent's threads, and would wait for them forever: it gets a
-/// pool of its own.
+/// The thread pool of this process. A forked process gets a new pool: its parent's threads do not exist in
+/// it, and it would wait for these threads forever.
 fn pool() -> PyResult<Arc<ThreadPool>> {
     static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
     let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     match &*pool {
         Some((of, pool)) if *of == process => return Ok(pool.clone()),
-        // To drop the parent's pool would wait for its threads.
+        // Dropping the parent's pool would wait for the pool's threads.
         Some((_, parents)) => std::mem::forget(parents.clone()),
         None => {}
     }
@@ -127,7 +131,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     Ok(threads.clone())
 }
 
-/// The exception for an error, with the library's words.
+/// The Python exception for an error of the library, with the same text.
 pub(crate) fn exception(error: Error) -> PyErr {
     let text = error.to_string();
     match error.kind() {

@@ -16,7 +16,7 @@ use crate::task::{Watch, exception, run};
 #[pyclass(frozen, subclass, module = "binspace._binspace")]
 pub(crate) struct Tree {
     pub(crate) tree: Arc<BspTree>,
-    /// One for each polygon, or none if all are opaque.
+    /// The opacity of each polygon; empty if all polygons are opaque.
     pub(crate) opacity: Vec<f64>,
 }
 
@@ -100,22 +100,24 @@ impl Tree {
         self.tree.memory_usage()
     }
 
-    /// The numbers of the polygons without area, which have no fragments, ascending.
+    /// The numbers of the polygons without area, in ascending order. These polygons have no fragments.
     #[getter]
     fn dropped(&self, py: Python<'_>) -> Array1<u32> {
         array1(py, self.tree.dropped().map(|polygon| polygon as u32).collect())
     }
 
-    /// The least and the largest coordinates of all fragments, of shape (2, 3); None of a tree without fragments.
+    /// The least and the largest coordinates of all fragments, in the shape (2, 3). None for a tree
+    /// without fragments.
     #[getter]
     fn bounds(&self, py: Python<'_>) -> PyResult<Option<Array2<f64>>> {
         let bounds = py.detach(|| self.tree.bounds());
         bounds.map(|ends| array2(py, ends.map(|end| end.to_array()).to_vec())).transpose()
     }
 
-    /// Returns the numbers of all fragments in the order to paint them, back to front: in O(n) time.
+    /// Returns the numbers of all fragments in back-to-front order, the painting order. O(n).
     ///
-    /// Give either `eye`, a point, or `direction`, in which a parallel projection looks; three numbers each.
+    /// Give either `eye`, the point from which the viewer looks, or `direction`, in which the viewer of a
+    /// parallel projection looks. Each is three numbers.
     #[pyo3(signature = (*, eye=None, direction=None, front_to_back=false))]
     fn order(
         &self,
@@ -148,7 +150,8 @@ impl Tree {
         })
     }
 
-    /// Hits of rays from each of the first points: to the others if `are_ends`, or along them.
+    /// Returns the hits of rays that start at the points `from`. `others` are the ends of the rays if
+    /// `are_ends` is true; otherwise they are the directions of the rays.
     fn _hits(
         &self,
         py: Python<'_>,
@@ -220,9 +223,13 @@ struct FoundHits {
 
 /// All fragments of a tree: `Tree.fragments`.
 ///
-/// Fragment `i` is a part of `polygon[i]` and has the rows of `points` from `offsets[i]` to `offsets[i + 1]`. `edges[v]` is
-/// the edge of the polygon from vertex `v` to the next, by the number of its first corner; -1 if a cut made it. Vertex `v`
-/// has the `weights` from `weight_offsets[v]` to `weight_offsets[v + 1]` over the corners `weight_corners` of its polygon.
+/// Fragment `i` is a part of the polygon `polygon[i]`. Its vertices are the rows of `points` from
+/// `offsets[i]` to `offsets[i + 1]`. `edges[v]` is the edge of the polygon that contains the side from vertex
+/// `v` to the next vertex, or -1 if this side is a cut. Edge `k` begins at corner `k`.
+///
+/// Vertex `v` is a weighted sum of corners of the polygon. The entries from `weight_offsets[v]` to
+/// `weight_offsets[v + 1]` of `weight_corners` are the numbers of these corners, and the same entries of
+/// `weights` are the weights of the corners.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Fragments {
     points: Array2<f64>,
@@ -236,9 +243,11 @@ pub(crate) struct Fragments {
 
 /// The hits of rays: `Tree.hits`.
 ///
-/// Ray `i` has the hits from `offsets[i]` to `offsets[i + 1]`, the nearest first: the number of the `polygon`, the
-/// `parameter` along the ray in units of its direction (0 to 1 along a segment), the `points` of shape (n, 3), and
-/// `facing`: 1 for the front, -1 for the back, 0 for a ray in the polygon's plane.
+/// The hits of ray `i` are the entries from `offsets[i]` to `offsets[i + 1]` of the other arrays, nearest
+/// first. `polygon` is the number of the polygon that is hit. `parameter` is the place of the hit along the
+/// ray: 0 at the start of the ray, 1 at the start plus the direction, or at the end of a segment. `points`
+/// are the hit points, in the shape (n, 3). `facing` is 1 if the front is hit, -1 if the back is hit, and 0
+/// if the ray lies in the polygon's plane.
 #[pyclass(frozen, get_all, module = "binspace._binspace")]
 pub(crate) struct Hits {
     offsets: Array1<u64>,

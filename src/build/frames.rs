@@ -82,7 +82,7 @@ impl FrameBuilder {
         self.options = options;
     }
 
-    /// Builds a tree of polygons, which replaces the last tree.
+    /// Builds a tree of polygons. This tree replaces the previous tree.
     ///
     /// # Errors
     ///

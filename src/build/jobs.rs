@@ -152,7 +152,7 @@ impl Output {
         self.gaps.push(gap);
     }
 
-    /// The end of this output, as a place for the output of another job.
+    /// The place after the last item of this output, where the output of a job is to be inserted.
     fn end(&self, job: usize) -> Gap {
         let Parts { nodes, records, vertices, .. } = &self.parts;
         Gap { nodes: nodes.len(), records: records.len(), vertices: vertices.len(), job }

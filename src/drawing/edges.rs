@@ -132,8 +132,8 @@ impl VisibilityMap<'_> {
         Ok(())
     }
 
-    /// Passes the runs of an edge to a function, in the direction in which the runs' polygon traverses the
-    /// edge. An edge has no runs if none of its polygons shows a side.
+    /// Passes the runs of an edge to a function, in the direction in which the polygon of the runs traverses
+    /// the edge. There are no runs if all polygons with this edge are edge-on, or left out as back faces.
     fn add_runs(&self, edge: &SharedEdge, give: impl FnMut(EdgeRun)) {
         let Some(segment) = &edge.segment else { return };
         let ViewFrame { rays, faces } = &self.primitives.lines.frame;

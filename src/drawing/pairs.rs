@@ -174,8 +174,8 @@ impl LeafLists<'_, '_> {
     }
 }
 
-/// Whether the whole part of a face in a tile is one cell, bounded by borders of the tile and edges of the
-/// face.
+/// Whether a visible cell is everything that a tile contains of the cell's face: each side of the cell lies
+/// on a border of the tile or on an edge of the face.
 fn is_whole(primitives: &Primitives<'_>, tile: &Tile, visible: &Visible) -> bool {
     let outline = primitives.outline(primitives.face(visible.item));
     let sides = visible.cell.sides.iter().map(|side| side.half);

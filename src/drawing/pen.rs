@@ -58,8 +58,8 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// Each segment is drawn once. A line that is not closed begins and ends where an odd number of segments
 /// meet: lines are Eulerian trails, found by Hierholzer's algorithm (1873). If a line can continue in several
 /// ways, it continues with the straightest of a few segments. Two ends are shared if they are equal when
-/// rounded to a thousandth of a pixel, so two ends closer than that may stay separate. Segments with an
-/// infinite or NaN coordinate are left out.
+/// rounded to a thousandth of a pixel, so two ends that are closer together than a thousandth of a pixel may
+/// stay separate. Segments with an infinite or NaN coordinate are left out.
 ///
 /// The next line is always the line with an end nearest to the pen, which begins at (0, 0). O(n log n) for n
 /// segments, unless ends are spread very unevenly.

@@ -26,10 +26,10 @@ impl Drawing {
     /// consecutive paths share a colour, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// The order is a greedy topological order. Of the paths that may be next, a path with the key of the
-    /// previous path is next. If no such path exists, a path with the most frequent key is next. O(n log n)
-    /// for n paths, plus the number of overlaps. If there are too many overlaps (400 n pairs of boxes),
-    /// nothing moves.
+    /// The order is a greedy topological order. Among the paths that may come next, it chooses a path with
+    /// the key of the previous path. If there is no such path, it chooses a path with the most frequent key.
+    /// O(n log n) for n paths, plus the number of overlaps. If there are too many overlaps (400 n pairs of
+    /// boxes), nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();

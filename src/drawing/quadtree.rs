@@ -40,8 +40,9 @@ pub(super) enum Across {
 /// pixel. Too small: tiles around a vertex of many faces are halved many times. Too large: many small pieces
 /// are in one tile.
 pub(super) const TINY: i64 = 1 << 20;
-/// For other callers, tiles of this size or smaller, in steps, are not halved: 2⁻¹⁸ of a pixel. Too small:
-/// tiles around common points are halved many times. Too large: long lists remain.
+/// If the caller does not divide long lists itself, tiles of this size or smaller, in steps, are not halved:
+/// 2⁻¹⁸ of a pixel. Too small: tiles around common points are halved many times. Too large: long lists
+/// remain.
 pub(super) const TINIEST: i64 = 1 << 6;
 
 /// The growth of the number of pieces by halving. When a tile is halved, its two parts together have more

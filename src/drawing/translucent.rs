@@ -48,10 +48,13 @@ impl Drawing {
     ///
     /// An overlay does not change the paths, with one exception: a line along the border of two polygons that
     /// touch only at the border, one behind the line and the other in front. Then these two polygons are
-    /// painted in that order, which may change the number of paths of polygons. If such pairs close a cycle,
-    /// or are not all found in a few rounds, a part of a line is painted after all polygons behind the part,
-    /// but polygons in front may be painted before the part. The same applies to a bent polygon with one face
-    /// behind a line and another face in front, because the polygon is one path.
+    /// painted in that order, which may change the number of paths of polygons.
+    ///
+    /// A part of a line is always painted after all polygons behind the part. Polygons in front of the part
+    /// may also be painted before the part in two cases:
+    ///
+    /// - pairs of polygons as above close a cycle, or are not all found in a few rounds;
+    /// - a bent polygon, which is one path, has one face behind the line and another face in front.
     ///
     /// # Errors
     ///

@@ -6,8 +6,9 @@
 //! of the whole face:
 //!
 //! - if no corner is further than τ from the plane, the piece is coplanar;
-//! - if corners are further than τ in front, but no corner is further behind, the piece is in front, and vice
-//!   versa: a piece is not cut for less than τ;
+//! - if some corner is further than τ in front of the plane, but no corner is further than τ behind the
+//!   plane, the piece is in front. With the sides exchanged, the piece is behind. So a piece is not cut if
+//!   its face reaches across the plane by τ or less;
 //! - otherwise the exact signs of the piece's own vertices decide, and the piece is cut if they differ.
 //!
 //! With τ = 0 every decision equals the decision of real arithmetic.

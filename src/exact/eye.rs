@@ -87,8 +87,8 @@ impl Eye {
         self.shift
     }
 
-    /// Returns the eye in homogeneous coordinates: the point in lattice units, rounded again to `f64`, and 1;
-    /// or the direction towards it, and 0.
+    /// Returns the eye in homogeneous coordinates. For an eye at a point: the point in lattice units, rounded
+    /// again to `f64`, and 1. For an eye at infinity: the direction towards the eye, and 0.
     pub fn homogeneous(&self) -> ([f64; 3], f64) {
         (self.float, if self.shift.is_some() { 1.0 } else { 0.0 })
     }

@@ -95,8 +95,9 @@ impl StoredVertex {
 /// parts to `front` and `back`, in the piece's orientation.
 ///
 /// Vertices on the plane are added to both parts. A new vertex is made only on an edge whose ends lie
-/// strictly on opposite sides. Both parts define the new vertex by the same line and plane, so it is equal
-/// bit for bit in both. At most two vertices of a convex piece are new. O(n) for a piece of `n` vertices.
+/// strictly on opposite sides. The two parts define the new vertex by the same line and plane, so the vertex
+/// is bit for bit the same in each part. At most two vertices of a convex piece are new. O(n) for a piece of
+/// `n` vertices.
 ///
 /// A piece with two vertices is part of a segment; the plane must separate the piece's ends.
 pub fn split(

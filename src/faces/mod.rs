@@ -54,7 +54,7 @@ pub struct Preparation {
     /// long, or leave nothing, the triangles fan out from the first corner.
     pub crossing: usize,
     /// The number of polygons with a corner off the plane of the other corners, but within the tolerance.
-    /// These polygons stay whole, and their corners count as on the plane.
+    /// These polygons stay whole, and their corners are treated as lying on the plane.
     pub flattened: usize,
     /// The largest distance of a flattened polygon's corner from the plane of the other corners, a length.
     pub flattened_by: f64,

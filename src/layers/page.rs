@@ -104,8 +104,8 @@ impl Layers {
         }
     }
 
-    /// Sets the layers of a frame. Returns false, and does nothing, if the layers are equal to the last
-    /// frame's layers. Memory of the last frame is reused.
+    /// Sets the layers of a frame. Returns false, and does nothing, if the layers are equal to the
+    /// previous frame's layers. Memory of the previous frame is reused.
     ///
     /// # Errors
     ///

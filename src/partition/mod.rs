@@ -179,7 +179,7 @@ impl Partition {
     }
 
     /// Returns the numbers of all cells, furthest first: no cell hides a later cell. O(cells). An eye on a
-    /// plane between two cells counts as on either side of that plane, as in a tree.
+    /// plane between two cells may be treated as lying on either side of that plane, as in a tree.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let eye = Eye::new(viewpoint, &self.lattice);
         let mut order = Vec::with_capacity(self.cells());
@@ -329,9 +329,10 @@ const MARGIN: [f64; 2] = [3.0, 2.0];
 /// computation. The rounding of the normal itself does not matter, because the layer is right for any normal.
 /// Let u = 2⁻⁵³: arms of corners are exact, so a scalar product with an arm is off by 3u, for the product and
 /// the sums. An end of a box is off by u, and the difference of an end and a corner by u. The box's middle
-/// and half size are off by u more, and the products of each of these two by 3u. Together with the sums and
-/// differences in `meets`, and the slack itself, the error is less than 20u. Too small: cells miss polygons.
-/// Too large: cells receive polygons that do not reach them.
+/// and half size are off by u more. The scalar product of the middle with the normal, and that of the half
+/// size, are each off by 3u. Together with the sums and differences in `meets`, and the slack itself, the
+/// error is less than 20u. Too small: cells miss polygons. Too large: cells receive polygons that do not
+/// reach them.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The space between two parallel planes around some corners.
@@ -363,7 +364,8 @@ impl Layer {
         Self { from, normal, least: least - slack, most: most + slack }
     }
 
-    /// Whether the layer meets a box that reaches no further than the corners and the margin.
+    /// Whether the layer meets a box. The box must lie in the bounding box of the corners, widened by the
+    /// margin: the bounds on rounding assume this.
     fn meets(&self, [low, high]: &CellBox) -> bool {
         let [low, high] = [low, high].map(|&corner| DVec3::from(corner) - self.from);
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));

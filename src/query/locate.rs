@@ -57,9 +57,9 @@ impl PartialEq for Location<'_> {
 
 impl BspTree {
     /// Returns the leaf that contains a point, and the partition planes through the point. The result is
-    /// exact for the given point, as for a [`Ray`] from the point. A point on a plane counts as in front of
-    /// the plane. `None` if a coordinate is NaN or infinite, and possibly if the point is further from the
-    /// scene than 2⁶⁸ extents. O(depth).
+    /// exact for the given point, as for a [`Ray`] from the point. A point on a plane is treated as lying in
+    /// front of the plane. `None` if a coordinate is NaN or infinite, and possibly if the point is further
+    /// from the scene than 2⁶⁸ extents. O(depth).
     ///
     /// A leaf is a convex region that no partition plane divides, with at most one fragment.
     ///

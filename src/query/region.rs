@@ -145,10 +145,10 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// Fragments are as the tree stores them, as for [`BspTree::hits`]. All digits of the planes' numbers
-    /// count, except digits of a normal below 2⁻¹¹⁵ of its largest coordinate, and digits of an offset below
-    /// 2⁻¹¹⁵ of the scene's extent. All planes of the region are used, except planes with an infinite or NaN
-    /// number, which exclude nothing.
+    /// The tested fragments are those that the tree stores, with corners moved as [`BspTree::hits`] states.
+    /// All digits of the planes' numbers count, except digits of a normal below 2⁻¹¹⁵ of its largest
+    /// coordinate, and digits of an offset below 2⁻¹¹⁵ of the scene's extent. All planes of the region are
+    /// used, except planes with an infinite or NaN number, which exclude nothing.
     ///
     /// The boxes of blocks of 16, 256, … fragments include or exclude blocks as a whole. So the time is
     /// mostly proportional to the number of fragments that are found or lie at the region's boundary. The

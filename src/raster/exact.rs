@@ -106,8 +106,8 @@ impl PlanePair {
         PlanePairAt { phis, determinant: determinant([above, below]) }
     }
 
-    /// The side of the first plane on which a ray meets the second, ahead of the eye: the sign of sgn κ_h ·
-    /// (κ_h φ_f − κ_f φ_h).
+    /// The side of the first plane on which a ray meets the second plane, ahead of the eye: the sign of
+    /// sgn κ_h · (κ_h φ_f − κ_f φ_h).
     pub(super) fn side_of_first(&self, given: Given) -> Ordering {
         let across = self.at(given).determinant.sign();
         if self.kappas[1].sign().is_lt() { across } else { across.reverse() }

@@ -70,15 +70,16 @@ pub(super) enum Given {
     Step([i64; 3]),
 }
 
-/// The magnitude of directions, and the largest shift of an eye (its distance in powers of two
-/// beyond 2⁶¹).
+/// The magnitude of directions.
 ///
 /// With 52-bit coordinates, a normal has 105 bits, the value of a plane at the eye 189, the product of a
 /// normal and a direction 168, and the product of these two numbers 358: every decision fits
-/// [`Digits`](super::exact::Digits). Too large: a wide view leaves the [`REGION`], because the components of
-/// a direction, and the components of `right` and `down` times the picture's sides, add up to three times as
-/// much. Too small: narrow views are rejected.
+/// [`Digits`](super::exact::Digits). Too large: in a wide view, directions leave the [`REGION`], because the
+/// components of a direction, and the components of `right` and `down` times the picture's sides, add up to
+/// three times this magnitude. Too small: narrow views are rejected.
 const DIRECTION: f64 = (1u64 << 58) as f64;
+/// The largest shift of a perspective eye: the eye's integers, of 61 bits, are multiplied by 2 to the shift.
+/// Too large: the products above do not fit. Too small: distant eyes are rejected.
 const FURTHEST: u32 = 20;
 /// The magnitude of points on parallel rays, and of directions, is below this.
 const REGION: f64 = (1u64 << 60) as f64;

@@ -131,7 +131,7 @@ impl Builtin {
     ///
     /// # Errors
     ///
-    /// If no scene has the name, or if the scene has no such size.
+    /// If no scene has the name, or if the scene cannot have the size.
     pub fn parse(text: &str) -> Result<(Self, Option<u32>), Error> {
         let Some((name, digits)) = text.split_once(':') else { return Ok((text.parse()?, None)) };
         let scene: Self = name.parse()?;

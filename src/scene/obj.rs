@@ -29,14 +29,14 @@ impl Scene {
     ///
     /// Coordinates are read as `f64`. The scene's [`precision`](Self::precision) is four units in the last
     /// decimal that the coordinates need. A file has either a fixed number of decimals, or a fixed number of
-    /// significant digits; in the latter case the largest coordinates decide. Zeros at the end of all
-    /// coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with more than 15
-    /// significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A coordinate
-    /// below about 10⁻¹¹ times the largest counts as 0. Outliers have nine or more significant digits *and*
-    /// more decimals than all coordinates with fewer digits. If at most 1 % of the coordinates are outliers,
-    /// only their first three digits count. If all coordinates of nine or more digits (except 1 %) equal an
-    /// `f32` after rounding to the written digits, the unit is the `f32` step of the largest coordinate. Up
-    /// is y, because OBJ files do not define it.
+    /// significant digits. If the significant digits are fixed, the largest coordinates decide. Zeros at the
+    /// end of all coordinates do not count (`1.230000` and `4.500000` need two decimals). A coordinate with
+    /// more than 15 significant digits is first rounded to 15 (`0.30000000000000004` needs one decimal). A
+    /// coordinate below about 10⁻¹¹ times the largest counts as 0. Outliers have nine or more significant
+    /// digits *and* more decimals than all coordinates with fewer digits. If at most 1 % of the coordinates
+    /// are outliers, only their first three digits count. If all coordinates of nine or more digits (except
+    /// 1 %) equal an `f32` after rounding to the written digits, the unit is the `f32` step of the largest
+    /// coordinate. Up is y, because OBJ files do not define it.
     ///
     /// A face's colour is the `Kd` of its material, read as sRGB. The opacity is the material's `d` or `Tr`.
     /// A missing or unreadable library is not an error: the report lists the library, and its materials
@@ -403,7 +403,7 @@ pub struct ObjReport {
     /// The number of malformed `vt` and `vn` lines, and of references to such lines that are malformed or
     /// name a missing line. The corners with such references lack that attribute.
     pub skipped_attributes: usize,
-    /// The number of lines that begin with any other unknown word, such as the statements for free-form
+    /// The number of lines that begin with another, unknown word, such as the statements for free-form
     /// curves and surfaces.
     pub skipped_statements: usize,
     /// Material libraries that could not be read, by the name in the file.

@@ -35,8 +35,8 @@ impl Scene {
     /// | corners | the corners of all polygons: three `f64` each |
     /// | lines | a list: for each polygon its line in the source file, `u64`; or empty |
     /// | texture coordinates | a list: for each corner two `f64`, optional; or empty |
-    /// | normals | a list: likewise, three `f64` |
-    /// | colours | a list: likewise, three `f32` |
+    /// | normals | a list: for each corner three `f64`, optional; or empty |
+    /// | colours | a list: for each corner three `f32`, optional; or empty |
     /// | end | the CRC-32 of all bytes before, `u32` |
     ///
     /// # Errors

@@ -52,9 +52,9 @@ use crate::faces::Preparation;
 /// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. In
 /// back-to-front order, coplanar polygons follow each other in input order, from whichever side they are
 /// seen. So the later of two decals is painted over the earlier decal. A third polygon that lies almost in
-/// the plane of two coplanar polygons can cause an [exception](#exactness). An eye on a plane may count as on
-/// either side of the plane. [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or
-/// a zero direction.
+/// the plane of two coplanar polygons can cause an [exception](#exactness). An eye on a plane may be treated
+/// as lying on either side of the plane. [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an
+/// infinite eye or a zero direction.
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
@@ -194,18 +194,18 @@ use crate::faces::Preparation;
 /// are triangulated. Too large: layers that were meant to be apart are painted in input order.
 /// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more than
 /// the tolerance and polygons [`flattened`](crate::Preparation::flattened) within the tolerance.
-/// [`Stats`](crate::Stats) counts faces made [coplanar](crate::Stats::nearly_coplanar). Both types report the
-/// largest distance. The extent includes *all* corners, so a stray vertex far away makes a relative tolerance
-/// larger: remove the vertex, or set a length.
+/// [`Stats`](crate::Stats) counts faces made [coplanar](crate::Stats::nearly_coplanar). Each of these three
+/// counts comes with the largest distance of a corner from its plane. The extent includes *all* corners, so a
+/// stray vertex far away makes a relative tolerance larger: remove the vertex, or set a length.
 ///
 /// # T-junctions
 ///
 /// A plane cuts only the polygons that span it. If the cut ends on an edge that a *neighbouring* polygon
-/// shares, the neighbour may not be cut, and then the neighbour has no vertex at the end of the cut. Two
-/// fragments of one polygon can differ in this way if only one fragment is cut further. A rasteriser can miss
-/// pixels at such a T-junction, because the rounded vertex is not exactly on the neighbour's edge. If both
-/// polygons have the vertex, its coordinates are bit for bit equal in both polygons, unless the tolerance
-/// moved a corner of one polygon.
+/// shares, the neighbour may not be cut, and then the neighbour has no vertex at the end of the cut. The same
+/// polygon can be on both sides of the edge: one of two adjacent fragments is cut further, and the other
+/// fragment is not. A rasteriser can miss pixels at such a T-junction, because the rounded vertex is not
+/// exactly on the neighbour's edge. If both polygons have the vertex, its coordinates are bit for bit equal
+/// in both polygons, unless the tolerance moved a corner of one polygon.
 ///
 /// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: the mesh has the missing vertex in
 /// the neighbour too, so a closed body stays closed. Fragments themselves are never changed.
@@ -425,11 +425,11 @@ pub struct Stats {
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// The number of faces that count as on a partition plane only because of the tolerance. Faces on one
-    /// plane are painted in input order.
+    /// The number of faces that are treated as lying on a partition plane only because of the tolerance.
+    /// Faces on one plane are painted in input order.
     pub nearly_coplanar: usize,
     /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from the
-    /// partition plane that the face counts as on, a length.
+    /// partition plane on which the face is treated as lying, a length.
     pub nearly_coplanar_by: f64,
 }
 

@@ -153,7 +153,7 @@ impl<'t> Fragment<'t> {
         self.lines().map(move |line| faces.outline_edge(face, line.as_edge()?))
     }
 
-    /// Returns, for each edge from a vertex to the next, the line along which the edge bounds the fragment.
+    /// Returns, for each edge from a vertex to the next, the line that contains the edge.
     #[doc(hidden)]
     pub fn lines(
         &self,

@@ -65,9 +65,9 @@ pub use triangles::Triangles;
 ///
 /// A cut that ends on an edge makes a vertex on the edge in the polygon that is cut, but not in the
 /// neighbour. Such a vertex is a T-junction, where a renderer may miss pixels. A welded mesh has that vertex
-/// in the neighbour too, and likewise between the fragments of one polygon. Then a closed body stays closed:
-/// if the body's polygons traverse every edge once in each direction, so do the body's triangles, from point
-/// to point.
+/// in the neighbour too. The neighbour may be another fragment of the same polygon. Then a closed body stays
+/// closed: if the body's polygons traverse every edge once in each direction, so do the body's triangles,
+/// from point to point.
 ///
 /// Edges whose given corners are collinear are welded, even if a corner of one edge is inside the other edge.
 /// Two cases are not welded, because there is no common edge: a corner inside a polygon, and polygons that

@@ -19,9 +19,9 @@ use crate::parallel_map;
 use crate::save::{Kind, Reader, Writer, damaged, invalid, u32_at};
 
 const KIND: Kind = Kind { name: *b"tree", version: 3 };
-/// The flag of a tree for one view.
+/// Flag: the tree was built for one view.
 const FOR_ONE_VIEW: u32 = 1;
-/// The flag of the tree of a cell.
+/// Flag: the tree belongs to a cell of a partition.
 const OF_CELL: u32 = 2;
 /// Trees with more fragments are checked by two threads. Too small: waking a thread takes longer than the
 /// thread's work. Too large: one thread works while the other is idle.
@@ -86,7 +86,7 @@ impl BspTree {
     /// | plane | 0–27 | the number of a face or corner |
     /// | | 28–30 | 1 for the plane of the face; 2, 3, 4 for the plane through the corner perpendicular to x, y, z |
     /// | sides | 0–1 | the back: 0 if it is empty, 1 for a fragment, 2 for a node |
-    /// | | 2–3 | the front, likewise |
+    /// | | 2–3 | the front, in the same form as the back |
     /// | | 4–31 | the number of fragments on the plane |
     ///
     /// A corner's number counts the corners of the cell first, and then the corners of all faces. If a side

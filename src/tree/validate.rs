@@ -30,7 +30,7 @@ impl BspTree {
     /// - the fragments of each face cover the face exactly once: glued together along the cuts, from the
     ///   leaves up, the fragments form the face with all its corners, and the number of cuts is
     ///   [`Stats::splits`](crate::Stats::splits);
-    /// - the data from which orders are written matches the nodes, and stored positions match the vertices.
+    /// - the auxiliary data for orders matches the nodes, and stored positions match the vertices.
     ///
     /// All checks are exact. A tree that the library built or read is always valid; this method is for tests
     /// and fuzzers.

@@ -52,7 +52,7 @@ pub struct RoundedPiece {
 
 impl<T: Precision> RoundedPlane<T> {
     /// Creates the plane of a face. Vertices within `epsilon` times half the scene's extent of the plane
-    /// count as on the plane.
+    /// are treated as lying on the plane.
     pub fn new(faces: &Faces, face: u32, epsilon: f64) -> Self {
         let triangle = faces.reference_triangle(face);
         let [p, q, r] = triangle.map(|c| faces.corner(c).map(T::round));
@@ -189,8 +189,8 @@ struct Pending {
 
 impl Tree {
     /// Builds a tree of faces by rounded numbers. Vertices within `epsilon` times half the scene's extent of
-    /// a plane count as on the plane. Decisions are wrong where distances are near the epsilon or the
-    /// precision. `Heuristic::Sampled` chooses the same planes with exact decisions.
+    /// a plane are treated as lying on the plane. Decisions are wrong where distances are near the epsilon or
+    /// the precision. `Heuristic::Sampled` chooses the same planes with exact decisions.
     ///
     /// `None` if there would be more than `max_fragments` fragments.
     pub fn with_epsilon<T: Precision>(

@@ -28,8 +28,9 @@ pub enum Zone {
 
 /// Returns the zone of a point, by exact sight lines to points of a lamp.
 ///
-/// For a point lamp this is complete. For a rectangle, it is right except near the shadow's boundary: lit or
-/// hidden parts between the points are not noticed. [`is_umbra`] is certain.
+/// For a point lamp, the zone is always right. For a rectangular lamp, the zone may be wrong near the
+/// shadow's boundary, because visible or hidden parts of the lamp between the points are not noticed.
+/// [`is_umbra`] is certain.
 pub fn zone(tree: &BspTree, point: DVec3, lamp: &[DVec3]) -> Zone {
     let sees = |&at: &DVec3| !tree.is_occluded(Ray::between(point, at));
     match lamp.iter().filter(|at| sees(at)).count() {

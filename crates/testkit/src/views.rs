@@ -96,7 +96,7 @@ pub fn power_of_two(exponent: u32) -> Rational {
 }
 
 /// Returns a viewpoint around, inside, on a plane or a corner of the scene, or collinear with two of its
-/// fragments, of which there must be some.
+/// fragments. There must be fragments.
 pub fn some_view(faces: &Faces, rays: &Rays<'_>, dice: &mut Dice) -> View {
     let corner =
         |dice: &mut Dice| DVec3::from(faces.corner(dice.below(faces.corner_count()) as u32));

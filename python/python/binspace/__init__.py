@@ -389,9 +389,11 @@ class Visibility:
             Names, ``#rrggbb``, or three numbers from 0 to 1.
         outlines, edges : (width, colour), optional
             `outlines` are lines along the edges of each polygon, painted with the polygon. `edges` are lines along
-            visible edges and crossings, painted last.
+            visible edges and crossings, painted above all polygons.
         lines : Overlay, optional
-            The overlay's lines are painted last, with the width and the colour `line`.
+            The visible parts of the overlay's lines are painted above everything else.
+        line : (width, colour)
+            The stroke of these lines. The default is 1 pixel and black.
         background : colour, optional
 
         Returns

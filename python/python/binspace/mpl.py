@@ -505,9 +505,9 @@ def _kind(artist):
 
 
 class _Late(Sequence):
-    """The paths, or the colours, of a collection in the plane of the picture. The collection is projected when the paths
-    or colours are first read: picking reads them, painting does not. Collections that were removed from the axes are
-    projected too."""
+    """The projected paths of a collection, or the colours of these paths. The collection is projected when the list is
+    first read. Picking reads the list; painting does not. Collections that were removed from the axes are projected
+    too."""
 
     def __init__(self, artist, name):
         self._artist, self._axes, self._name = artist, artist.axes, name

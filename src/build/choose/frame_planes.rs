@@ -65,8 +65,8 @@ const PLANE_OFF: f64 = 6.0;
 /// The largest error of a coordinate of the difference of two vertices, in lattice units: each vertex is
 /// rounded by less than 1, and the difference by ½.
 const ARM_OFF: f64 = 2.5;
-/// The largest rounding error of the determinant of three vectors, per product of the largest coordinate of
-/// each: six products of three factors, and their sums.
+/// The largest rounding error of the determinant of three vectors, divided by the product of the vectors'
+/// largest coordinates. The determinant is a sum of six products of three factors.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Whether two pieces certainly cross. Without a tolerance, any tree cuts one of two crossing pieces.

@@ -69,7 +69,7 @@ pub(super) struct Peeler {
     near: Vec<u32>,
     /// Boxes still to be compared.
     stack: Vec<Node>,
-    /// Pieces that are separated together.
+    /// The current piece and the pieces on its plane, which are separated together.
     own: Vec<u32>,
 }
 

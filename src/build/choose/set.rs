@@ -32,7 +32,8 @@ pub(super) struct PackedPieces {
     lanes: Vec<Vec4>,
 }
 
-/// A plane in the coordinates of packed pieces: a unit normal, and its distance from the middle.
+/// A plane in the coordinates of packed pieces: a unit normal, and the plane's distance from the middle of
+/// the set's box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PackedPlane {
     normal: [f32; 3],

@@ -126,8 +126,8 @@ struct SweptEdge {
 }
 
 /// Search budget: the sweep gives up when edges have been divided into more than this many parts per edge of
-/// the polygon. Outlines that pass through the same points many times have so many parts. Too small: such
-/// outlines are treated as if they crossed themselves. Too large: such outlines take time and memory.
+/// the polygon. Edges have many parts if an outline passes through the same points many times. Too small:
+/// such outlines are treated as if they crossed themselves. Too large: such outlines take time and memory.
 const MOST_PARTS: usize = 8;
 
 impl<'a> Sweep<'a> {
@@ -226,7 +226,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The place of the first edge above a point, on the sweep line. Unless `above_all` is set, edges through
-    /// the point count as above the point.
+    /// the point are treated as above the point.
     fn find(&mut self, point: u32, above_all: bool) -> Place {
         let mut steps = 0;
         let place = self.line.find(|edge| {
@@ -392,8 +392,8 @@ impl<'a> Sweep<'a> {
         Vertex { point: self.outline.points[point as usize], corner }
     }
 
-    /// Removes neighbours that cross from the line: first below the edges through a point, and then above
-    /// these edges. After each removal, the new neighbours are tested too.
+    /// Removes pairs of neighbouring edges that cross each other from the sweep line: first below the edges
+    /// through a point, and then above these edges. After each removal, the new neighbours are tested too.
     fn remove_crossings(&mut self, point: u32) {
         for above_all in [false, true] {
             loop {

@@ -27,11 +27,11 @@ const DIGITS_OF_STRAYS: i32 = 3;
 
 /// The digits of the numbers seen so far.
 ///
-/// Programs write either a fixed number of decimals, or a fixed number of significant digits. In the latter
-/// case numbers of different size have equally many digits; otherwise only the largest numbers have the most
-/// digits. Zeros that a program adds at the end do not count. Zeros that a program omits at the end do no
-/// harm, because the longest numbers decide. The exceptions are numbers far longer than nearly all others:
-/// see `Digits::without_noise` and `Decimals::counted`.
+/// Programs write either a fixed number of decimals, or a fixed number of significant digits. With a fixed
+/// number of significant digits, numbers of different size have equally many digits; otherwise only the
+/// largest numbers have the most digits. Zeros that a program adds at the end do not count. Zeros that a
+/// program omits at the end do no harm, because the longest numbers decide. The exceptions are numbers far
+/// longer than nearly all others: see `Digits::without_noise` and `Decimals::counted`.
 #[derive(Debug, Default)]
 pub struct Decimals {
     numbers: usize,

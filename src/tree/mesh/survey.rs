@@ -221,8 +221,8 @@ pub(super) struct Carrier {
     pub(super) face: Option<u32>,
 }
 
-/// The numbers of the lines of edges. The key of a line consists of the line's shortest integer direction
-/// whose first nonzero coordinate is positive, and of the line's moment.
+/// The numbers of the lines of edges. The key of a line consists of its shortest integer direction with a
+/// positive first nonzero coordinate, and of its moment.
 #[derive(Default)]
 pub(super) struct Lines(HashMap<([i64; 3], [i128; 3]), u32>);
 

@@ -110,9 +110,9 @@ impl Triangles {
     /// fragment keep their order.
     ///
     /// `indices` may be mapped device memory: each place is written once, in increasing order, and never
-    /// read. Places beyond the end are not changed. `order` is working space and finally contains the order
-    /// of the fragments. As in [`back_to_front_into`](BspTree::back_to_front_into), nothing is allocated once
-    /// `order` is large enough.
+    /// read. Places after the last written index are not changed. `order` is working space and finally
+    /// contains the order of the fragments. As in [`back_to_front_into`](BspTree::back_to_front_into),
+    /// nothing is allocated once `order` is large enough.
     ///
     /// O(n).
     ///

@@ -7,9 +7,9 @@ use binspace::{BspTree, Child};
 
 use super::outline::{Outline, Plane, clip, split, without};
 
-/// Lengths as shares of the scene's extent. Points count as on a plane within `NOISE`, which is some thousand
-/// roundings. Openings thinner than `THIN` are closed. Too large: real cracks close. Too small: the rounding
-/// of walls that meet leaves cracks between them.
+/// Lengths as shares of the scene's extent. Points within `NOISE` of a plane are treated as lying on the
+/// plane. `NOISE` is some thousand rounding errors. Openings thinner than `THIN` are closed. Too large: real
+/// cracks close. Too small: the rounding of walls that meet leaves cracks between them.
 pub(super) const NOISE: f64 = 1e-12;
 const THIN: f64 = 1e-9;
 

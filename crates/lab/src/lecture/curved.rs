@@ -56,12 +56,13 @@ pub(super) fn fill(chapter: &mut Chapter) -> Result<(), Failure> {
     chapter.table(["patches by", "triangles", "fragments of the tree", "wrong pixels"], rows);
     chapter.text(format!(
         "The pictures are judged in integers. The sphere is decided by the sign of a discriminant and by \
-         comparing squares. For a patch, two functions must both be 0. Parts of the patch in which one of \
-         them cannot be 0 are discarded, and the Poincaré–Miranda theorem proves that both are 0 in a \
-         remaining part. {judged} of {} pixels are certain in this way. Other pixels are not judged: they \
-         are near outlines, or a patch and another surface have nearly the same depth there. Triangles only \
-         approximate a patch, so some judged pixels show a wrong surface: at outlines, and where patches \
-         cross polygons.",
+         comparing squares. A ray is the line where two planes meet, and it meets a patch where the patch \
+         meets both planes: there, two functions on the patch are 0. Parts of the patch in which one of \
+         the functions cannot be 0 are discarded. The Poincaré–Miranda theorem proves that both functions \
+         are 0 somewhere in a remaining part. {judged} of {} pixels are certain in this way. \
+         Other pixels are not judged: they are near outlines, or a patch and another surface have nearly the \
+         same depth there. Triangles only approximate a patch, so some judged pixels show a wrong surface: \
+         at outlines, and where patches cross polygons.",
         SIZE[0] * SIZE[1]
     ));
     Ok(())

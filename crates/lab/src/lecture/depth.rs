@@ -256,8 +256,8 @@ fn attributes(chapter: &mut Chapter, room: &Room) -> Result<(), Failure> {
          attribute / w and 1 / w are linear on the projection. Dividing one by the other gives the attribute \
          in each pixel (Heckbert & Moreton 1991). A painter needs this division too. The splits of the tree \
          create vertices, whose attributes are weighted sums of the attributes of the corners. The weights \
-         are exact. If the attributes themselves are interpolated on the projection, squares bend, and they \
-         bend differently on each side of a split.",
+         are exact. If the attributes themselves are interpolated on the projection, the squares of a \
+         chequered texture bend, and they bend differently on each side of a split.",
     );
     chapter.pictures(pictures);
     chapter.table(

@@ -32,9 +32,9 @@ pub struct Newell {
     /// The largest number of pairs that are compared for one picture. More pairs are an error. Default: 2²⁸,
     /// which take some seconds.
     pub max_comparisons: u64,
-    /// Vertices no further than this from a plane count as on it, in units of 2⁵¹ lattice steps. This unit is
-    /// one to four times half the scene's extent. Default: 1e-10. Too small: faces with a common edge cut
-    /// each other. Too large: near layers are painted in input order.
+    /// Vertices no further than this from a plane are treated as lying on the plane. The unit is 2⁵¹ lattice
+    /// steps, which is one to four times half the scene's extent. Default: 1e-10. Too small: faces with a
+    /// common edge cut each other. Too large: near layers are painted in input order.
     pub epsilon: f64,
 }
 
