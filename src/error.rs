@@ -139,15 +139,15 @@ pub enum ErrorKind {
     OpenBody,
     /// The input is too large for the integers of a tree.
     TooLarge,
-    /// A budget of [`BuildOptions`](crate::BuildOptions) ran out. A larger budget or another heuristic
-    /// may succeed.
+    /// A build or a call reached a limit set in [`BuildOptions`](crate::BuildOptions). A larger limit or
+    /// another heuristic may succeed.
     OverBudget,
     /// The polygons, the tree, its layout or its mesh do not fit into memory.
     ///
-    /// Allocations of other lists, such as the lists of drawings, overlays and boxes, are not checked: if one
-    /// of these fails, the program aborts, like other Rust programs. A system that overcommits memory may end
-    /// the program earlier. Budgets ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments))
-    /// limit the memory of a build.
+    /// Other allocations, such as the lists of drawings, overlays and boxes, do not return this error: if
+    /// such an allocation fails, the program aborts, like other Rust programs. An operating system that
+    /// overcommits memory may end the program before an allocation fails. To limit the memory of a build, set
+    /// a budget ([`BuildOptions::max_fragments`](crate::BuildOptions::max_fragments)).
     OutOfMemory,
     /// The caller's callback cancelled the call, as in
     /// [`build_with_progress`](crate::BuildOptions::build_with_progress).

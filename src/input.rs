@@ -74,11 +74,11 @@ pub trait Polygon {
     /// an endless iterator is an error too.
     fn corners(&self) -> impl Iterator<Item = Self::Point>;
 
-    /// Returns the largest distance of a corner from its intended plane. The default tolerance depends on
-    /// this distance, within limits: see [`Tolerance::Default`](crate::Tolerance::Default).
+    /// Returns how far rounding may have moved a corner off the polygon's intended plane, a length. The
+    /// default tolerance depends on this length: see [`Tolerance::Default`](crate::Tolerance::Default).
     ///
-    /// By default the result is four times [`Point::PRECISION`] times the polygon's largest coordinate: about
-    /// the rounding error of a point multiplied by a matrix.
+    /// By default the result is 4 · [`Point::PRECISION`] · the polygon's largest coordinate. That is about
+    /// the rounding error of a point that was multiplied by a matrix.
     fn precision(&self) -> f64 {
         // Not `f64::max`, which takes more instructions because of NaN.
         let larger = |most: f64, c: f64| if c > most { c } else { most };

@@ -1,7 +1,8 @@
 //! Exact back-to-front orders of polygons from one BSP tree.
 //!
 //! [`BspTree`] is the library's main type, and its page is the manual. The [`guide`] has a page for each
-//! subject, such as frames on a GPU, vector drawings and moving things.
+//! subject, such as frames on a GPU, vector drawings and moving things. A tree stores *fragments*: convex
+//! pieces of the polygons, or whole polygons.
 //!
 //! # Which type do I need?
 //!
@@ -31,11 +32,11 @@
 //!
 //! # What works together
 //!
-//! | | orders, also culled | rays, regions | meshes, arrays | drawings | files |
+//! | | orders, with and without culling | rays, regions | meshes, arrays | drawings | files |
 //! |---|---|---|---|---|---|
-//! | a tree, also of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
-//! | the tree of a cell of a [`partition`] | yes | yes, but winding numbers are an error | yes | an error | yes |
-//! | polygons of an [`overlay`] | yes | rays: yes; regions: ignored | meshes: yes, a separate mesh; arrays: no | an error | no |
+//! | a tree of [`BspTree::build`] or of a [`FrameBuilder`] | yes | yes | yes | yes | yes |
+//! | the tree of a cell of a [`partition`] | yes | yes, but [`BspTree::winding_number`] returns an error | yes | error | yes |
+//! | polygons of an [`overlay`] | yes | rays: yes; regions: ignored | meshes: yes, a separate mesh; arrays: no | error | no |
 //! | lines and points of an overlay | yes | ignored | no | yes | no |
 //!
 //! # Conventions
@@ -50,7 +51,7 @@
 //!
 //! | feature | default | adds |
 //! |---|---|---|
-//! | `parallel` | yes | building with rayon's threads; the tree is bit for bit the same |
+//! | `parallel` | yes | building with rayon's threads; the tree is bit for bit the same as without threads |
 //! | `raster` | no | cameras (`view`), an exact painter and z-buffer (`raster`, `paint`), their comparison (`verify`), and occlusion culling (`occlusion`) |
 //! | `drawing` | no | module `drawing`: one view as a vector picture with one path per visible polygon; turns on `raster` |
 //! | `pdf` | no | vector pictures as PDF; turns on `drawing` |
@@ -111,7 +112,7 @@ pub use query::{Hit, Location};
 pub use tree::{BspTree, Child, Culling, Flow, Fragment, Grid, Node, Order, Ordered, Part, Stats};
 pub use viewpoint::{Facing, Frustum, Ray, Viewpoint};
 
-/// Types of the input and output of a custom heuristic: [`BuildOptions::with_chooser`].
+/// Types for a custom heuristic, [`BuildOptions::with_chooser`]: its input and its output.
 pub mod choose {
     pub use crate::build::{PieceSet, SplitPlane};
     pub use crate::exact::Side;

@@ -15,9 +15,10 @@ use crate::tree::{BspTree, Fragment};
 /// conservative: it never hides a visible fragment, but a subtree may be visited although all its fragments
 /// are hidden.
 ///
-/// The mask may be coarser than the picture. Then the mask's cells are several pixels wide and high, and only
-/// a fragment that covers all pixels of a cell covers the cell. A coarse mask is smaller and faster, and
-/// hides less: along the edge between two walls, neither wall covers a cell.
+/// The mask may be coarser than the picture: a cell of the mask can be several pixels wide and high. A cell
+/// is covered only if one fragment covers all pixels of the cell. A coarse mask is smaller and faster, but
+/// hides less: cells on the edge between two walls remain uncovered, because neither wall covers a whole
+/// cell.
 ///
 /// ```
 /// use binspace::raster::Rays;
@@ -90,11 +91,11 @@ impl<'t> CoverageMask<'t> {
         }
     }
 
-    /// Returns whether a box is hidden: whether every pixel that it may cover is already covered, or the box
-    /// is outside the picture.
+    /// Returns whether a box is hidden: whether all pixels that the box may cover are already covered, or the
+    /// box is outside the picture.
     ///
     /// Tests the cells that the box may cover, row by row and 64 cells at a time, up to the first uncovered
-    /// cell. Takes no time for a row that is covered completely.
+    /// cell. A row in which all cells are covered is not tested cell by cell.
     pub fn hides(&self, [low, high]: [DVec3; 2]) -> bool {
         let lattice = self.tree.faces().lattice();
         let corners: [[f64; 3]; 8] = std::array::from_fn(|k| {
@@ -110,11 +111,12 @@ impl<'t> CoverageMask<'t> {
         rows.all(|row| self.open[row as usize] == 0 || !self.has_open(row, &columns))
     }
 
-    /// Covers the pixels of a fragment. Returns whether the fragment is visible: whether it has a pixel in a
-    /// cell that was not covered before.
+    /// Covers the pixels of a fragment. Returns whether the fragment may be visible: whether the fragment has
+    /// a pixel in a cell that was not covered before.
     ///
     /// Takes O(edges) time for each row of pixels that the fragment reaches, plus O(mask's width in cells)
-    /// time for each row of cells. If the fragment's box is known, call [`hides`](Self::hides) first.
+    /// time for each row of cells. If the fragment's box is known, first test the box by
+    /// [`hides`](Self::hides), which is faster.
     ///
     /// # Panics
     ///

@@ -5,10 +5,11 @@ use crate::raster::{Image, Layers, Outline, Painter, Piece, Rays, blend, for_eac
 use crate::tree::{BspTree, Fragment};
 use crate::viewpoint::Viewpoint;
 
-/// Paints a tree's fragments in the back-to-front order of a viewpoint, which should be the viewpoint of the
-/// rays.
+/// Paints a tree's fragments in the back-to-front order of a viewpoint. `viewpoint` should be the viewpoint
+/// of the camera that the rays were made from.
 ///
-/// Fragments are bounded by the exact lines that cut them, not by their rounded vertices.
+/// The edges of fragments are exact: they are computed from the planes that cut the fragments, not from
+/// rounded vertices.
 ///
 /// # Panics
 ///
@@ -19,8 +20,8 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     paint_order(tree, &order, rays)
 }
 
-/// Paints the fragments of a list, such as a culled order, each over the fragments before it. Numbers that
-/// name no fragment are skipped.
+/// Paints the fragments whose numbers are in a list, such as a culled order. Each fragment is painted over
+/// the earlier fragments of the list. Numbers that belong to no fragment are skipped.
 ///
 /// # Panics
 ///
@@ -73,10 +74,10 @@ pub fn paint_tree_in_colour(
     pixels.into_iter().flatten().map(|channel| channel.round() as u8).collect()
 }
 
-/// Calls `paint` for each pixel of each fragment, back to front. The arguments are the pixel's number,
-/// counted row by row from the top left, and the colour and opacity of the fragment there. If `paint` calls
+/// Calls `paint` for each pixel of each fragment, back to front. The arguments of `paint` are the pixel's
+/// number, counted row by row from the top left, and the colour and opacity of the fragment. If `paint` calls
 /// [`blend`], the result is the picture of [`paint_tree_in_colour`]. To paint a partition, call this function
-/// for each cell, back to front.
+/// for the tree of each cell, back to front.
 ///
 /// # Panics
 ///

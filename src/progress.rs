@@ -24,13 +24,14 @@ const FACE: u64 = 1 << 32;
 /// The progress of a build.
 ///
 /// While polygons are read and prepared, `done` is 0 and `total` is the number of polygons read so far. After
-/// that, `total` is the number of faces and does not change, and `done` never decreases. At the end `done`
-/// equals `total`. (Queries of a `VisibilityMap` count parts of their work instead.)
+/// that, `total` is the number of *faces*: polygons, where a triangulated polygon counts once for each
+/// triangle. From then on, `total` does not change, and `done` never decreases. At the end `done` equals
+/// `total`. (For the queries of a `VisibilityMap`, `done` and `total` count parts of the query's work.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The number of faces stored in the tree so far, rounded down. A piece of a face counts as a fraction of
-    /// a face.
+    /// The number of faces stored in the tree so far. If only some pieces of a face are stored, the face
+    /// counts as a fraction. The sum is rounded down.
     pub done: usize,
     /// The number of faces, or of polygons while polygons are read; 0 in the first call.
     pub total: usize,

@@ -13,14 +13,19 @@ use smallvec::SmallVec;
 /// |---|---|
 /// | NaN in an eye | the coordinate of the centre of the scene's bounding box |
 /// | NaN in a direction | 0 |
-/// | ±∞ in an eye | an eye infinitely far away: a parallel projection from that side; only the infinite coordinates matter, all equally |
-/// | ±∞ in a direction | only the infinite coordinates matter, all equally |
+/// | ±∞ in an eye | an eye infinitely far away, so a parallel projection from that side: infinite coordinates count as ±1, finite coordinates as 0 |
+/// | ±∞ in a direction | infinite coordinates count as ±1, finite coordinates as 0 |
 /// | a direction of zeros | (0, 0, −1), a view from the side of positive z |
 ///
-/// Eyes are rounded to the scene's grid. An eye more than 500 extents away (longest sides of the scene's
-/// bounding box) is rounded to one part in 2⁶¹ of its distance, and a direction to one part in 2⁵². For eyes
-/// beyond about 2³⁷⁰ extents only the direction counts, and a coordinate beyond about 2⁹⁷⁰ extents counts as
-/// infinite.
+/// Viewpoints are rounded before use. The *extent* is the longest side of the scene's bounding box:
+///
+/// | viewpoint | rounded to |
+/// |---|---|
+/// | an eye up to 500 extents away | the tree's [grid](crate::BspTree::grid) |
+/// | an eye further away | one part in 2⁶¹ of its distance |
+/// | an eye beyond about 2³⁷⁰ extents | a direction |
+/// | an eye with a coordinate beyond about 2⁹⁷⁰ extents | an eye with that coordinate infinite |
+/// | a direction | one part in 2⁵² |
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
     /// The point where the eye is.
@@ -79,11 +84,13 @@ impl From<Facing> for Ordering {
 /// The points of the ray are `from + t * direction`, where `t` is the *parameter*. A segment's direction is
 /// the difference of its ends, so its parameters are 0 to 1, both included.
 ///
-/// Coordinates are in the polygons' unit. Decisions about a ray are exact for the given coordinates, except
-/// for their smallest digits. The ignored digits of a point are below 2⁻¹²⁰ of the largest of these lengths:
-/// the scene's extent, and the distances of the scene and of the given points from the origin. The ignored
-/// digits of a direction are below 2⁻¹²⁰ of its largest coordinate. Near the origin, an `f64` larger than
-/// 2⁻⁶⁸ of the extent has no such digits.
+/// Coordinates are in the polygons' unit. All decisions about a ray are exact for the given coordinates,
+/// except that very small digits are ignored:
+///
+/// - in a direction, digits below 2⁻¹²⁰ of the direction's largest coordinate;
+/// - in a point, digits below 2⁻¹²⁰ of the largest of these lengths: the extent (the longest side of the
+///   scene's bounding box), the distance of the scene from the origin, and the distances of the ray's points
+///   from the origin. Near the origin, an `f64` larger than 2⁻⁶⁸ of the extent has no such digits.
 ///
 /// | coordinates | the ray |
 /// |---|---|

@@ -40,12 +40,15 @@ const MOVED: f64 = 0.5;
 impl BspTree {
     /// Returns the bounding box `[low, high]` of all fragments, rounded outwards; `None` for an empty tree.
     ///
-    /// The first call computes boxes of all subtrees and fragments, in O(n) time, and stores the boxes in the
-    /// tree, with about 90 bytes per fragment. So does the first call of [`Node::bounds`],
+    /// The first call computes the boxes of all subtrees and fragments, in O(n) time, and stores them in the
+    /// tree, with about 90 bytes per fragment. Later calls take constant time.
+    ///
+    /// Several other calls need the boxes too, and compute them if they are missing: [`Node::bounds`],
     /// [`Node::facing_all`], [`hits`](Self::hits), [`is_occluded`](Self::is_occluded),
-    /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), or the first
-    /// [culled](crate::Order::culled) order of the tree or of an overlay. To compute the boxes in advance,
-    /// call this method after building. Other threads that need the boxes at that time wait.
+    /// [`fragments_in`](Self::fragments_in), [`winding_number`](Self::winding_number), and
+    /// [culled](crate::Order::culled) orders of the tree or of an overlay. To compute the boxes in advance,
+    /// call this method after building. While one thread computes the boxes, other threads that need them
+    /// wait.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.boxes();
         let top = bounds.levels.len() - 1;
@@ -61,16 +64,21 @@ impl BspTree {
 
 impl Node<'_> {
     /// Returns the bounding box `[low, high]` of all fragments of the node's subtree, in the polygons' unit.
-    /// The box is rounded outwards by at most 2⁻²³ of the scene's extent and three steps of `f64` on each
-    /// side. O(1) after the tree's boxes are computed; the first call computes them in O(n) time
-    /// ([`BspTree::bounds`]).
+    /// Each side of the box is rounded outwards, by at most 2⁻²³ of the scene's extent (the longest side of
+    /// its bounding box) plus three steps of `f64`.
+    ///
+    /// The first call computes the boxes of the whole tree in O(n) time ([`BspTree::bounds`]). Later calls
+    /// take constant time.
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.tree.faces.lattice(), &self.tree.boxes().nodes[self.index()])
     }
 
-    /// Returns the side that all fragments of the subtree show to a viewpoint: the exact [`Fragment::facing`]
-    /// of each fragment. `None` if the box and the normals of the fragments do not decide the side. O(1)
-    /// after the tree's boxes are computed; the first call computes them in O(n) time ([`BspTree::bounds`]).
+    /// Returns the [facing](Fragment::facing) of all fragments of the node's subtree, if the subtree's
+    /// bounding box and a bound on the fragments' normals prove that all fragments have the same facing.
+    /// Otherwise returns `None`, even if all fragments do have the same facing.
+    ///
+    /// The first call computes the boxes of the whole tree in O(n) time ([`BspTree::bounds`]). Later calls
+    /// take constant time.
     pub fn facing_all(&self, viewpoint: Viewpoint) -> Option<Facing> {
         let lattice = self.tree.faces.lattice();
         let arms = Arms::new(&Eye::new(viewpoint, lattice));

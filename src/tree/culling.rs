@@ -40,20 +40,20 @@ impl Culling {
     /// The culling that leaves out nothing.
     pub const NONE: Self = Self { frustum: Frustum::EVERYWHERE, facing: None };
 
-    /// Leaves out the fragments whose boxes ([`Fragment::bounds`](crate::Fragment::bounds)) lie behind a
-    /// plane of a frustum. Only the first 32 planes are used. Testing only boxes is fast.
+    /// Leaves out each fragment whose bounding box lies behind a plane of a frustum. Only the frustum's first
+    /// 32 planes are used. The test is fast, but keeps some fragments outside the frustum;
     /// [`BspTree::fragments_in`] is exact, but slower.
     ///
-    /// Boxes are enlarged by about 10⁻⁶ of the scene's extent and 10⁻¹⁵ of the largest coordinate. This
-    /// margin exceeds the rounding error of the test, and the rounding error of the frustum's apex if the eye
-    /// is there.
+    /// The test enlarges each box by about 10⁻⁶ of the scene's extent plus 10⁻¹⁵ of the largest coordinate.
+    /// This margin is larger than the rounding error of the test. If the eye is the frustum's apex, the
+    /// margin is also larger than the rounding error of the apex.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }
     }
 
-    /// Leaves out the fragments with another [`facing`](crate::Fragment::facing); [`Facing::Front`] is
-    /// back-face culling. The test is exact.
+    /// Keeps only the fragments whose [`facing`](crate::Fragment::facing) is `facing`: with
+    /// [`Facing::Front`], this is back-face culling. The test is exact.
     #[must_use]
     pub fn with_facing(self, facing: Facing) -> Self {
         Self { facing: Some(facing), ..self }

@@ -70,10 +70,11 @@ impl<'t> Fragment<'t> {
         self.face
     }
 
-    /// Returns the unit normal of the plane. The normal points to the front, the side from which vertices are
-    /// counter-clockwise. All fragments of a face have the same normal, bit for bit.
+    /// Returns the unit normal of the fragment's plane. The normal points to the front, the side from which
+    /// vertices are counter-clockwise. All fragments of a convex polygon have the same normal, bit for bit,
+    /// and so have all fragments of one triangle of a triangulated polygon.
     ///
-    /// Each coordinate is within 2⁻⁵⁰ of the exact plane's normal, however thin the polygon.
+    /// The error of each coordinate is at most 2⁻⁵⁰, however thin the polygon is.
     /// [`grid_points`](Self::grid_points) returns the plane exactly.
     pub fn normal(&self) -> DVec3 {
         unit_normal(self.faces, PlaneId::face(self.face))
@@ -89,14 +90,14 @@ impl<'t> Fragment<'t> {
         offset(self.faces, PlaneId::face(self.face))
     }
 
-    /// Returns the exact plane of the fragment's face: three points of the tree's [grid](BspTree::grid),
-    /// counter-clockwise seen from the front.
+    /// Returns the exact plane of the fragment: three points of the plane on the tree's
+    /// [grid](BspTree::grid), counter-clockwise seen from the front.
     pub fn grid_points(&self) -> [[i64; 3]; 3] {
         plane_points(self.faces, PlaneId::face(self.face))
     }
 
-    /// Returns whether the fragment was never cut: whether it is a whole polygon, or a whole triangle of a
-    /// triangulated polygon.
+    /// Returns whether the fragment is a whole polygon, or a whole triangle of a triangulated polygon: no
+    /// plane has cut the fragment.
     pub fn is_whole(&self) -> bool {
         self.stored.is_empty()
     }
@@ -109,14 +110,16 @@ impl<'t> Fragment<'t> {
     /// Returns the vertices in the polygon's own orientation: counter-clockwise seen from the polygon's
     /// front.
     ///
-    /// The polygon's corners are rounded to the grid, and moved onto the polygon's plane if they were off the
-    /// plane by less than the tolerance. Other vertices are rounded: the error of each coordinate is at most
-    /// 2⁻⁵¹ of the scene's extent plus one step of `f64`. Pieces of one polygon that share a vertex have the
-    /// same bits for that vertex. Exception: where three cuts meet in a point, the pieces' coordinates may
-    /// differ by one rounding.
+    /// The polygon's corners are rounded to the tree's [grid](BspTree::grid), and moved onto the polygon's
+    /// plane if they were off the plane by less than the tolerance. The vertices made by cuts are rounded:
+    /// the error of each coordinate is at most 2⁻⁵¹ of the scene's extent (the longest side of its bounding
+    /// box) plus one step of `f64`.
     ///
-    /// Each call computes the vertices made by cuts from their exact definition, in about 0.1 µs per vertex.
-    /// Trees of a [`FrameBuilder`](crate::FrameBuilder) store all vertices instead.
+    /// Two fragments of one polygon that share a vertex return the same bits for that vertex. Exception: if
+    /// three cuts meet in the vertex, the coordinates may differ by one rounding.
+    ///
+    /// Each call computes the vertices made by cuts, in about 0.1 µs per vertex. Trees of a
+    /// [`FrameBuilder`](crate::FrameBuilder) store all vertices instead.
     pub fn vertices(
         &self,
     ) -> impl DoubleEndedIterator<Item = DVec3> + ExactSizeIterator + Clone + use<'t> {
@@ -140,12 +143,12 @@ impl<'t> Fragment<'t> {
         })
     }
 
-    /// Returns, for each edge of the fragment (from a vertex to the next), the polygon's edge that contains
-    /// the fragment's edge; `None` if a cut or triangulation made the fragment's edge.
+    /// Returns, for each edge of the fragment (from a vertex to the next), the number of the polygon's edge
+    /// that contains the fragment's edge. `None` if a cut or triangulation made the fragment's edge.
     ///
-    /// An edge of the polygon has the number of the corner at which it begins. If the polygon repeats that
-    /// corner, the edge has the number of the last of the equal corners. If triangulation joined collinear
-    /// edges, the joined edge has the number of the first edge.
+    /// The number of a polygon's edge is the number of the corner where the edge begins. If the polygon
+    /// repeats that corner, the last of the equal corners counts. If triangulation joined collinear edges,
+    /// the joined edge has the number of the first edge.
     pub fn edges(
         &self,
     ) -> impl DoubleEndedIterator<Item = Option<u32>> + ExactSizeIterator + Clone + use<'t> {
@@ -176,11 +179,14 @@ impl<'t> Fragment<'t> {
     }
 
     /// Returns, for each vertex, weights over the polygon's corners: pairs of a corner's number and the
-    /// corner's weight. The weights of a vertex sum to 1, up to rounding.
+    /// corner's weight. The weights of a vertex sum to 1, up to rounding. To interpolate an attribute of the
+    /// corners, such as a texture coordinate, add weight · attribute for all pairs.
     ///
-    /// A corner has one pair, a vertex on an edge of the polygon (or of one of its triangles) has two pairs,
-    /// and an interior vertex three. To interpolate an attribute of the corners, such as a texture
-    /// coordinate, sum weight · attribute.
+    /// | vertex | pairs |
+    /// |---|---|
+    /// | a corner of the polygon | 1 |
+    /// | on an edge of the polygon, or of a triangle of a triangulated polygon | 2 |
+    /// | inside the polygon or the triangle | 3 |
     pub fn weights(
         &self,
     ) -> impl DoubleEndedIterator<Item = SmallVec<[(u32, f64); 3]>> + ExactSizeIterator + Clone + use<'t>
@@ -197,8 +203,9 @@ impl<'t> Fragment<'t> {
     /// counter-clockwise; the back; or neither, if the eye lies on the fragment's plane or the direction of
     /// view is parallel to the plane.
     ///
-    /// The result is exact for the viewpoint as rounded for orders (see [`Viewpoint`]). So all fragments of a
-    /// face have the same result. The triangles of a non-planar polygon are faces with separate planes. O(1).
+    /// The viewpoint is rounded as [`Viewpoint`] states; for the rounded viewpoint, the result is exact. So
+    /// the result is the same for all fragments of a convex polygon. The triangles of a non-planar polygon
+    /// can lie in different planes, so their results can differ. Takes constant time.
     ///
     /// To leave out fragments seen from behind, such as the walls between the eye and the inside of a room:
     ///
@@ -273,13 +280,14 @@ pub(super) fn facing(faces: &Faces, face: u32, eye: &Eye) -> Ordering {
 
 /// The grid that a tree's corners lie on: [`BspTree::grid`].
 ///
-/// The grid point g, three integers, is at `base + g * 2^exponent` in the polygons' unit. This position is
-/// exact, except in scenes smaller than about 10⁻²⁹⁰ or further from the origin than 2⁵⁸ times the scene's
-/// size: in such scenes, `base` cannot store all digits.
+/// A grid point is three integers g. The position of the grid point in the polygons' unit is
+/// `base + g * 2^exponent`. This position is exact, except in scenes smaller than about 10⁻²⁹⁰ or further
+/// from the origin than 2⁵⁸ times the scene's size: in such scenes, `base` cannot store all digits.
 ///
-/// With the three grid points of a plane you can repeat the tree's decisions in integers or fractions. The
-/// point x is in front of the plane through p, q and r if the determinant of q − p, r − p and x − p is
-/// positive.
+/// The tree stores each plane as three grid points, which [`Fragment::grid_points`] and
+/// [`Node::grid_points`](crate::Node::grid_points) return. With these points you can repeat the tree's
+/// decisions in integers or fractions. The point x is in front of the plane through p, q and r if the
+/// determinant of q − p, r − p and x − p is positive.
 ///
 /// ```
 /// use binspace::BspTree;
@@ -342,14 +350,18 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 
 /// All fragments of a tree as arrays of numbers: [`BspTree::arrays`] and [`BspTree::arrays_f32`].
 ///
-/// Fragments have the same numbers as in the tree's orders. The vertices of fragment `i`, and the edges from
-/// each vertex to the next, are at `offsets[i]..offsets[i + 1]`. The weights of vertex `v` are at
-/// `weight_offsets[v]..weight_offsets[v + 1]`. All values are the same as [`Fragment`] returns.
+/// All values are the values that the methods of [`Fragment`] return. Fragments have the same numbers as in
+/// the tree's orders.
 ///
-/// Both lists of offsets have the form of compressed sparse rows (CSR). The weights are a sparse matrix that
-/// maps attributes of corners to attributes of vertices. The matrix has a row for each vertex, and a column
-/// for each corner of all polygons. The column is the number in `weight_corners` plus the number of corners
-/// of all earlier polygons:
+/// | items | range |
+/// |---|---|
+/// | `vertices` and `edges` of fragment `i` | `offsets[i]..offsets[i + 1]` |
+/// | `weights` and `weight_corners` of vertex `v` | `weight_offsets[v]..weight_offsets[v + 1]` |
+///
+/// The weights are a sparse matrix in the form of compressed sparse rows (CSR). The matrix maps attributes of
+/// corners to attributes of vertices. It has a row for each vertex, and a column for each corner of all
+/// polygons. The column of a corner is its number in `weight_corners` plus the number of corners of all
+/// earlier polygons:
 ///
 /// ```
 /// use binspace::BspTree;
@@ -381,14 +393,14 @@ pub(crate) fn along(mut point: [i64; 3], axis: usize) -> [i64; 3] {
 pub struct FragmentArrays<T> {
     /// The vertices of all fragments, in the orientation and the unit of the polygons.
     pub vertices: Vec<[T; 3]>,
-    /// For each fragment, the number of its first vertex; at the end, the number of all vertices. (n + 1
-    /// numbers for n fragments.)
+    /// For each fragment, the number of its first vertex. For n fragments, the list has n + 1 numbers: the
+    /// last number is the number of all vertices.
     pub offsets: Vec<u32>,
     /// For each fragment, the index of its polygon in input order.
     pub polygons: Vec<u32>,
-    /// For each vertex, the polygon's edge that contains the edge from this vertex to the next. The polygon's
-    /// edge has the number of the corner where that edge begins; −1 if a cut or triangulation made the
-    /// fragment's edge.
+    /// For each vertex, the number of the polygon's edge that contains the fragment's edge from this vertex
+    /// to the next. The number of a polygon's edge is the number of the corner where the edge begins. −1 if a
+    /// cut or triangulation made the fragment's edge.
     pub edges: Vec<i32>,
     /// For each vertex, the number of its first weight; at the end, the number of all weights.
     pub weight_offsets: Vec<u32>,
@@ -403,8 +415,7 @@ impl BspTree {
     /// Returns all fragments as arrays, in the order of their numbers.
     ///
     /// Takes O(n) time and space for n vertices. A vertex takes 24 bytes for the position, 8 for the edge and
-    /// the offset, and 12 for each of one to three weights. A fragment takes 8 bytes. Vertices made by cuts
-    /// are computed from their exact definition.
+    /// the offset, and 12 for each of one to three weights. A fragment takes 8 bytes.
     ///
     /// # Errors
     ///

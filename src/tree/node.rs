@@ -22,11 +22,11 @@ use crate::viewpoint::{Facing, Viewpoint};
 /// as a reference.
 ///
 /// The plane contains the points p with `normal().dot(p) == offset()`. The front contains the points with
-/// `normal().dot(p) > offset()`. Normal and offset are rounded. Decisions use the exact plane, see
-/// [`grid_points`](Self::grid_points).
+/// `normal().dot(p) > offset()`. The normal and the offset are rounded. The tree decides by the exact plane,
+/// which [`grid_points`](Self::grid_points) returns.
 ///
-/// The fragments of a subtree have consecutive numbers, so the fragments on a node's plane and the fragments
-/// on each side of the plane are ranges.
+/// The fragments on a node's plane have consecutive numbers. So do the fragments in front of the plane, the
+/// fragments behind the plane, and the fragments of the whole subtree.
 #[derive(Clone, Copy)]
 pub struct Node<'t> {
     pub(super) tree: &'t BspTree,
@@ -47,8 +47,8 @@ pub enum Child<'t> {
 }
 
 impl<'t> Node<'t> {
-    /// Returns the node's number. Nodes are numbered depth first, from the root, which is 0: a node, its
-    /// front subtree, its back subtree.
+    /// Returns the node's number. The root has the number 0. Nodes are numbered depth first: first a node,
+    /// then its front subtree, then its back subtree.
     pub fn index(&self) -> usize {
         self.index as usize
     }
@@ -75,11 +75,11 @@ impl<'t> Node<'t> {
         fragment::plane_points(&self.tree.faces, self.plane())
     }
 
-    /// Returns the index, in input order, of the polygon in the node's plane. If that polygon was
-    /// triangulated, the node's plane is the plane of one of its triangles.
+    /// Returns the index, in input order, of the polygon that the builder took the node's plane from. If the
+    /// polygon was triangulated, the plane is the plane of one of the triangles.
     ///
-    /// `None` for a plane perpendicular to an axis. For such a plane, `normal` and `offset` are exact, except
-    /// that corners are rounded once to the grid.
+    /// `None` if the builder chose a plane perpendicular to an axis instead. The `normal` and the `offset` of
+    /// such a plane are exact, up to the rounding of a corner to the grid.
     pub fn polygon(&self) -> Option<usize> {
         match self.plane().kind() {
             PlaneKind::Face(face) => Some(self.tree.faces.polygon(face)),
@@ -93,8 +93,8 @@ impl<'t> Node<'t> {
         self.tree.nodes[self.index()].plane
     }
 
-    /// Returns the side of the plane that a viewpoint sees, exactly. Back-to-front orders begin with the
-    /// other side. If the plane is seen edge-on, orders begin with either side.
+    /// Returns the side of the plane that a viewpoint sees, exactly. In back-to-front orders, the fragments
+    /// on the other side come first. If the plane is seen edge-on, either side may come first.
     pub fn facing(&self, viewpoint: Viewpoint) -> Facing {
         let eye = Eye::new(viewpoint, self.tree.faces.lattice());
         self.tree.faces.plane(self.plane()).facing(&eye).into()
@@ -229,8 +229,8 @@ impl ExactSizeIterator for Nodes<'_> {}
 impl FusedIterator for Nodes<'_> {}
 
 impl BspTree {
-    /// Returns the root node, whose subtree contains all fragments. `None` in a tree without nodes: a tree
-    /// without fragments, or with a single fragment that no plane bounds.
+    /// Returns the root node, whose subtree contains all fragments. `None` if the tree has no nodes. Then the
+    /// tree has no fragment, or it is a leaf with a single fragment.
     pub fn root(&self) -> Option<Node<'_>> {
         let end = self.records.len() as u32;
         (!self.nodes.is_empty()).then_some(Node { tree: self, index: 0, depth: 1, first: 0, end })
@@ -241,8 +241,8 @@ impl BspTree {
         self.root().map_or(Child::Leaf(0..self.records.len() as u32), Child::Node)
     }
 
-    /// Returns all nodes, depth first, front subtrees before back subtrees: to draw, measure or check a tree.
-    /// O(nodes) for the whole iteration.
+    /// Returns all nodes, to draw, measure or check a tree. A node precedes its front subtree, and the front
+    /// subtree precedes the back subtree. The whole iteration takes O(nodes) time.
     pub fn nodes(
         &self,
     ) -> impl DoubleEndedIterator<Item = Node<'_>> + ExactSizeIterator + FusedIterator + Clone + fmt::Debug
