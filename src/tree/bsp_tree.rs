@@ -37,36 +37,43 @@ use crate::faces::Preparation;
 ///
 /// # Contents
 ///
-/// The tree stores every polygon that has area as one or more *fragments*: convex pieces. A polygon that no
-/// partition plane cuts is one fragment, so nothing was cut if [`len`](Self::len) equals
-/// [`face_count`](Self::face_count). Polygons without area are dropped ([`dropped`](Self::dropped) lists
-/// them). Polygons that are not convex, or not planar within the tolerance, are triangulated first.
+/// The polygons are prepared first. A convex polygon that is planar within the tolerance is one *face*. Other
+/// polygons are triangulated, and each triangle is a face. Polygons without area are dropped
+/// ([`dropped`](Self::dropped) lists them).
 ///
-/// A [`Fragment`](crate::Fragment) returns the index of its polygon in input order, and its vertices with
-/// their weights over the polygon's corners. A fragment also returns which of its edges are edges of the
-/// polygon, and which of its sides [faces](crate::Fragment::facing) a viewpoint. Fragments are numbered from
-/// 0 to [`len`](Self::len) − 1. A number is valid for its own tree only.
+/// The tree cuts the faces by *partition planes* into *fragments*, which are convex. A face that no plane
+/// cuts is one fragment. So no face was cut if [`len`](Self::len), the number of fragments, equals
+/// [`face_count`](Self::face_count).
+///
+/// Fragments are numbered from 0 to [`len`](Self::len) − 1. A number is valid for its own tree only. A
+/// [`Fragment`](crate::Fragment) returns:
+///
+/// - the index of its polygon in input order;
+/// - its vertices, and their weights over the polygon's corners;
+/// - which of its edges are edges of the polygon;
+/// - which of its sides a viewpoint [sees](crate::Fragment::facing).
 ///
 /// # Order
 ///
-/// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse. In
-/// back-to-front order, coplanar polygons follow each other in input order, from whichever side they are
-/// seen. So the later of two decals is painted over the earlier decal. A third polygon that lies almost in
-/// the plane of two coplanar polygons can cause an [exception](#exactness). An eye on a plane may be treated
-/// as lying on either side of the plane. [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an
-/// infinite eye or a zero direction.
+/// In back-to-front order, no fragment hides a later fragment. Front-to-back order is the exact reverse.
+///
+/// In back-to-front order, coplanar polygons follow each other in input order, from whichever side they are
+/// seen. So the later of two decals is painted over the earlier decal. (There is an [exception](#exactness)
+/// close to other partition planes.)
+///
+/// An eye on a partition plane may be treated as lying on either side of the plane.
+/// [`Viewpoint`](crate::Viewpoint) defines the effect of a NaN, an infinite eye or a zero direction.
 ///
 /// | order of n fragments | time | memory |
 /// |---|---|---|
-/// | [`order`](Self::order), written as a list of numbers: [`write_into`](crate::Order::write_into) | O(n) | your buffer |
-/// | [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front), indices of triangles | O(n) | your buffers |
-/// | iterated over, from both ends | O(n) for the whole order | O(depth) |
-/// | walked by subtrees, some skipped: [`walk`](crate::Order::walk) | O(subtrees and fragments visited) | O(depth) |
+/// | a list of numbers: [`write_into`](crate::Order::write_into) | O(n) | your buffer |
+/// | indices of triangles: [`Triangles::write_back_to_front`](crate::mesh::Triangles::write_back_to_front) | O(n) | your buffers |
+/// | an iterator, from either end: [`order`](Self::order) | O(n) for the whole order | O(depth) |
+/// | a walk that can skip subtrees: [`walk`](crate::Order::walk) | O(subtrees and fragments visited) | O(depth) |
 ///
 /// Writing the list is fastest: 1.4 to 4 ns per fragment on one thread.
-/// [`back_to_front`](Self::back_to_front) and [`back_to_front_into`](Self::back_to_front_into) are shorthands
-/// for the iterator and the list. [`same_order`](Self::same_order) returns whether a moved eye still has the
-/// same order.
+/// [`back_to_front_into`](Self::back_to_front_into) is a shorthand for the list, and
+/// [`back_to_front`](Self::back_to_front) for the iterator.
 ///
 /// # Drawing a frame
 ///
@@ -98,9 +105,9 @@ use crate::faces::Preparation;
 ///
 /// If most polygons are opaque, draw the opaque polygons first, in any order, with a depth buffer. Then draw
 /// the translucent polygons back to front, with the depth test on and depth writes off.
-/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of either kind. The picture
-/// differs from a picture drawn entirely in order only where polygons touch: at equal depth a translucent
-/// polygon is drawn over an opaque polygon, regardless of input order.
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of either kind. There is one
+/// difference from a picture drawn entirely in order: where an opaque and a translucent polygon touch, at
+/// equal depth, the translucent polygon is always drawn last.
 ///
 /// # Culling
 ///
@@ -117,8 +124,9 @@ use crate::faces::Preparation;
 /// [`winding_number`](Self::winding_number) returns whether a point is inside a closed body, and
 /// [`locate`](Self::locate) returns the leaf of a point. [`fragments_in`](Self::fragments_in) finds the
 /// fragments in a box or in front of planes. All these queries decide exactly for the given numbers: a ray
-/// through an edge or a corner never slips between two polygons that share that edge or corner (unless one of
-/// the two polygons was [flattened](crate::Preparation::flattened)).
+/// through an edge or a corner never slips between two polygons that share that edge or corner. (Exception:
+/// the tolerance moved a corner of one of the two polygons, which
+/// [`Preparation::flattened`](crate::Preparation::flattened) counts.)
 ///
 /// ```
 /// use binspace::{BspTree, Ray};
@@ -164,58 +172,66 @@ use crate::faces::Preparation;
 /// nodes, fragments and hits return the exact numbers.
 ///
 /// The order is right up to the coplanar tolerance τ, a length
-/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). The parts of polygons that reach across a
-/// partition plane by less than τ may be painted in either order. The difference is visible along lines of
-/// sight that stay within τ of such a plane, from one polygon to the other or from the eye to the nearer
-/// polygon:
+/// ([`BuildOptions::tolerance`](crate::BuildOptions::tolerance)). A polygon that reaches across a partition
+/// plane by less than τ is not cut there, but treated as lying on one side of the plane or on the plane. So
+/// two polygons that meet the same line of sight can be painted in the wrong order. This can happen only if
+/// a part of the line of sight stays within τ of the partition plane: the part between the two polygons, or
+/// the part between the eye and the nearer polygon. There are three cases:
 ///
-/// - layers up to 2 τ apart, one on each side of a plane, can be exchanged from any viewpoint;
-/// - polygons seen along a plane can be exchanged at any distance from each other;
-/// - polygons in exactly one plane can lose their input order where they overlap, if the whole overlap is
-///   within τ of a partition plane that crosses the plane of the polygons. One polygon is then treated as in
-///   front of the partition plane, and the other polygon as behind the partition plane or on it.
+/// - two layers that both lie within τ of one partition plane, and so up to 2 τ apart: they can be in the
+///   wrong order from any viewpoint;
+/// - two polygons seen along a partition plane: they can be in the wrong order at any distance from each
+///   other;
+/// - two overlapping polygons in exactly one plane, if another partition plane crosses that plane and the
+///   whole overlap is within τ of the other partition plane: they can lose their input order.
 ///
 /// With a tolerance of 0 the order is exactly right.
 ///
 /// # Which tolerance
 ///
-/// The [default](crate::Tolerance::Default) depends on the input, so you rarely need to change it. (A *step*
-/// of a coordinate is the distance to the next larger number of its type.)
+/// The [default](crate::Tolerance::Default) depends on the input, so you rarely need to change it. (The
+/// *step* of a coordinate is the distance from the coordinate to the next larger `f32` or `f64`.)
 ///
 /// | input | default | when to change it |
 /// |---|---|---|
 /// | `f64` | 10⁻⁹ of the extent; beyond a million extents from the origin, four steps of the largest coordinate | use 0 if even very thin layers must never be exchanged |
-/// | `f32`, computed or not | four steps of the largest coordinate: 2·10⁻⁷ to 5·10⁻⁷ of the extent, more far from the origin | use 0 for coordinates that were not computed, such as integers |
+/// | `f32` | four steps of the largest coordinate: near the origin, 2·10⁻⁷ to 5·10⁻⁷ of the extent; further away, a larger share | use 0 for coordinates without rounding errors, such as integers |
 /// | an OBJ file | four units of the last decimal place that its coordinates use (trailing zeros do not count), at most 10⁻⁵ of the extent; the distance from the origin does not matter | use a larger length if coarse rounding has [`bent`](crate::Preparation::bent) most quads |
-/// | your own [`Polygon`](crate::Polygon) type | the default of its point type, as above; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
-/// | thin layers in a scene of large extent | | use a length of less than half the distance between the layers |
+/// | your own [`Polygon`](crate::Polygon) type | as for `f32` or `f64`, whichever its points are; or its own [`precision`](crate::Polygon::precision), between 10⁻⁹ and 10⁻⁵ of the extent | |
+/// | thin layers in a scene of large extent | as for the type of the coordinates | use a length of less than half the distance between the layers |
 ///
 /// Too small: polygons that were meant to be coplanar cut each other into slivers, and quads bent by rounding
 /// are triangulated. Too large: layers that were meant to be apart are painted in input order.
-/// [`Preparation`](crate::Preparation) counts polygons [`bent`](crate::Preparation::bent) by little more than
-/// the tolerance and polygons [`flattened`](crate::Preparation::flattened) within the tolerance.
-/// [`Stats`](crate::Stats) counts faces made [coplanar](crate::Stats::nearly_coplanar). Each of these three
-/// counts comes with the largest distance of a corner from its plane. The extent includes *all* corners, so a
-/// stray vertex far away makes a relative tolerance larger: remove the vertex, or set a length.
+///
+/// Three counts show the effect of the tolerance, each with the largest distance of a corner from its plane:
+///
+/// | count | counts |
+/// |---|---|
+/// | [`Preparation::bent`](crate::Preparation::bent) | polygons triangulated because they are bent by little more than the tolerance |
+/// | [`Preparation::flattened`](crate::Preparation::flattened) | polygons made planar, because they are bent by less than the tolerance |
+/// | [`Stats::nearly_coplanar`](crate::Stats::nearly_coplanar) | faces treated as lying on a partition plane because of the tolerance |
+///
+/// The extent includes *all* corners. So a stray vertex far away makes a relative tolerance larger: remove
+/// the vertex, or set a length.
 ///
 /// # T-junctions
 ///
-/// A plane cuts only the polygons that span it. If the cut ends on an edge that a *neighbouring* polygon
-/// shares, the neighbour may not be cut, and then the neighbour has no vertex at the end of the cut. The same
-/// polygon can be on both sides of the edge: one of two adjacent fragments is cut further, and the other
-/// fragment is not. A rasteriser can miss pixels at such a T-junction, because the rounded vertex is not
-/// exactly on the neighbour's edge. If both polygons have the vertex, its coordinates are bit for bit equal
-/// in both polygons, unless the tolerance moved a corner of one polygon.
+/// A plane cuts only the polygons that reach both of its sides. Suppose that a cut ends on an edge that a
+/// *neighbouring* polygon shares. If the neighbour is not cut there, it has no vertex at the end of the cut.
+/// This place is a *T-junction*. The two neighbours can also be fragments of one polygon. A rasteriser can
+/// miss pixels at a T-junction, because the rounded vertex is not exactly on the neighbour's edge. If both
+/// neighbours have the vertex, its coordinates are bit for bit equal in both, unless the tolerance moved a
+/// corner of one polygon.
 ///
 /// [`welded_mesh`](Self::welded_mesh) returns a mesh without T-junctions: the mesh has the missing vertex in
 /// the neighbour too, so a closed body stays closed. Fragments themselves are never changed.
 ///
 /// # Building
 ///
-/// The build time grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1 to 1.8
-/// µs per face with few cuts, and up to 12 µs with many cuts. If nothing is cut, the worst case is O(n²):
-/// each plane separates only a few polygons from the others, as in nested shells or the sides of a cone. If n
-/// polygons all cross one another, there can be n³ / 6 fragments.
+/// The build time usually grows a little faster than n log n. On one thread, scenes of 100 000 faces take 1.1
+/// to 1.8 µs per face with few cuts, and up to 12 µs with many cuts. The build takes O(n²) time if each plane
+/// separates only a few polygons from the others, as in nested shells or the sides of a cone. If n polygons
+/// all cross one another, there can be n³ / 6 fragments.
 ///
 /// Modelled scenes and scans have 1.0 to 2.3 fragments per face. Random triangles that cross each other have
 /// many more fragments: about 12 per triangle for 1000 triangles, and the ratio grows with n.
@@ -347,11 +363,11 @@ impl BspTree {
     }
 
     /// Returns the number of faces: polygons with area, where a triangulated polygon counts once for each
-    /// triangle. O(1).
+    /// triangle. Takes constant time.
     ///
-    /// If [`len`](Self::len) is the same number, no face was cut: each face is drawn whole, and no face
-    /// crosses another face by more than the tolerance. (If [`len`](Self::len) is larger, faces need not
-    /// cross: a partition plane may cut a face that crosses no other face.)
+    /// If the number of fragments, [`len`](Self::len), equals the number of faces, then no face was cut, and
+    /// no face crosses another face by more than the tolerance. If there are more fragments than faces, faces
+    /// need not cross: a partition plane may cut a face that crosses no other face.
     pub fn face_count(&self) -> usize {
         self.faces.len()
     }
@@ -373,14 +389,14 @@ impl BspTree {
         &self.preparation
     }
 
-    /// Counts the polygons that have the same corners as an earlier polygon, rounded to the
-    /// [grid](Self::grid), in the same cyclic order or its reverse. The tree keeps all duplicates. Like all
-    /// coplanar polygons, duplicates are painted in input order.
+    /// Counts the polygons that have the same corners as an earlier polygon, in the same cyclic order or in
+    /// the reverse order. Corners are compared after rounding to the [grid](Self::grid). The tree keeps all
+    /// duplicates. Like all coplanar polygons, duplicates are painted in input order.
     ///
-    /// Takes O(n log n) time and as much memory as the polygons' corners. The tree stores only the corners of
-    /// its faces. So the comparison ignores a corner of a triangulated polygon that no triangle has, such as
-    /// a corner on a straight side. In the tree of a cell, the comparison ignores the corners of triangles
-    /// outside the cell.
+    /// Some corners of triangulated polygons are ignored: corners that no triangle has, such as a corner on a
+    /// straight side, and, in the tree of a cell, the corners of triangles outside the cell.
+    ///
+    /// Takes O(n log n) time and as much memory as the polygons' corners.
     pub fn duplicates(&self) -> usize {
         self.faces.duplicates()
     }
@@ -407,7 +423,7 @@ impl fmt::Debug for BspTree {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Stats {
-    /// The number of convex faces: polygons, and the triangles of polygons that were triangulated
+    /// The number of faces: polygons with area, where a triangulated polygon counts once for each triangle
     /// ([`BspTree::face_count`]).
     pub faces: usize,
     /// The number of fragments in the tree.
@@ -425,8 +441,8 @@ pub struct Stats {
     pub bytes: usize,
     /// The coplanar tolerance that the tree was built with, a length.
     pub tolerance: f64,
-    /// The number of faces that are treated as lying on a partition plane only because of the tolerance.
-    /// Faces on one plane are painted in input order.
+    /// The number of faces that are treated as lying on a partition plane, although a corner is off that
+    /// plane by a distance within the tolerance. The faces on one partition plane are painted in input order.
     pub nearly_coplanar: usize,
     /// The largest distance of a corner of a [`nearly_coplanar`](Self::nearly_coplanar) face from the
     /// partition plane on which the face is treated as lying, a length.

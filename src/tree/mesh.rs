@@ -19,8 +19,8 @@ pub use triangles::Triangles;
 
 /// The fragments of a tree as vertices and triangles, for a renderer's buffers.
 ///
-/// A mesh is separate from the tree: [`BspTree::mesh`] or [`BspTree::welded_mesh`] makes a mesh. Upload the
-/// vertices once; every frame, write the indices in the order of the viewpoint
+/// [`BspTree::mesh`] and [`BspTree::welded_mesh`] make a mesh, which is stored separately from the tree.
+/// Upload the mesh's vertices once. Every frame, write the indices in the order of the viewpoint
 /// ([`Triangles::write_back_to_front`]).
 ///
 /// ```
@@ -52,26 +52,30 @@ pub use triangles::Triangles;
 ///
 /// # Points and vertices
 ///
-/// A *point* is a place where fragments meet. Two fragments share a point if both define the point in the
-/// same way, whatever the rounded coordinates are. A point is defined by a given corner, by an edge and a
-/// plane that cuts the edge, or by a polygon and two planes that cut the polygon. Whether several planes cut
-/// an edge in one point is decided exactly.
+/// A *point* is a position, which all fragments that meet there share. A *vertex* is a point as a corner of
+/// one polygon's fragments. A vertex has weights over that polygon's corners, which interpolate attributes.
+/// So different polygons share points, and the fragments of one polygon share vertices.
 ///
-/// A *vertex* is a point that is a corner of fragments of one polygon. The vertex has weights over the
-/// polygon's corners, which interpolate attributes. So polygons share points, and fragments of one polygon
-/// share vertices.
+/// Fragments share a point if the point has the same exact definition in all of them; rounded coordinates do
+/// not matter. There are three kinds of points:
+///
+/// - a corner of the input;
+/// - the intersection of an edge and a plane that cuts the edge;
+/// - the intersection of a polygon and two planes that cut the polygon.
+///
+/// If several planes cut an edge, an exact test decides whether they cut the edge in one point.
 ///
 /// # Welded
 ///
 /// A cut that ends on an edge makes a vertex on the edge in the polygon that is cut, but not in the
 /// neighbour. Such a vertex is a T-junction, where a renderer may miss pixels. A welded mesh has that vertex
-/// in the neighbour too. The neighbour may be another fragment of the same polygon. Then a closed body stays
-/// closed: if the body's polygons traverse every edge once in each direction, so do the body's triangles,
-/// from point to point.
+/// in the neighbour too, also if the neighbour is another fragment of the same polygon.
 ///
-/// Edges whose given corners are collinear are welded, even if a corner of one edge is inside the other edge.
-/// Two cases are not welded, because there is no common edge: a corner inside a polygon, and polygons that
-/// cross each other.
+/// A closed body stays closed in a welded mesh: if the body's polygons traverse every edge once in each
+/// direction, so do the body's triangles, from point to point.
+///
+/// Collinear edges that overlap are welded, even if a corner of one edge is inside the other edge. Where
+/// there is no common edge, nothing is welded: a corner inside a polygon, and polygons that cross each other.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     parts: Assembled,
@@ -101,10 +105,10 @@ impl MeshVertex<'_> {
 }
 
 impl BspTree {
-    /// Returns the fragments as vertices and triangles. Each fragment has exactly its vertices in the tree,
-    /// so the mesh has T-junctions; see [`Mesh`].
+    /// Returns the fragments as vertices and triangles. No vertices are added to the fragments, so the mesh
+    /// can have T-junctions; see [`Mesh`].
     ///
-    /// O(n log n) for n vertices of fragments.
+    /// Takes O(n log n) time for n vertices of fragments.
     ///
     /// # Errors
     ///
@@ -113,11 +117,11 @@ impl BspTree {
         Mesh::new(self.mesh_source(), false)
     }
 
-    /// Returns a [`mesh`](Self::mesh) without T-junctions: a vertex inside an edge that polygons share, or
-    /// inside a cut between fragments, is a vertex of all these polygons or fragments.
+    /// Returns a [`mesh`](Self::mesh) without T-junctions. If several polygons share an edge, and one of them
+    /// has a vertex inside the edge, all of them have that vertex. So have fragments on both sides of a cut.
     ///
-    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge and each
-    /// polygon is cut at other places, n² vertices are inserted.)
+    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge, and each
+    /// polygon is cut at other places, about n² vertices are inserted.)
     ///
     /// # Errors
     ///
@@ -187,8 +191,8 @@ impl Mesh {
         &self.triangles
     }
 
-    /// Returns the triangles of some polygons, chosen by their indices in input order, such as the polygons
-    /// drawn in one pass. The fragments of other polygons have no triangles.
+    /// Returns the triangles of some polygons, such as the polygons drawn in one pass. `keep` is called with
+    /// the index of a polygon in input order, and returns whether the polygon's triangles are included.
     ///
     /// # Errors
     ///

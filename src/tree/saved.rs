@@ -28,10 +28,10 @@ const OF_CELL: u32 = 2;
 const WORTH_A_THREAD: usize = 4096;
 
 impl BspTree {
-    /// Writes the tree. [`read`](Self::read) returns an equal tree: the fragments, their numbers and bits,
-    /// and the orders are the same. Trees of a [`FrameBuilder`](crate::FrameBuilder) can be written too.
+    /// Writes the tree. [`read`](Self::read) returns an equal tree: its fragments, their numbers and bits,
+    /// and its orders are the same. Trees of a [`FrameBuilder`](crate::FrameBuilder) can be written too.
     ///
-    /// Takes O(n) time, and O(depth) memory plus 64 kB. `output` need not be a `BufWriter`.
+    /// Takes O(n) time and O(depth) memory, plus a buffer of 64 kB, so `output` need not be a `BufWriter`.
     ///
     /// ```
     /// use binspace::{BspTree, Viewpoint};
@@ -49,8 +49,9 @@ impl BspTree {
     ///
     /// # Layout
     ///
-    /// Version 3. Numbers are little-endian. A *list* is its length as `u64`, and then its items. The parts
-    /// of the file, in their order:
+    /// This is version 3 of the layout. Numbers are little-endian. A *list* is a length as `u64`, followed by
+    /// that number of items. Words in italics are explained below the table. The file consists of these
+    /// parts, in this order:
     ///
     /// | part | type | content |
     /// |---|---|---|
@@ -61,20 +62,21 @@ impl BspTree {
     /// | | 3 `f64` | the origin o |
     /// | | 3 `f64` | the far coordinates f; a point x of the scene has the grid coordinates (x − f) · 2ᵉ − o |
     /// | tolerance | `f64` | in steps of the grid |
-    /// | faces | list of 3 `u32` | the polygon, the number of corners, the *frame* |
+    /// | faces | list of 3 `u32` | for each face (a convex polygon, or a triangle of a triangulated polygon): the polygon, the number of corners, the *frame* |
     /// | corners | 6 `i64` | only for the tree of a cell: the lower and the upper corner of the cell |
     /// | | 3 `i64` each | the corners of all faces, face by face |
-    /// | numbered faces | list of `u32` | the faces with stored corner numbers; the corner numbers of all other faces are 0, 1, 2, … |
-    /// | corner numbers | `u32` each | for each corner of these faces: the *corner number* |
-    /// | moved corners | list of `u32` and 3 `i64` | a corner that was moved onto the plane of its face, and its given position |
-    /// | dropped polygons | list of `u32` | their indices |
-    /// | counts | 4 `u64` | the numbers of triangulated, crossing, flattened and bent polygons |
-    /// | distances | 2 `f64` | the largest distances of flattened and of bent polygons |
-    /// | nodes | list of 2 `u32` | the *plane* and the *sides*; depth first, the front before the back |
+    /// | numbered faces | list of `u32` | the faces whose *corner numbers* are stored; the corner numbers of any other face are 0, 1, 2, … |
+    /// | corner numbers | `u32` each | for each corner of the numbered faces, face by face: the *corner number* |
+    /// | moved corners | list of `u32` and 3 `i64` | the *corner index* of a corner that was moved onto the plane of its face, and the corner's position before |
+    /// | dropped polygons | list of `u32` | the indices of the polygons without area, and of those outside the cell |
+    /// | counts | 4 `u64` | `triangulated`, `crossing`, `flattened` and `bent` of the [`Preparation`](crate::Preparation) |
+    /// | distances | 2 `f64` | `flattened_by` and `bent_by` of the `Preparation` |
+    /// | nodes | list of 2 `u32` | the *plane* and the *sides* of each node; depth first, the front before the back |
     /// | fragments | list of `u32` | the face of each fragment |
     /// | checksum | `u32` | the CRC-32 of all bytes before, as of gzip and PNG |
     ///
-    /// Four kinds of numbers are packed:
+    /// The *corner index* counts all corners of the file: in the tree of a cell, first the two corners of the
+    /// cell, then the corners of all faces. Four kinds of numbers are packed:
     ///
     /// | number | bits | content |
     /// |---|---|---|
@@ -83,15 +85,15 @@ impl BspTree {
     /// | | 30–31 | the axis along which corners were moved; 3 if none was moved |
     /// | corner number | 0–30 | the number of the corner in its polygon |
     /// | | 31 | 1 if the edge to the next corner is not an edge of the polygon |
-    /// | plane | 0–27 | the number of a face or corner |
+    /// | plane | 0–27 | the number of a face, or a *corner index* |
     /// | | 28–30 | 1 for the plane of the face; 2, 3, 4 for the plane through the corner perpendicular to x, y, z |
     /// | sides | 0–1 | the back: 0 if it is empty, 1 for a fragment, 2 for a node |
     /// | | 2–3 | the front, in the same form as the back |
     /// | | 4–31 | the number of fragments on the plane |
     ///
-    /// A corner's number counts the corners of the cell first, and then the corners of all faces. If a side
-    /// of a cell has no plane, its coordinate is −(2⁵¹ + 2⁴⁴) for a lower side and 2⁵¹ + 2⁴⁴ for an upper
-    /// side. Vertices are not stored: reading splits the faces by the planes again.
+    /// If no plane bounds a cell in some direction, the coordinate of the cell's corner is −(2⁵¹ + 2⁴⁴) for
+    /// the lower corner and 2⁵¹ + 2⁴⁴ for the upper corner. Vertices are not stored: reading splits the faces
+    /// by the planes again.
     ///
     /// # Errors
     ///
@@ -116,26 +118,34 @@ impl BspTree {
     /// Reads a tree that [`write`](Self::write) has written. Reads only the tree's bytes, so other data may
     /// follow.
     ///
-    /// Reading splits the faces by the stored planes again. That takes O(n · mean depth) time, like building,
-    /// but no plane has to be chosen. So reading takes a quarter to a half of the build time. Reading takes
-    /// nine tenths of the build time if choosing takes no time and most faces are split, as with
+    /// Reading splits the faces by the stored planes again, which takes O(n · mean depth) time. Unlike
+    /// building, reading does not choose planes, so it takes a quarter to a half of the build time. The share
+    /// is nine tenths for a build that chooses planes in almost no time and splits most faces, as with
     /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` does not make reading faster.
     ///
     /// # Untrusted files
     ///
-    /// The file may contain anything. If `read` returns a tree, the tree's faces are convex, planar and
-    /// within the grid. Each fragment lies on the correct side of the planes of all nodes above the fragment,
-    /// and the fragments of each face cover the face once. No method panics or takes more time or memory than
-    /// documented. A forged file can choose the faces and the planes. So the tree may be deep, and the
-    /// polygons may be in many pieces, but never in more pieces than the file lists. Memory grows with the
-    /// bytes read, so a false length cannot reserve more than a small multiple of the file's size. Corner
-    /// numbers ([`weights`](crate::Fragment::weights), [`edges`](crate::Fragment::edges)) may be larger than
-    /// the numbers of your polygons' corners.
+    /// The file may contain anything. If `read` returns a tree, these guarantees hold:
+    ///
+    /// - the tree's faces are convex, planar and within the grid;
+    /// - each fragment lies on the correct side of the planes of all nodes above the fragment, and the
+    ///   fragments of each face cover the face once;
+    /// - no method panics, or takes more time or memory than documented.
+    ///
+    /// A forged file can choose the faces and the planes. So the tree may be deep, and a polygon may be cut
+    /// into many fragments, but there are never more fragments than the file lists. The corner numbers that
+    /// [`weights`](crate::Fragment::weights) and [`edges`](crate::Fragment::edges) return may be larger than
+    /// the numbers of your polygons' corners. Memory grows only with the bytes read: a false length cannot
+    /// reserve more than a small multiple of the file's size.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read, are not a tree, have another version, or are truncated or damaged; if the
-    /// library could not have built such a tree; or if memory runs out. The message says which.
+    /// The message says which of these errors occurred:
+    ///
+    /// - the data cannot be read;
+    /// - the data are not a tree, have another version, or are truncated or damaged;
+    /// - the library could not have built such a tree;
+    /// - memory runs out.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let flags = file.u32("flags")?;

@@ -10,9 +10,9 @@ use crate::viewpoint::Viewpoint;
 /// Triangles of a tree's fragments. Each triangle has three vertices of a [`Mesh`](crate::mesh::Mesh), and
 /// each fragment has one range of indices.
 ///
-/// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments,
-/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) the triangles of some polygons, such as the
-/// translucent polygons.
+/// [`Mesh::triangles`](crate::mesh::Mesh::triangles) returns the triangles of all fragments.
+/// [`Mesh::triangles_of`](crate::mesh::Mesh::triangles_of) returns the triangles of some polygons, such as
+/// the translucent polygons.
 #[derive(Clone, Debug)]
 pub struct Triangles {
     /// The generation of the tree.
@@ -109,12 +109,12 @@ impl Triangles {
     /// `tree` must be the tree that the mesh was made of, or a clone of that tree. The triangles of one
     /// fragment keep their order.
     ///
-    /// `indices` may be mapped device memory: each place is written once, in increasing order, and never
-    /// read. Places after the last written index are not changed. `order` is working space and finally
-    /// contains the order of the fragments. As in [`back_to_front_into`](BspTree::back_to_front_into),
-    /// nothing is allocated once `order` is large enough.
+    /// `indices` may be mapped device memory: each element is written once, in increasing order, and never
+    /// read. Elements after the last written index are not changed. `order` is working space. After the call,
+    /// `order` contains the fragments' numbers, back to front. Once `order` is large enough, nothing is
+    /// allocated.
     ///
-    /// O(n).
+    /// Takes O(n) time.
     ///
     /// # Errors
     ///
@@ -138,9 +138,9 @@ impl Triangles {
         Ok(count)
     }
 
-    /// Writes the indices of some fragments in a given order, such as a list from
-    /// [`Order::write_into`](crate::Order::write_into), and returns the number of indices. Memory is written
-    /// as in [`write_back_to_front`](Self::write_back_to_front).
+    /// Writes the indices of the fragments in `order`, such as a list from
+    /// [`Order::write_into`](crate::Order::write_into), and returns the number of written indices. `indices`
+    /// may be mapped device memory, as for [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///
@@ -166,12 +166,13 @@ impl Triangles {
     /// number of indices. `pieces` are triangles of
     /// [`Overlay::welded_mesh`](crate::overlay::Overlay::welded_mesh).
     ///
-    /// The vertices of the pieces are numbered after the vertices of the tree's mesh: put the vertices of the
-    /// pieces into the same vertex buffer, after the vertices of the tree's mesh. Lines and points in the
-    /// order have no triangles. After each [`replace`](crate::overlay::Overlay::replace) of the overlay, make
-    /// the overlay's mesh again: the triangles of an earlier mesh do not fit the new order.
+    /// The written indices assume one vertex buffer: first the vertices of the tree's mesh, then the vertices
+    /// of the overlay's mesh. Lines and points in the order have no triangles. After each
+    /// [`replace`](crate::overlay::Overlay::replace) of the overlay, make the overlay's mesh again: the
+    /// triangles of an earlier mesh do not fit the new order.
     ///
-    /// O(n). Each place is written once, as in [`write_back_to_front`](Self::write_back_to_front).
+    /// Takes O(n) time. `indices` may be mapped device memory, as for
+    /// [`write_back_to_front`](Self::write_back_to_front).
     ///
     /// # Errors
     ///

@@ -149,15 +149,15 @@ impl View {
 }
 
 impl BspTree {
-    /// Returns whether no partition plane lies between two viewpoints. If so, the complete order is the same
-    /// for both viewpoints and need not be written or uploaded again. (The orders may be the same even if a
-    /// plane lies between.)
+    /// Returns true if no partition plane lies between two viewpoints. Then the order of all fragments is the
+    /// same for both viewpoints, and need not be written or uploaded again. If a partition plane lies between
+    /// the viewpoints, the result is false, even if the two orders happen to be the same.
     ///
-    /// [Culled](crate::Order::culled) orders also depend on the facing of polygons and on the frustum:
-    /// compare their lists instead. For an overlay use
+    /// [Culled](crate::Order::culled) orders also depend on the facing of polygons and on the frustum. So for
+    /// culled orders, compare the two lists of numbers instead. For an overlay, use
     /// [`Overlay::same_order`](crate::overlay::Overlay::same_order).
     ///
-    /// Stops at the first plane between the two viewpoints; O(nodes) if there is no such plane. Allocates
+    /// Takes O(nodes) time, or less: the search stops at the first plane between the viewpoints. Allocates
     /// nothing.
     ///
     /// ```

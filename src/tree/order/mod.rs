@@ -67,22 +67,22 @@ impl<'t> Order<'t> {
         Self { is_front_to_back: true, ..self }
     }
 
-    /// Leaves out the fragments that are outside a frustum or show the wrong side. The rest keeps its order.
+    /// Leaves out the fragments that are outside a frustum or show the wrong side. The other fragments keep
+    /// their order.
     pub fn culled(self, culling: &'t Culling) -> Self {
         Self { culling: Some(culling), ..self }
     }
 
     /// Replaces a buffer's contents by the numbers of the fragments.
     ///
-    /// O(n). Every node stores the number of fragments on each of its sides. So a subtree's place in the
-    /// order is known before the subtree is read, and each number is written directly to its final place. The
-    /// buffer also serves as working space. The buffer's capacity grows to one or two numbers per fragment,
-    /// at most four per fragment plus sixteen; after that, nothing is allocated.
+    /// Takes O(n) time. The buffer also serves as working space: its capacity usually grows to one or two
+    /// numbers per fragment, and to at most four per fragment plus sixteen. Once the buffer is large enough,
+    /// nothing is allocated.
     ///
-    /// A culled order skips subtrees outside the frustum and subtrees seen only from the wrong side. The time
-    /// of a culled order is proportional to the number of remaining fragments plus the number of fragments
-    /// close to the frustum's boundary. A culled order takes O(depth) memory, plus a bit for each fragment
-    /// and for each block of 16 fragments.
+    /// A [culled](Self::culled) order skips subtrees outside the frustum and subtrees seen only from the
+    /// wrong side. Its time is proportional to the number of remaining fragments plus the number of fragments
+    /// close to the frustum's boundary. It allocates O(depth) memory, plus a bit for each fragment and for
+    /// each block of 16 fragments.
     ///
     /// [`Triangles::write_order`](crate::mesh::Triangles::write_order) converts the list into indices of
     /// triangles.
@@ -102,10 +102,12 @@ impl<'t> Order<'t> {
     /// Visits subtrees and fragments, and skips the subtrees for which `visit` returns [`Flow::Skip`].
     /// Returns the value of [`Flow::Break`], if any.
     ///
-    /// A subtree is visited after all parts that precede the subtree in the order, and before its own parts.
-    /// So in a front-to-back walk, a subtree is visited after all fragments that may hide the subtree. The
-    /// walk takes O(parts visited) time and O(depth) memory, and does not recurse. A culled order also takes
-    /// a bit for each fragment, and first tests the boxes against the frustum.
+    /// A subtree is visited before its own fragments and subtrees, and after everything that precedes it in
+    /// the order. So in a front-to-back walk, a subtree is visited after all fragments that may hide it.
+    ///
+    /// The walk takes O(subtrees and fragments visited) time and O(depth) memory, and does not recurse. The
+    /// walk of a [culled](Self::culled) order first tests the boxes against the frustum, and needs one more
+    /// bit of memory for each fragment.
     ///
     /// ```
     /// use binspace::{BspTree, Flow, Part, Viewpoint};
@@ -213,8 +215,8 @@ pub enum Flow<B = ()> {
 
 /// The fragments of a tree in an [`Order`].
 ///
-/// Iterates from either end or from both, in O(n) time for all n fragments and O(depth) memory. A
-/// [culled](Order::culled) order is written into a list before the first fragment is read.
+/// This iterator can be read from both ends. Reading all n fragments takes O(n) time and O(depth) memory. A
+/// [culled](Order::culled) order is written into a list before the first fragment is returned.
 #[derive(Clone, Debug)]
 pub struct Ordered<'t> {
     tree: &'t BspTree,
