@@ -193,31 +193,33 @@ impl BspTree {
     ///
     /// # Definition of a hit
     ///
-    /// Polygons are as the tree stores them: corners are rounded to the tree's grid, and moved onto the
-    /// polygon's plane if they were off the plane by less than the tolerance. A polygon includes its edges
-    /// and corners, a segment both ends, and a ray its start. The intersection of a ray and a polygon
-    /// consists of points and segments. Each point is one hit, and each segment is one hit at the segment's
-    /// nearest point:
+    /// Hits are computed with the polygons as the tree stores them: their corners are rounded to the tree's
+    /// grid, and moved onto the polygon's plane if they were off the plane by less than the tolerance. A
+    /// polygon includes its edges and corners. A segment includes both ends, and a ray includes its start.
     ///
-    /// - a ray through an edge that several polygons share, or through a corner, hits each of these polygons
-    ///   once, however the tree has cut them;
-    /// - a ray in the plane of a polygon hits the polygon where the ray enters the polygon, or at the ray's
-    ///   start if the start is inside the polygon. The hit then [faces](Hit::facing) neither side. There is
-    ///   no second hit where the ray leaves the polygon or passes from one fragment of the polygon to
-    ///   another;
-    /// - only a polygon that is not convex, or not planar, can be hit more than once.
+    /// The intersection of a ray and a polygon consists of points and segments. Each point is one hit. Each
+    /// segment is one hit, at the point of the segment that is nearest to the ray's start:
+    ///
+    /// - A ray through an edge or a corner that several polygons share hits each of these polygons once,
+    ///   however the tree has cut them.
+    /// - A ray in the plane of a polygon hits the polygon where the ray enters the polygon, or at the ray's
+    ///   start if the start is inside the polygon. The [facing](Hit::facing) of the hit is
+    ///   [`Facing::EdgeOn`]. There is no second hit where the ray leaves the polygon, or passes from one
+    ///   fragment of the polygon to another.
+    /// - Only a polygon that is not convex, or not planar, can be hit more than once.
     ///
     /// Hits at the same point are in input order. The polygons that are hit, their order and their sides are
     /// exact. So hits do not depend on how a tree was built.
     ///
-    /// The iterator searches only as far along the ray as the next hit requires. The iterator allocates
-    /// nothing unless dozens of parts of the tree or more than eight fragments are pending at once, or the
-    /// ray lies in the plane of a polygon.
+    /// # Time
     ///
-    /// Time is proportional to the number of boxes that the ray crosses until you stop reading. The first
-    /// call computes the boxes, in O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one
-    /// point, as in a stack of coplanar polygons, their hits take O(k log k) time. The first of these hits
-    /// takes O(k log k) in the worst case, and O(k) if the fragments are found in input order.
+    /// The iterator searches only as far along the ray as the next hit requires. So time is proportional to
+    /// the number of boxes that the ray crosses until you stop reading. The first call computes the boxes, in
+    /// O(n) time ([`bounds`](Self::bounds)). If k fragments meet the ray at one point, as in a stack of
+    /// coplanar polygons, their hits take O(k log k) time in total.
+    ///
+    /// The iterator usually allocates nothing. It allocates if dozens of parts of the tree, or more than
+    /// eight fragments, are pending at once, and if the ray lies in the plane of a polygon.
     pub fn hits(&self, ray: Ray) -> impl FusedIterator<Item = Hit<'_>> + Clone + Debug {
         Targets { tree: self, pieces: None }.hits(ray)
     }
@@ -233,8 +235,8 @@ pub struct Hit<'t> {
 }
 
 impl<'t> Hit<'t> {
-    /// Returns the fragment that is hit, for instance for its [normal](Fragment::normal). If several
-    /// fragments of the polygon meet at the point, the result is one of these fragments.
+    /// Returns the fragment that the ray hits, for instance for its [normal](Fragment::normal). If several
+    /// fragments of the polygon meet at the hit's point, the result is any one of these fragments.
     #[doc(alias = "normal")]
     pub fn fragment(&self) -> Fragment<'t> {
         self.fragment
@@ -245,9 +247,9 @@ impl<'t> Hit<'t> {
         self.fragment.polygon()
     }
 
-    /// Returns the side of the fragment that is hit, exactly; [`Facing::EdgeOn`] if the ray lies in the
-    /// fragment's plane. The side depends only on the ray's direction, also for a ray that begins on the
-    /// fragment.
+    /// Returns the side of the fragment that the ray meets, exactly. The result is [`Facing::EdgeOn`] if the
+    /// ray lies in the fragment's plane. The side depends only on the ray's direction, even if the ray begins
+    /// on the fragment.
     pub fn facing(&self) -> Facing {
         self.facing.into()
     }
@@ -256,8 +258,8 @@ impl<'t> Hit<'t> {
     /// the `f64` nearest to the exact fraction, or the second nearest if both are about equally near. A value
     /// that is too large for `f64` is infinite.
     ///
-    /// The distance is the parameter times the length of the direction. Each call computes the parameter, in
-    /// about 0.1 µs.
+    /// The distance of the hit from the ray's start is the parameter times the length of the ray's direction.
+    /// Each call computes the parameter, in about 0.1 µs.
     #[doc(alias = "distance")]
     #[doc(alias = "t")]
     pub fn parameter(&self) -> f64 {
@@ -285,13 +287,16 @@ impl<'t> Hit<'t> {
         }
     }
 
-    /// Returns the exact definition of the hit's point: three points of the tree's [grid](BspTree::grid). The
-    /// ray meets the plane through these points at the hit. Usually the three points define the fragment's
-    /// plane. For a ray in the fragment's plane, they define a plane through an edge. `None` if the point is
-    /// an end of the ray inside the polygon: the start if [`parameter`](Self::parameter) is 0.
+    /// Returns three points p, q and r of the tree's [grid](BspTree::grid) that define the hit's point
+    /// exactly: the hit is the point where the ray meets the plane through p, q and r. Usually this plane is
+    /// the fragment's plane. For a ray in the fragment's plane, it is a plane through an edge of the
+    /// fragment.
     ///
-    /// For the ray as given (see [`Ray`]), the exact parameter is the fraction n·(p − from) / n·direction,
-    /// where n is the vector product of q − p and r − p.
+    /// `None` if the hit's point is an end of the ray inside the polygon. That end is the start if
+    /// [`parameter`](Self::parameter) is 0.
+    ///
+    /// Let n be the vector product of q − p and r − p. For the ray as given (see [`Ray`]), the exact
+    /// parameter is the fraction n·(p − from) / n·direction.
     pub fn grid_points(&self) -> Option<[[i64; 3]; 3]> {
         self.spot.grid_points(self.fragment.faces)
     }
@@ -398,9 +403,9 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// A computed point, such as a corner in `f64` or [`Hit::point`](crate::Hit::point), is rounded. So the
-    /// point may lie behind its own surface, and the surface then occludes the point. To test whether such a
-    /// point is visible, end the segment before the surface:
+    /// A computed point on a polygon, such as a fragment's vertex or [`Hit::point`](crate::Hit::point), is
+    /// rounded. So the point may lie slightly behind the polygon, and then the polygon itself occludes the
+    /// point. To test whether such a point is visible, end the segment shortly before the point:
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -417,15 +422,15 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// A polygon also blocks the segment if only an edge or a corner of the polygon touches the segment. The
-    /// same is true if a part of the segment lies in the polygon, such as a floor seen edge-on. The test is
-    /// exact. If an eye should see along a floor, look for [`hits`](Self::hits) whose
-    /// [`facing`](crate::Hit::facing) is not [`Facing::EdgeOn`].
+    /// The test is exact. A polygon also blocks the segment if only an edge or a corner of the polygon
+    /// touches the segment. A polygon seen edge-on, such as a floor, blocks a segment that lies in it. If an
+    /// eye should see along a floor, look for [`hits`](Self::hits) whose [`facing`](crate::Hit::facing) is
+    /// not [`Facing::EdgeOn`].
     ///
     /// The search stops at the first polygon found, which need not be the nearest. The time is proportional
     /// to the number of boxes that the segment crosses before that polygon. The first call computes the
-    /// boxes, in O(n) time ([`bounds`](Self::bounds)). Later calls allocate nothing unless dozens of parts of
-    /// the tree are pending at once.
+    /// boxes, in O(n) time ([`bounds`](Self::bounds)). Later calls usually allocate nothing; they allocate if
+    /// dozens of parts of the tree are pending at once.
     pub fn is_occluded(&self, ray: Ray) -> bool {
         Targets { tree: self, pieces: None }.is_occluded(ray)
     }

@@ -23,8 +23,8 @@ pub struct Location<'t> {
 }
 
 impl<'t> Location<'t> {
-    /// Returns the node whose front or back is the leaf. `None` if the tree has no nodes: then the whole tree
-    /// is one leaf.
+    /// Returns the node whose front side or back side is the leaf. `None` if the tree has no nodes: then the
+    /// whole tree is one leaf.
     pub fn node(&self) -> Option<Node<'t>> {
         self.node
     }
@@ -39,8 +39,9 @@ impl<'t> Location<'t> {
         self.fragments.clone()
     }
 
-    /// Returns the nodes above the leaf whose planes contain the point, exactly, from the root down. The
-    /// fragments [`on`](Node::on) these nodes are in the same plane as the point, up to the tolerance.
+    /// Returns the nodes whose planes contain the point exactly, from the root down to the leaf. The
+    /// fragments [`on`](Node::on) the plane of such a node are in the same plane as the point, up to the
+    /// tolerance.
     pub fn planes(&self) -> &[Node<'t>] {
         &self.planes
     }
@@ -56,12 +57,14 @@ impl PartialEq for Location<'_> {
 }
 
 impl BspTree {
-    /// Returns the leaf that contains a point, and the partition planes through the point. The result is
-    /// exact for the given point, as for a [`Ray`] from the point. A point on a plane is treated as lying in
-    /// front of the plane. `None` if a coordinate is NaN or infinite, and possibly if the point is further
-    /// from the scene than 2⁶⁸ extents. O(depth).
+    /// Returns the leaf that contains a point, and the partition planes through the point. A *leaf* is a
+    /// convex region of space that no partition plane divides. A leaf contains at most one fragment.
     ///
-    /// A leaf is a convex region that no partition plane divides, with at most one fragment.
+    /// The result is exact for the given point, except for the very small digits that a [`Ray`] ignores. A
+    /// point on a partition plane is treated as lying in front of the plane.
+    ///
+    /// Returns `None` if a coordinate is NaN or infinite. May return `None` if the point is further from the
+    /// scene than 2⁶⁸ extents (longest sides of the scene's bounding box). Takes O(depth) time.
     ///
     /// ```
     /// use binspace::{BspTree, Ray};

@@ -126,10 +126,10 @@ impl Iterator for FragmentsIn<'_> {
 impl FusedIterator for FragmentsIn<'_> {}
 
 impl BspTree {
-    /// Returns the numbers of the fragments that have a point in a region, in ascending order: the fragments
-    /// in a box, or in front of planes. The result is exact: the list contains a fragment if, and only if,
-    /// the closed fragment meets the closed region. ([`Culling`](crate::Culling) tests only boxes, so it is
-    /// faster and keeps some more fragments.)
+    /// Returns the numbers of the fragments that have a point in a region, in ascending order. The region is
+    /// a box, or the points in front of several planes ([`Frustum`]). The result is exact: a fragment that
+    /// touches the region's boundary is included, and a fragment outside the region is not.
+    /// ([`Culling`](crate::Culling) tests only boxes, so it is faster, but keeps some fragments outside.)
     ///
     /// ```
     /// use binspace::glam::DVec3;
@@ -145,14 +145,15 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The tested fragments are those that the tree stores, with corners moved as [`BspTree::hits`] states.
-    /// All digits of the planes' numbers count, except digits of a normal below 2⁻¹¹⁵ of its largest
-    /// coordinate, and digits of an offset below 2⁻¹¹⁵ of the scene's extent. All planes of the region are
-    /// used, except planes with an infinite or NaN number, which exclude nothing.
+    /// The test uses the polygons as the tree stores them: their corners are rounded to the tree's grid, and
+    /// moved onto the polygon's plane if they were off the plane by less than the tolerance. The region is
+    /// used as given, except for very small digits: digits of a normal below 2⁻¹¹⁵ of the normal's largest
+    /// coordinate, and digits of an offset below 2⁻¹¹⁵ of the scene's extent (the longest side of its
+    /// bounding box). A plane with an infinite or NaN number excludes nothing.
     ///
-    /// The boxes of blocks of 16, 256, … fragments include or exclude blocks as a whole. So the time is
-    /// mostly proportional to the number of fragments that are found or lie at the region's boundary. The
-    /// first call computes the boxes, in O(n) time ([`bounds`](Self::bounds)).
+    /// The time is mostly proportional to the number of fragments found, plus the number of fragments close
+    /// to the region's boundary. The first call computes the tree's boxes, in O(n) time
+    /// ([`bounds`](Self::bounds)).
     pub fn fragments_in<'t>(
         &'t self,
         region: &Frustum,

@@ -21,8 +21,9 @@ impl BspTree {
     /// on the boundary; `hits(Ray::between(point, point))` returns the polygons that contain the point.
     ///
     /// Bodies may intersect themselves and each other, and may be nested. The number is exact for the given
-    /// point, except within the tolerance of polygons that were [flattened](crate::Preparation::flattened). A
-    /// point with a NaN or infinite coordinate is outside.
+    /// point. (Exception: the point is closer than the tolerance to a polygon that was
+    /// [flattened](crate::Preparation::flattened), which means that the tolerance moved a corner.) A point
+    /// with a NaN or infinite coordinate is outside.
     ///
     /// ```
     /// use binspace::BspTree;
@@ -39,19 +40,18 @@ impl BspTree {
     /// # Ok::<(), binspace::Error>(())
     /// ```
     ///
-    /// The first call sorts all edges, to check that the bodies are closed: O(n log n). Each call takes time
-    /// proportional to the number of bounding boxes of fragments that a ray from the point in the direction
-    /// of +z meets.
+    /// The first call takes O(n log n) time to sort all edges and to check that the bodies are closed. Each
+    /// call takes time proportional to the number of fragments whose bounding boxes meet a ray from the point
+    /// in the direction of +z.
     ///
-    /// The winding number is the signed number of faces that a ray from the point crosses. A point-in-polygon
-    /// test in the projection along the ray finds these faces. Where the ray meets an edge, the ray is moved
-    /// by an infinitesimal step (H. Edelsbrunner and E. Mücke, "Simulation of simplicity", 1990).
+    /// The winding number is the signed number of polygons that this ray crosses. If the ray meets an edge,
+    /// the ray is moved by an infinitesimal step (H. Edelsbrunner and E. Mücke, "Simulation of simplicity",
+    /// 1990).
     ///
     /// # Errors
     ///
-    /// If the tree is the tree of a cell, or if an edge is open: no edges of other polygons run back along
-    /// that edge. The error names the edge's polygon, and [`open_edges`](Self::open_edges) returns all open
-    /// edges.
+    /// - The tree is the tree of a cell of a [`partition`](crate::partition).
+    /// - A body is not closed: it has an [open edge](Self::open_edges). The error names the edge's polygon.
     pub fn winding_number(&self, point: impl Into<DVec3>) -> Result<Option<i32>, Error> {
         let point = point.into();
         if self.is_of_cell() {
@@ -71,8 +71,9 @@ impl BspTree {
     }
 
     /// Returns the open edges of bodies, in the order of polygons: the index of the polygon, and the number
-    /// of the corner where the edge begins. An edge is open unless one edge or several consecutive edges run
-    /// back along the whole edge. The first call takes O(n log n) time and stores the result.
+    /// of the corner where the edge begins. An edge is *open* if, along some part of the edge, more edges of
+    /// polygons run in its direction than in the opposite direction. In a closed body, no edge is open. The
+    /// first call takes O(n log n) time and stores the result.
     pub fn open_edges(&self) -> impl ExactSizeIterator<Item = (usize, usize)> {
         self.open_edges_of_faces().iter().map(|&[face, k]| {
             (self.faces.polygon(face), self.faces.corner_number(face, k) as usize)

@@ -22,28 +22,30 @@ const LEAST_ANGLE: f64 = 1e-3;
 const FLAT: f64 = 1e-9;
 
 impl Camera {
-    /// Creates the camera of a view-projection matrix, from the world to clip coordinates with x to the right
-    /// and y upwards. A point with the clip coordinates (x, y, z, w) appears at ((½ + ½ x/w) · width, (½ − ½
-    /// y/w) · height).
+    /// Creates the camera of a view-projection matrix. The matrix maps world coordinates to clip coordinates,
+    /// in which x points right and y points up. A point with the clip coordinates (x, y, z, w) appears in the
+    /// picture at ((½ + ½ x/w) · width, (½ − ½ y/w) · height).
     ///
     /// Every matrix of a perspective or parallel projection has a camera: off-axis frusta, pixels that are
     /// not square, axes of different scales, sheared axes. The rows of x, y and w determine the camera:
     ///
     /// | w | the camera |
     /// |---|---|
-    /// | changes from point to point | perspective: x, y and w are 0 at the eye; w is positive ahead of the eye |
-    /// | is one positive number | parallel: it looks along the direction in which x and y do not change |
+    /// | changes from point to point | is a perspective camera: x, y and w are 0 at the eye, and w is positive ahead of the eye |
+    /// | is the same positive number at all points | is a parallel camera: it looks along the direction in which x and y do not change |
     ///
-    /// The row of z, the depth, may have any finite numbers, and may depend on the other rows. There is no
-    /// near and no far plane. Only a parallel matrix needs the depth. In a parallel matrix, the depth must
-    /// increase away from the viewer, as in OpenGL, Vulkan, Direct3D, Metal and WebGPU, or be constant along
-    /// the rays. If depths are reversed ("reversed z"), negate the row of z:
-    /// `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
+    /// The row of z, the depth, may have any finite numbers. There is no near and no far plane. For a
+    /// perspective matrix, the depth is ignored. For a parallel matrix, the depth decides in which direction
+    /// the camera looks: it must increase away from the viewer, as in OpenGL, Vulkan, Direct3D, Metal and
+    /// WebGPU, or be constant along the direction of view. If depths are reversed ("reversed z"), negate the
+    /// row of z: `DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)) * matrix`.
     ///
-    /// Mirrored pictures are rejected. In a mirrored picture, the directions right, up and towards the viewer
-    /// form a left-handed frame, as in plots with one inverted axis. Negate the first row, and mirror the
-    /// drawing: x becomes width − x. If y points down, as in Vulkan, negate the second row instead, and do
-    /// not mirror the drawing.
+    /// Mirrored pictures are an error. In a mirrored picture, the directions right, up and towards the viewer
+    /// are left-handed. This has two common causes:
+    ///
+    /// - y points down, as in Vulkan: negate the second row of the matrix.
+    /// - One axis is inverted, as in some plots: negate the first row, and mirror the drawing (x becomes
+    ///   width − x).
     ///
     /// ```
     /// use binspace::glam::{DVec3, dcamera::rh};
@@ -67,10 +69,14 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite; if the rows determine neither an eye nor a direction; if w is positive
-    /// nowhere, so that nothing is ahead; if the picture is mirrored; if the sides of a pixel, or the picture
-    /// and the line of sight to its middle, form an angle of less than 0.001 radians; or if the size is zero
-    /// or beyond the limits.
+    /// - A number is not finite.
+    /// - The rows determine neither an eye nor a direction.
+    /// - w is positive nowhere, so that nothing is ahead of the camera.
+    /// - The picture is mirrored.
+    /// - The angle between two sides of a pixel is less than 0.001 radians.
+    /// - The angle between the picture's plane and the line of sight to the picture's middle is less than
+    ///   0.001 radians.
+    /// - The size is zero, or beyond [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
     pub fn from_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, Error> {
         let size = checked(size)?;
         if !matrix.is_finite() {
@@ -132,11 +138,13 @@ impl Camera {
         Ok(Self { projection, right, up, forward, middle, aspect, size })
     }
 
-    /// Returns the view-projection matrix, from the world to clip coordinates. In clip coordinates, x points
-    /// right, y points upwards, and depths are from 0 at the distance `near` to 1 at `far`, as in WebGPU,
-    /// Vulkan (except for y), Metal and Direct3D. Distances are measured along [`forward`](Self::forward)
-    /// from the eye, or from the centre of a parallel camera. Distances of a parallel camera may be negative.
-    /// The two distances must be finite and different.
+    /// Returns the view-projection matrix, which maps world coordinates to clip coordinates. In clip
+    /// coordinates, x points right, and y points up. The depth is 0 at the distance `near` and 1 at the
+    /// distance `far`. These are the conventions of WebGPU, Metal and Direct3D; Vulkan differs only in y.
+    ///
+    /// Distances are measured along [`forward`](Self::forward): from the eye of a perspective camera, or from
+    /// the centre of a parallel camera. Distances of a parallel camera may be negative. The two distances
+    /// must be finite and different.
     ///
     /// ```
     /// use binspace::glam::DVec3;

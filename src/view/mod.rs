@@ -49,8 +49,8 @@ pub enum Projection {
     Perspective {
         /// The eye.
         eye: DVec3,
-        /// Half the picture's height at distance 1 from the eye: the tangent of half the vertical field of
-        /// view, unless the camera is off-axis.
+        /// Half the picture's height at distance 1 from the eye. Unless the camera is off-axis, this is the
+        /// tangent of half the vertical field of view.
         half_height: f64,
     },
     /// A parallel projection along a direction.
@@ -75,8 +75,9 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite, the eye is at the target, `up` is along the view, the field of
-    /// view is not between 0 and π, or the size is zero or beyond the limits.
+    /// If a number is not finite, the eye is at the target, `up` is parallel to the line from the eye to the
+    /// target, the field of view is not between 0 and π, or the size is zero or beyond
+    /// [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
     pub fn perspective(
         eye: DVec3,
         target: DVec3,
@@ -94,8 +95,9 @@ impl Camera {
         Self::perspective_by_slope(eye, target, up, half_height, size)
     }
 
-    /// Creates a perspective camera, given the tangent of half the vertical field of view. Unlike an angle, a
-    /// tangent need not be converted, so the camera has the same bits on every machine.
+    /// Creates a perspective camera, like [`perspective`](Self::perspective), but given the tangent of half
+    /// the vertical field of view. No trigonometric function is needed, so the camera has the same bits on
+    /// every machine.
     ///
     /// # Errors
     ///
@@ -118,7 +120,8 @@ impl Camera {
     /// # Errors
     ///
     /// If a number is not finite, `direction` is zero, `up` is parallel to `direction`, `height` is not
-    /// positive, or the size is zero or beyond the limits.
+    /// positive, or the size is zero or beyond [`MAX_SIDE`](Self::MAX_SIDE) or
+    /// [`MAX_PIXELS`](Self::MAX_PIXELS).
     pub fn parallel(
         direction: DVec3,
         up: DVec3,
@@ -195,7 +198,7 @@ impl Camera {
     }
 
     /// Returns the unit vector upwards in the picture: from a pixel to the pixel above it. The vector is
-    /// perpendicular to [`right`](Self::right) unless the camera is made from a matrix that skews.
+    /// perpendicular to [`right`](Self::right), unless the camera was made from a matrix with skewed pixels.
     pub fn up(&self) -> DVec3 {
         self.up
     }
@@ -207,8 +210,9 @@ impl Camera {
         self.forward
     }
 
-    /// Returns the width and the height of a pixel: at distance 1 from the eye, or, for a parallel camera, at
-    /// any distance. Width and height are equal unless the camera is made from a matrix.
+    /// Returns the width and the height of a pixel, as lengths in the world. For a perspective camera, they
+    /// are the lengths at distance 1 from the eye. Width and height are equal, unless the camera was made
+    /// from a matrix.
     pub fn pixel_size(&self) -> [f64; 2] {
         let span = match self.projection {
             Projection::Perspective { half_height, .. } => 2.0 * half_height,
@@ -259,8 +263,9 @@ impl Camera {
         duals.map(|dual| dual - forward * dual.dot(middle))
     }
 
-    /// Returns the homogeneous picture coordinates of a point: (x·w, y·w, w) for the pixel position (x, y),
-    /// where w is the distance in front of the eye's plane, or 1 for a parallel camera.
+    /// Returns the homogeneous picture coordinates of a point: (x·w, y·w, w), where (x, y) is the point's
+    /// position in the picture, in pixels. For a perspective camera, w is the point's distance from the eye
+    /// along [`forward`](Self::forward). For a parallel camera, w is 1.
     pub fn homogeneous(&self, point: DVec3) -> DVec3 {
         let arm = point - self.origin();
         let w = if self.eye().is_some() { arm.dot(self.forward) } else { 1.0 };
@@ -282,11 +287,12 @@ impl Camera {
         seen.then_some(position)
     }
 
-    /// Returns the region that the picture shows, up to its borders. On each side, the region is half a pixel
-    /// wider than the rays through the pixels' centres. Half a pixel is more than the rounding of the camera,
-    /// unless a pixel is smaller than 2⁻³⁰ of the pixel's distance (for a parallel camera, of the scene).
+    /// Returns the region that the picture shows, up to the picture's borders. There is no near and no far
+    /// plane; a perspective camera sees everything ahead of its eye.
     ///
-    /// There is no near and no far plane; a perspective camera sees everything ahead of its eye.
+    /// The borders are half a pixel outside the centres of the outermost pixels. So, although the camera's
+    /// numbers are rounded, the region contains the rays through all pixels' centres. (Exception: a pixel is
+    /// smaller than 2⁻³⁰ of its distance or, for a parallel camera, of the scene.)
     pub fn frustum(&self) -> Frustum {
         let ([half_width, half_height], [x, y]) = (self.half_size(), self.rows());
         let (origin, ahead) = (self.origin(), self.forward);
@@ -307,10 +313,10 @@ impl Camera {
         }
     }
 
-    /// Returns the part of a convex polygon that the picture shows, in pixels; empty if no part is in the
-    /// picture.
+    /// Clips a convex polygon to the picture. Returns the corners of the visible part, in pixels. The list is
+    /// empty if no part of the polygon is in the picture.
     ///
-    /// Polygons that share an edge also share the ends of the clipped edge, up to rounding.
+    /// If two polygons share an edge, the ends of the clipped edge are the same for both, up to rounding.
     pub fn clip(&self, polygon: &[DVec3]) -> Vec<[f64; 2]> {
         let mut here: Vec<DVec3> = polygon.iter().map(|&point| self.homogeneous(point)).collect();
         let furthest = here.iter().fold(0.0f64, |max, vertex| max.max(vertex.z));
