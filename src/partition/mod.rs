@@ -16,10 +16,12 @@ use crate::viewpoint::Viewpoint;
 
 /// A scene divided into cells: a k-d tree of planes perpendicular to the axes, whose leaves are the cells.
 ///
-/// Use a partition for scenes too large for one tree, or for one machine. Each cell has a separate tree of
-/// the polygons' parts in the cell. The tree can be built anywhere and at any time. Concatenate the orders of
-/// the trees in the [order](Self::back_to_front) of the cells for a viewpoint: the result is an order of the
-/// whole scene, as exact as the order of one tree.
+/// Use a partition for scenes too large for one tree, or for one machine. Each cell has a separate tree,
+/// which contains the parts of polygons inside the cell. The trees can be built on different machines and at
+/// different times.
+///
+/// To order the whole scene for a viewpoint, read the cells in their [order](Self::back_to_front), and for
+/// each cell the order of its tree. This order is as exact as the order of one tree.
 ///
 /// ```
 /// use binspace::partition::Extent;
@@ -55,36 +57,41 @@ use crate::viewpoint::Viewpoint;
 ///
 /// # Cells
 ///
-/// The planes of a cell cut polygons first, exactly, like the planes of a tree. The cells on both sides of a
-/// plane have bit for bit the same vertices on the plane. Two faces on one side that share an edge also have
-/// the same vertices on the plane, if both faces are cut and the tolerance moved no corner of either face.
-/// (As in one tree, further cuts end in T-junctions.) Each point of each polygon is in one cell: points in a
-/// plane between two cells, or within the tolerance of that plane, belong to the cell on the side of larger
-/// coordinates.
+/// Each point of each polygon is in one cell. Points in a plane between two cells, or within the tolerance of
+/// that plane, belong to the cell on the side of larger coordinates.
 ///
-/// All cells have the same grid and tolerance, so a polygon is prepared in the same way for each cell: a
-/// polygon that is triangulated or flattened in one cell is triangulated or flattened in all cells.
+/// The planes between cells cut polygons exactly, like the planes of a tree. If such a plane cuts a polygon,
+/// the parts of the polygon on both sides have bit for bit the same vertices on the plane. If the plane cuts
+/// two polygons through a common edge, both polygons have the same vertex there, unless the tolerance moved a
+/// corner of one of them. As in one tree, the cuts inside cells can end in
+/// [T-junctions](crate::BspTree#t-junctions).
+///
+/// All cells have the same [grid](crate::BspTree::grid) and tolerance. So a polygon that is triangulated or
+/// flattened (made planar within the tolerance) in one cell is triangulated or flattened in all cells.
 ///
 /// # Tolerance
 ///
 /// All cells have one tolerance, a length: the tolerance of the [options](crate::BuildOptions::partition)
-/// with which the partition was made. By default it depends on the extent and the precision of all polygons,
-/// as in one tree of the scene. The options with which a cell is built do not affect this tolerance. Across
-/// the planes between cells, orders are right up to the tolerance, as across the planes of a tree. Polygons
-/// that are closer to one another than the tolerance, and not coplanar, may be exchanged, as in another tree
-/// of the scene.
+/// with which the partition was made. By default the tolerance depends on the extent and the precision of all
+/// polygons, as in one tree of the scene. The options with which a cell is built do not affect the tolerance.
+///
+/// The order is right up to the tolerance, as in [one tree](crate::BspTree#exactness). Two polygons that are
+/// closer to each other than the tolerance, and not coplanar, can have another order than in one tree of the
+/// scene.
 ///
 /// # Trees of cells
 ///
 /// The tree of a cell returns orders, fragments, meshes, boxes and hits of the polygons' parts in the cell.
-/// Such a tree cannot be used where whole polygons are needed. A `drawing` of the tree is an error. The depth
-/// buffer of `raster`, and so `verify`, cannot be used either. The tree's
-/// [`dropped`](crate::BspTree::dropped) polygons include polygons outside the cell. The other counts of the
-/// tree's [preparation](crate::BspTree::preparation) include all polygons passed to the build;
-/// [`preparation`](Self::preparation) counts each polygon once for all cells.
-/// [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell. An
-/// [`Overlay`](crate::overlay::Overlay) of such a tree does not cut polygons to the cell. A polygon that you
-/// add to the overlays of several cells is in each of these overlays.
+/// It differs from other trees in these respects:
+///
+/// - Winding numbers, drawings, and the depth buffers of `raster` and `verify` need whole polygons. They do
+///   not work with the tree of a cell.
+/// - The [`dropped`](crate::BspTree::dropped) polygons include the polygons outside the cell.
+/// - The other counts of the tree's [preparation](crate::BspTree::preparation) include all polygons passed to
+///   the build of the cell. To count each polygon of the scene once, use [`preparation`](Self::preparation).
+/// - [`BspTree::extend`](crate::BspTree::extend) cuts added polygons to the cell.
+/// - An [`Overlay`](crate::overlay::Overlay) does not cut its polygons to the cell. If you add a polygon to
+///   the overlays of several cells, the whole polygon is in each of these overlays.
 ///
 /// With the feature `save`, `Partition::write` and `Partition::read` store a partition, for instance to
 /// send it to other machines.
@@ -178,8 +185,9 @@ impl Partition {
         found
     }
 
-    /// Returns the numbers of all cells, furthest first: no cell hides a later cell. O(cells). An eye on a
-    /// plane between two cells may be treated as lying on either side of that plane, as in a tree.
+    /// Returns the numbers of all cells, furthest first: no cell hides a later cell. An eye on a plane
+    /// between two cells may be treated as lying on either side of that plane, as in a tree. Takes O(cells)
+    /// time.
     pub fn back_to_front(&self, viewpoint: Viewpoint) -> Vec<usize> {
         let eye = Eye::new(viewpoint, &self.lattice);
         let mut order = Vec::with_capacity(self.cells());
@@ -209,12 +217,13 @@ impl Partition {
     /// Replaces `cells` by the cells that a polygon may reach, in ascending order.
     /// [`build_cell`](crate::BuildOptions::build_cell) needs only the polygons that reach the cell to build.
     ///
-    /// The test is conservative: a cell is listed if its box meets both the polygon's box, widened by the
-    /// tolerance, and a thin layer around the polygon. So a few listed cells may contain no part of the
-    /// polygon, which does no harm. A polygon with a corner that is NaN or beyond the partition's grid
-    /// reaches all cells, and building any of these cells returns an error.
+    /// The test is conservative: a cell is listed if its box meets the polygon's box, enlarged by the
+    /// tolerance, and also meets a thin layer around the polygon's plane. So a few listed cells may contain
+    /// no part of the polygon, which does no harm. If a corner of the polygon is NaN or outside the
+    /// partition's grid, all cells are listed, and building any of these cells with the polygon returns an
+    /// error.
     ///
-    /// O(corners + cells reached · log cells).
+    /// Takes O(corners + cells reached · log cells) time.
     pub fn reached_by(&self, polygon: &(impl Polygon + ?Sized), cells: &mut Vec<usize>) {
         cells.clear();
         let corners: SmallVec<[[f64; 3]; 8]> =
@@ -262,10 +271,11 @@ impl Partition {
     }
 }
 
-/// The bounding box and the precision of a scene: the data that must be the same for all builders of cells.
+/// The bounding box and the precision of a scene. All processes that build cells of a partition must use the
+/// same extent.
 ///
-/// Each builder may compute the extent of its own polygons; [`merge`](Self::merge) combines the results, in
-/// any order.
+/// Each process may compute the extent of a part of the polygons. [`merge`](Self::merge) combines the
+/// results, in any order.
 ///
 /// ```
 /// use binspace::partition::Extent;

@@ -29,9 +29,9 @@ impl Partition {
     /// | planes | list of `u32` and `i64` | the axis (0, 1, 2 for x, y, z) and the coordinate on the grid |
     /// | checksum | | as in the file of a tree |
     ///
-    /// There is one plane less than there are cells. Planes are listed depth first, and the planes behind a
-    /// plane precede the planes in front of it. Of n cells that a plane divides, n / 2 (rounded down) are
-    /// behind it.
+    /// There is one plane less than there are cells. The planes form a binary tree, and are listed depth
+    /// first: each plane is followed by the planes behind it, then by the planes in front of it. Of n cells
+    /// that a plane divides, n / 2 (rounded down) are behind the plane.
     ///
     /// # Errors
     ///
@@ -50,13 +50,15 @@ impl Partition {
     /// Reads a partition that [`write`](Self::write) has written. Reads only the partition's bytes, so other
     /// data may follow.
     ///
-    /// Any file is safe to read, and memory grows with the bytes read. Even for a forged file, each point of
-    /// a polygon is in exactly one cell, but forged planes can put all points into one cell.
+    /// Any file is safe to read, and memory grows only with the bytes read. Even with a forged file, each
+    /// point of a polygon is in exactly one cell. But forged planes can put all points into one cell.
     ///
     /// # Errors
     ///
-    /// If the data cannot be read; if they are not a partition, have another version, are truncated or
-    /// damaged, or contain an invalid plane, grid or tolerance; or if memory runs out.
+    /// - The data cannot be read.
+    /// - The data are not a partition, have another version, or are truncated or damaged.
+    /// - A plane, the grid or the tolerance is invalid.
+    /// - Memory runs out.
     pub fn read(input: impl Read) -> Result<Self, Error> {
         let mut file = Reader::new(input, KIND)?;
         let lattice = Lattice::read(&mut file)?;

@@ -12,8 +12,8 @@ use crate::tree::{BspTree, Fragment};
 use crate::view::Camera;
 use crate::viewpoint::Viewpoint;
 
-/// The result of verifying a tree from one camera: the picture painted in the tree's order, the true picture,
-/// and the differences between the two pictures.
+/// The result of [`verify`]: the picture painted in the tree's order, the true picture of a depth buffer, and
+/// the differences between the two pictures.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
@@ -25,11 +25,11 @@ pub struct Verification {
     pub truth: DepthImage,
     /// The differences between `painted` and `truth`.
     pub comparison: Comparison,
-    /// The differences between `truth` and the picture painted front to back, in which each fragment is
-    /// painted only on empty pixels.
+    /// The differences between `truth` and a picture painted front to back. In that picture, each fragment is
+    /// painted only on pixels that are still empty.
     pub front_to_back: Comparison,
-    /// The number of pixels in which at least one of the covering faces, visible or hidden, is not painted
-    /// exactly once. Such faults would be visible in transparent faces.
+    /// The number of pixels in which a face that covers the pixel is not painted exactly once, even if the
+    /// face is hidden. Such an error would be visible if the faces were transparent.
     pub miscounted: usize,
     /// An error if an order does not list every fragment once, or is not the same in all forms.
     pub orders: Result<(), String>,
@@ -44,17 +44,22 @@ impl Verification {
 }
 
 /// Paints a tree's fragments back to front and front to back, and compares both pictures with a depth
-/// buffer's picture, pixel by pixel. Also compares the orders that the tree returns as lists, by iterators
-/// and by visitors.
+/// buffer's picture, pixel by pixel. Also checks that the tree's list and iterator have the same order.
 ///
-/// The result [is right](Verification::is_right) for every scene and camera. Pixels that differ only as far
-/// as the tolerance allows count as contested. In such a pixel, one of the two fragments reaches across the
-/// tree's plane between them. The ray meets the nearer fragment within the tolerance of that plane. The ray
-/// also meets the other fragment, or begins, within the tolerance of that plane. With a tolerance of 0 only
-/// ties are contested: fragments at exactly the same distance.
+/// If the library has no error, the result [is right](Verification::is_right) for every scene and camera. A
+/// pixel may differ, but only if it is *contested*: the tolerance τ allows either order of the painted
+/// fragment and the true fragment. A pixel is contested in two cases:
 ///
-/// This rule is stricter than [`compare`](crate::raster::compare), which uses only the polygons: layers up to
-/// twice the tolerance apart are not contested if a plane of the tree separates them exactly.
+/// - The ray of the pixel meets both fragments at exactly the same distance.
+/// - One of the two fragments reaches across the partition plane between them. The ray meets the nearer
+///   fragment within τ of that plane. Also within τ of that plane, the ray begins or meets the other
+///   fragment.
+///
+/// With a tolerance of 0, only the first case is contested.
+///
+/// This rule is stricter than [`compare`](crate::raster::compare), which does not use the partition planes.
+/// For example, `compare` contests two layers less than 2 τ apart. `verify` does not contest them if a
+/// partition plane separates them exactly.
 ///
 /// ```
 /// use binspace::verify::verify;
@@ -77,8 +82,8 @@ pub fn verify(tree: &BspTree, camera: &Camera) -> Result<Verification, Error> {
     Ok(judge(tree, rays, Orders::of(tree, camera.viewpoint())))
 }
 
-/// Verifies a tree like [`verify`], without the backs of faces: backs are not painted, and hide no other
-/// faces. Use this function for rooms seen from outside.
+/// Verifies a tree like [`verify`], but ignores faces seen from the back: such faces are not painted, and
+/// hide no other faces. Use this function for rooms seen from outside.
 ///
 /// # Errors
 ///
@@ -148,11 +153,10 @@ const FORMS: [&str; 4] = ["write_into", "order", "front_to_back", "front_to_back
 /// The first form of front-to-back orders.
 const FIRST_NEAR: usize = 2;
 
-/// Checks that the orders of a viewpoint list every fragment once, are the same as a list and as an
-/// iterator, and that front to back is the reverse of back to front.
+/// Checks that the order of a viewpoint contains every fragment once, that the list and the iterator have
+/// the same order, and that front to back is the reverse of back to front.
 ///
-/// Compares the orders only with each other; [`verify`] also compares the pictures of these orders with a
-/// depth buffer's picture.
+/// This function does not check that the order is right: [`verify`] does, by a picture of the order.
 ///
 /// # Errors
 ///
