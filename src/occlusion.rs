@@ -8,12 +8,13 @@ use crate::paint::Pieces;
 use crate::raster::{Rays, Window, for_each_run};
 use crate::tree::{BspTree, Fragment};
 
-/// The pixels covered so far on a front-to-back walk, for occlusion culling.
+/// A mask of the pixels that fragments cover, for occlusion culling in a front-to-back
+/// [walk](crate::Order::walk).
 ///
-/// Call [`cover`](Self::cover) with each visited fragment, and skip each subtree whose box the mask
-/// [`hides`](Self::hides): no fragment of that subtree is visible in a pixel of the picture. The test is
-/// conservative: it never hides a visible fragment, but a subtree may be visited although all its fragments
-/// are hidden.
+/// Call [`cover`](Self::cover) with each visited fragment. Skip each subtree whose box the mask
+/// [`hides`](Self::hides), because none of the subtree's fragments is visible. The test is conservative:
+/// `hides` never hides a visible fragment, but may return false although all fragments of the subtree are
+/// hidden.
 ///
 /// The mask may be coarser than the picture: a cell of the mask can be several pixels wide and high. A cell
 /// is covered only if one fragment covers all pixels of the cell. A coarse mask is smaller and faster, but
@@ -72,7 +73,7 @@ impl<'t> CoverageMask<'t> {
     ///
     /// # Panics
     ///
-    /// If the rays were made for another grid.
+    /// If the rays were made for a tree with another [grid](BspTree::grid).
     pub fn new(tree: &'t BspTree, rays: &Rays, cell: u32) -> Self {
         rays.expect(tree.faces());
         let cell = cell.max(1);
@@ -120,7 +121,7 @@ impl<'t> CoverageMask<'t> {
     ///
     /// # Panics
     ///
-    /// If the fragment belongs to a tree with another grid.
+    /// If the fragment belongs to a tree with another [grid](BspTree::grid).
     pub fn cover(&mut self, fragment: &Fragment<'_>) -> bool {
         // The fragment's own faces, not the faces of the mask's tree: it may be a piece of an overlay.
         let faces = fragment.faces;

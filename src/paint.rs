@@ -13,7 +13,7 @@ use crate::viewpoint::Viewpoint;
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for a tree with another [grid](BspTree::grid).
 pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
     let mut order = Vec::new();
     tree.back_to_front_into(viewpoint, &mut order);
@@ -25,7 +25,7 @@ pub fn paint_tree(tree: &BspTree, viewpoint: Viewpoint, rays: &Rays) -> Image {
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for a tree with another [grid](BspTree::grid).
 pub fn paint_order(tree: &BspTree, order: &[u32], rays: &Rays) -> Image {
     paint_list(Painter::new(rays, tree.faces()), tree, order, None)
 }
@@ -58,7 +58,7 @@ pub(crate) fn paint_list(
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for a tree with another [grid](BspTree::grid).
 pub fn paint_tree_in_colour(
     tree: &BspTree,
     viewpoint: Viewpoint,
@@ -81,7 +81,7 @@ pub fn paint_tree_in_colour(
 ///
 /// # Panics
 ///
-/// If the rays were made for another grid.
+/// If the rays were made for a tree with another [grid](BspTree::grid).
 pub fn for_each_painted(
     tree: &BspTree,
     viewpoint: Viewpoint,

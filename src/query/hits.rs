@@ -254,9 +254,9 @@ impl<'t> Hit<'t> {
         self.facing.into()
     }
 
-    /// Returns the parameter of the hit: the hit's point is at `from + parameter * direction`. The value is
-    /// the `f64` nearest to the exact fraction, or the second nearest if both are about equally near. A value
-    /// that is too large for `f64` is infinite.
+    /// Returns the parameter of the hit: the hit's point is at `from + parameter * direction`. The result is
+    /// the `f64` nearest to the exact value, or the second nearest if both are about equally near. If the
+    /// exact value is too large for `f64`, the result is infinite.
     ///
     /// The distance of the hit from the ray's start is the parameter times the length of the ray's direction.
     /// Each call computes the parameter, in about 0.1 µs.

@@ -92,8 +92,8 @@ fn in_world(lattice: &Lattice, bounds: &Flat) -> [DVec3; 2] {
 }
 
 impl Fragment<'_> {
-    /// Returns the bounding box `[low, high]`, in the polygons' unit, rounded outwards like [`Node::bounds`].
-    /// O(vertices).
+    /// Returns the bounding box `[low, high]` of the fragment, in the polygons' unit. The box is rounded
+    /// outwards, like [`Node::bounds`]. Takes O(vertices) time.
     pub fn bounds(&self) -> [DVec3; 2] {
         in_world(self.faces.lattice(), &self.flat_bounds())
     }

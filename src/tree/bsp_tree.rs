@@ -450,7 +450,7 @@ pub struct Stats {
 }
 
 impl BspTree {
-    /// Returns statistics of the tree. O(fragments).
+    /// Returns statistics of the tree. Takes O(fragments) time.
     pub fn stats(&self) -> Stats {
         let (mut depth_max, mut depth_sum) = (0, 0);
         let (mut is_near, mut nearly_coplanar_by) = (vec![false; self.faces.len()], 0.0);
@@ -490,8 +490,8 @@ impl BspTree {
         values.fold(0.0, f64::max) / plane.normal_f64().length()
     }
 
-    /// Returns the size of the tree in bytes, including the heap. The size includes the boxes as soon as a
-    /// query has computed them.
+    /// Returns the size of the tree in bytes, including the heap. The size includes the boxes of
+    /// [`bounds`](Self::bounds), as soon as a call has computed them.
     pub fn memory_usage(&self) -> usize {
         size_of::<Self>()
             + self.faces.memory_usage()

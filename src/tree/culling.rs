@@ -44,9 +44,9 @@ impl Culling {
     /// 32 planes are used. The test is fast, but keeps some fragments outside the frustum;
     /// [`BspTree::fragments_in`] is exact, but slower.
     ///
-    /// The test enlarges each box by about 10⁻⁶ of the scene's extent plus 10⁻¹⁵ of the largest coordinate.
-    /// This margin is larger than the rounding error of the test. If the eye is the frustum's apex, the
-    /// margin is also larger than the rounding error of the apex.
+    /// The test enlarges each box by about 10⁻⁶ of the scene's extent (the longest side of its bounding box)
+    /// plus 10⁻¹⁵ of the largest coordinate. This margin is larger than the rounding error of the test. If
+    /// the frustum's planes meet in the eye, the margin is also larger than the rounding error of that point.
     #[must_use]
     pub fn with_frustum(self, frustum: Frustum) -> Self {
         Self { frustum, ..self }

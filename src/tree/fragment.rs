@@ -25,7 +25,7 @@ pub struct Fragment<'t> {
 }
 
 impl BspTree {
-    /// Returns a fragment, given its number, below [`len`](Self::len).
+    /// Returns a fragment, given its number: from 0 to [`len`](Self::len) − 1.
     ///
     /// # Panics
     ///

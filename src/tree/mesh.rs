@@ -120,8 +120,8 @@ impl BspTree {
     /// Returns a [`mesh`](Self::mesh) without T-junctions. If several polygons share an edge, and one of them
     /// has a vertex inside the edge, all of them have that vertex. So have fragments on both sides of a cut.
     ///
-    /// O(n log n) for n vertices, including the inserted vertices. (If n polygons share one edge, and each
-    /// polygon is cut at other places, about n² vertices are inserted.)
+    /// Takes O(n log n) time for n vertices, including the inserted vertices. (If m polygons share one edge,
+    /// and each polygon is cut at other places, about m² vertices are inserted.)
     ///
     /// # Errors
     ///
@@ -155,7 +155,7 @@ impl Mesh {
         self.parts.vertices.is_empty()
     }
 
-    /// Returns a vertex, given its number, below [`len`](Self::len).
+    /// Returns a vertex, given its number: from 0 to [`len`](Self::len) − 1.
     ///
     /// # Panics
     ///

@@ -119,9 +119,10 @@ impl BspTree {
     /// follow.
     ///
     /// Reading splits the faces by the stored planes again, which takes O(n · mean depth) time. Unlike
-    /// building, reading does not choose planes, so it takes a quarter to a half of the build time. The share
-    /// is nine tenths for a build that chooses planes in almost no time and splits most faces, as with
-    /// [`Heuristic::First`](crate::Heuristic::First). A `BufReader` does not make reading faster.
+    /// building, reading does not choose planes, so reading takes a quarter to a half of the build time. (If
+    /// the builder chose planes in almost no time and split most faces, as with
+    /// [`Heuristic::First`](crate::Heuristic::First), reading takes nine tenths of the build time.) `input`
+    /// need not be a `BufReader`.
     ///
     /// # Untrusted files
     ///

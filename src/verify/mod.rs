@@ -51,9 +51,9 @@ impl Verification {
 /// fragment and the true fragment. A pixel is contested in two cases:
 ///
 /// - The ray of the pixel meets both fragments at exactly the same distance.
-/// - One of the two fragments reaches across the partition plane between them. The ray meets the nearer
-///   fragment within τ of that plane. Also within τ of that plane, the ray begins or meets the other
-///   fragment.
+/// - One of the two fragments reaches across the partition plane between them, and two points of the ray are
+///   within τ of that plane: the point where the ray meets the nearer fragment, and either the ray's start or
+///   the point where the ray meets the other fragment.
 ///
 /// With a tolerance of 0, only the first case is contested.
 ///

@@ -18,7 +18,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If a number is not finite, `up` is zero, or the size is zero or beyond the limits.
+    /// If a number is not finite, `up` is zero, or the size is zero or beyond [`MAX_SIDE`](Self::MAX_SIDE) or
+    /// [`MAX_PIXELS`](Self::MAX_PIXELS).
     pub fn looking_at_all(bounds: [DVec3; 2], up: DVec3, size: [u32; 2]) -> Result<Self, Error> {
         let [up, side, ahead] = axes(up);
         let from = ahead * 0.8 + side * 0.45 + up * 0.4;
@@ -26,12 +27,13 @@ impl Camera {
     }
 }
 
-/// Creates `count` cameras, alternately around a bounding box and inside the box. The same seed creates the
-/// same cameras.
+/// Creates `count` cameras at random places: alternately a camera outside a bounding box that shows the whole
+/// box, and a camera inside the box. The same seed creates the same cameras.
 ///
 /// # Errors
 ///
-/// If a number is not finite, `up` is zero, or the size is zero or beyond the limits.
+/// If a number is not finite, `up` is zero, or the size is zero or beyond [`MAX_SIDE`](Camera::MAX_SIDE) or
+/// [`MAX_PIXELS`](Camera::MAX_PIXELS).
 pub fn views(
     bounds: [DVec3; 2],
     up: DVec3,

@@ -234,12 +234,12 @@ impl Camera {
         self.middle
     }
 
-    /// Returns the same view with a picture of another size. The visible height, the middle and the shape of
-    /// pixels do not change.
+    /// Returns a camera with the same view and a picture of another size. The visible height, the point in
+    /// the middle of the picture and the shape of pixels do not change.
     ///
     /// # Errors
     ///
-    /// If the size is zero or beyond the limits.
+    /// If the size is zero, or beyond [`MAX_SIDE`](Self::MAX_SIDE) or [`MAX_PIXELS`](Self::MAX_PIXELS).
     pub fn with_size(&self, size: [u32; 2]) -> Result<Self, Error> {
         Ok(Self { size: checked(size)?, ..*self })
     }
