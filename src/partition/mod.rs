@@ -142,8 +142,8 @@ impl Partition {
         self.lattice.length_to_world(self.tolerance)
     }
 
-    /// Returns the lower and the upper corner of a cell, in the polygons' unit and rounded outwards. The
-    /// coordinate of a side without a plane is infinite.
+    /// Returns the lower and the upper corner of a cell, in the polygons' unit and rounded outwards. If
+    /// no plane bounds the cell on a side, the coordinate of that side is infinite.
     ///
     /// # Panics
     ///
