@@ -44,9 +44,9 @@ impl BspTree {
     /// call takes time proportional to the number of fragments whose bounding boxes meet a ray from the point
     /// in the direction of +z.
     ///
-    /// The winding number is the signed number of polygons that this ray crosses. If the ray meets an edge,
-    /// the ray is moved by an infinitesimal step (H. Edelsbrunner and E. Mücke, "Simulation of simplicity",
-    /// 1990).
+    /// The winding number is the signed number of crossings of this ray and the polygons. If the ray meets an
+    /// edge, the ray is moved by an infinitesimal step (H. Edelsbrunner and E. Mücke, "Simulation of
+    /// simplicity", 1990).
     ///
     /// # Errors
     ///
