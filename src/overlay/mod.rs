@@ -160,10 +160,9 @@ use crate::viewpoint::Ray;
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
 /// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
 ///
-/// If the bounding box of many consecutive polygons lies on one side of a plane, all these polygons are moved
-/// to that side at once. So pass the polygons of a body consecutively: then the body reaches its leaf in
-/// little time. Each `replace` builds the small tree of the body again, which takes milliseconds for a body
-/// of thousands of polygons.
+/// A body of many polygons passes down the tree in little time: if its bounding box lies on one side of a
+/// plane, all polygons move to that side at once. Each `replace` builds the small tree of the body again,
+/// which takes milliseconds for a body of thousands of polygons.
 ///
 /// All coordinates are rounded to the tree's [grid](BspTree#exactness). The grid is a cube around the middle
 /// of the tree's bounding box, with sides at least as long as the longest side of the box. A shape that

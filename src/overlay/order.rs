@@ -223,12 +223,12 @@ impl Overlay {
         Ok(OverlayOrder { overlay: self, order: tree.order(viewpoint) })
     }
 
-    /// Returns whether two viewpoints have the same order of fragments and pieces, as [`BspTree::same_order`]
-    /// does for a tree. The answer is `true` if no plane that determines the order lies between the two
-    /// viewpoints. It holds until the next [`replace`](Self::replace).
+    /// Returns whether no plane that determines the order lies between two viewpoints. If so, both viewpoints
+    /// have the same order of fragments and pieces, until the next [`replace`](Self::replace).
+    /// [`BspTree::same_order`] states the rules.
     ///
-    /// [Culled](OverlayOrder::culled) orders may differ even if the answer is `true`: write them again
-    /// whenever the camera moves.
+    /// [Culled](OverlayOrder::culled) orders may differ even then: write a culled order again whenever the
+    /// camera moves.
     ///
     /// Takes O(p) for p planes of the tree and of the overlay, and stops at the first plane between the two
     /// viewpoints.
