@@ -56,9 +56,9 @@ impl VisibilityMap<'_> {
     ///
     /// A point of a crossing is visible if one polygon is visible on one side of the line at the point, and
     /// the other polygon is visible on the other side. Crossings are as exact as the map: only the ends of
-    /// runs are rounded. A polygon that meets an edge between two triangles of a triangulated polygon crosses
-    /// that polygon if it lies between the two triangles. A corner no further from a polygon's plane than the
-    /// tolerance is treated as on the plane.
+    /// runs are rounded. At the common edge of two triangles of a triangulated polygon, another polygon
+    /// crosses the triangulated polygon if the other polygon lies between the two triangles. A corner no
+    /// further from a polygon's plane than the tolerance is treated as on the plane.
     ///
     /// With [`Hidden::Keep`] and [`Hidden::Count`], hidden runs are returned too, but only for some pairs of
     /// polygons. Each polygon of such a pair has corners on both sides of the other polygon's plane, further

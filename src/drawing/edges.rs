@@ -20,9 +20,9 @@ impl VisibilityMap<'_> {
     /// then by edge, then from the start of the edge to its end.
     ///
     /// Visibility is as exact as the map: only the ends of runs are rounded. The polygons that have an edge
-    /// do not hide the edge, except that another part of a polygon that is not planar may hide it. Two
-    /// polygons share an edge if the edge has the same two corners in both polygons. A shared edge is
-    /// returned once.
+    /// do not hide the edge. Exception: if such a polygon is not planar, another part of the polygon may hide
+    /// the edge. Two polygons share an edge if the edge has the same two corners in both polygons. A shared
+    /// edge is returned once.
     ///
     /// These edges are left out:
     ///
@@ -318,8 +318,8 @@ pub struct EdgeRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
-    /// number is 0 for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of a hidden run, including translucent polygons; 0 for a visible run.
+    /// `None` unless the polygons were [counted](Hidden::Count).
     pub layers: Option<u32>,
 }
 

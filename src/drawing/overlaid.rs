@@ -30,8 +30,8 @@ pub struct LineRun {
     pub ends: [[f64; 2]; 2],
     /// Whether the run is visible.
     pub is_visible: bool,
-    /// The number of polygons in front of the run; `None` unless layers were [counted](Hidden::Count). The
-    /// number is 0 for a visible run: translucent polygons in front do not count.
+    /// The number of polygons in front of a hidden run, including translucent polygons; 0 for a visible run.
+    /// `None` unless the polygons were [counted](Hidden::Count).
     pub layers: Option<u32>,
 }
 

@@ -61,7 +61,7 @@ impl AsRef<[[f64; 2]]> for Polyline {
 /// are equal after rounding to a thousandth of a pixel. (So two ends that are closer together than that may
 /// stay separate.) Segments with an infinite or NaN coordinate are left out.
 ///
-/// The pen begins at (0, 0).  The next line is always the line that has the end nearest to the pen. Takes
+/// The pen begins at (0, 0). The next line is always the line that has the end nearest to the pen. Takes
 /// O(n log n) for n segments, unless ends are spread very unevenly.
 ///
 /// # Errors

@@ -354,9 +354,9 @@ impl VectorPicture {
     /// Groups the shapes that `add` adds, and sets attributes of the group in an SVG. The attributes may be
     /// `class`, `id`, and names that begin with `data-`.
     ///
-    /// If a group has one shape, the shape itself has the attributes. Values may be any text. Attributes are
-    /// left out if their name is repeated, is any other name, or has characters other than small letters,
-    /// digits and hyphens. A PDF has no groups.
+    /// If a group has one shape, the shape itself has the attributes. Values may be any text. Attributes with
+    /// other names are left out, and so are attributes whose names have characters other than small letters,
+    /// digits and hyphens. If a name is repeated, only its first attribute is written. A PDF has no groups.
     ///
     /// ```
     /// use binspace::drawing::VectorPicture;

@@ -93,16 +93,16 @@
 //!
 //! | layer | result |
 //! |---|---|
-//! | has a number that is NaN or infinite, or a product of two numbers is | an error that names the layer |
+//! | has a number that is NaN, infinite, or so large that a product with another of its numbers is infinite | an error that names the layer |
 //! | outside the box: behind the eye, beside the viewport, or at a depth beyond R, such as 10¹⁸ pixels | no piece |
-//! | any, if the viewport has no area | no piece |
+//! | any layer, if the viewport has no area | no piece |
 //! | a rectangle without area, or with low and high exchanged | no piece |
 //! | outside an ancestor that [clips](Layer::clipped_by) the layer, or clipped by an ancestor whose matrix maps the ancestor to a line or a point | no piece |
 //! | mapped by its matrix to a line or a point | no piece |
 //! | seen edge-on within the rounding of the matrix; also a rectangle so far from its own origin that this rounding is as large as the area on the screen | no piece |
-//! | numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
+//! | has numbers so small that `f64` has fewer digits for them: w below 2·10⁻³⁰⁸ (for example a matrix times 10⁻³¹⁰), or a product of the rectangle's sides below 2·10⁻³⁰⁸ (for example 10⁻¹⁷⁰ by 10⁻¹⁷⁰) | no piece |
 //! | smaller on the screen than 2⁻⁵² of the extent of all layers, to which positions are rounded | no piece |
-//! | any other | a convex polygon of at most ten corners, plus four for each ancestor that clips it; in one piece, or in several pieces if other layers cut it |
+//! | any other layer | a convex polygon of at most ten corners, plus four for each ancestor that clips it; in one piece, or in several pieces if other layers cut it |
 //!
 //! Every other layer that is partly in the box has pieces. Only NaN, infinite and too large numbers are an
 //! error. A card that turns past its edge, or leaves the screen, causes no error. [`Layers::visible`] counts

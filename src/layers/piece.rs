@@ -26,8 +26,8 @@ impl<'p> LayerPiece<'p> {
         self.is_whole
     }
 
-    /// Returns the vertices of the piece. They are in the sense of the rotation from u to v, which is
-    /// clockwise on the screen if the layer is seen from its front.
+    /// Returns the vertices of the piece. They are listed in the direction of the rotation from the u axis to
+    /// the v axis. This direction is clockwise on the screen if the layer is seen from its front.
     ///
     /// Pieces of one layer that share a vertex have bit for bit the same position of the vertex. The place
     /// (u, v) of a vertex that a cut made is interpolated with correct perspective.
@@ -48,12 +48,12 @@ impl<'p> LayerPiece<'p> {
     ///
     /// | number | edge |
     /// |---|---|
-    /// | 0 | of the layer's rectangle, from the low corner along u |
+    /// | 0 | the edge of the layer's rectangle from the low corner along u |
     /// | 1 | the next edge, along v |
     /// | 2, 3 | the two edges back to the low corner |
     /// | 4 to 7 | the four edges of the first ancestor added by [`clipped_by`](Layer::clipped_by), in the same order |
     /// | 8 to 255 | four edges for each further ancestor, up to the 63rd |
-    /// | `None` | made by a cut, by the viewport, or by an ancestor after the 63rd |
+    /// | `None` | an edge made by a cut, by the viewport, or by an ancestor after the 63rd |
     pub fn edges(&self) -> impl ExactSizeIterator<Item = Option<u8>> + use<'p> {
         let outline = self.outline;
         self.fragment.edges().map(move |edge| outline[edge? as usize].edge)
@@ -210,7 +210,7 @@ impl Layer {
     /// | relation of layer and ancestor | visible part of the layer |
     /// |---|---|
     /// | they have the same matrix | the intersection of both outlines, exact |
-    /// | they lie in one plane, as in CSS, which flattens the content of such an ancestor | the intersection of both outlines, rounded to `f64` |
+    /// | they lie in one plane, but have different matrices (CSS flattens the content of such an ancestor into its plane) | the intersection of both outlines, rounded to `f64` |
     /// | they lie in different planes | the part inside the ancestor's outline on the screen |
     /// | the ancestor is seen edge-on | none |
     ///

@@ -101,11 +101,12 @@ use crate::viewpoint::Ray;
 /// consecutive corners, and planes cut the segments into pieces. Lines and points never cause a cut of a
 /// polygon. Segments without length have no pieces.
 ///
-/// | item | numbers |
-/// |---|---|
-/// | polygons of the overlay | follow the numbers of the tree's polygons |
-/// | lines, and points | each from 0, in input order |
-/// | pieces of polygons and of lines, and points, in an order | follow the numbers of the tree's fragments: the first number is the tree's [`len`](BspTree::len) |
+/// | item | method | numbers |
+/// |---|---|---|
+/// | polygon of the overlay | [`Fragment::polygon`] | follow the numbers of the tree's polygons |
+/// | line | [`Segment::line`] | from 0, in input order |
+/// | point | [`Marker::point`] | from 0, in input order |
+/// | piece of a polygon or of a line, or a point, in an order | [`Shape::index`] | follow the numbers of the tree's fragments: the first number is the tree's [`len`](BspTree::len) |
 ///
 /// All numbers are valid until the next [`replace`](Self::replace).
 ///
@@ -149,16 +150,16 @@ use crate::viewpoint::Ray;
 /// - a segment that reaches further than the tolerance on only one side of a plane counts as entirely on that
 ///   side.
 ///
-/// Orders ignore the widths of lines and the sizes of marks, which exist in the picture only. A wide line may
-/// extend over a polygon that the line itself only touches, such as one of two walls that meet at the line.
-/// That polygon may be painted over the line's border.
+/// Orders ignore the widths of lines and the sizes of markers, which exist in the picture only. A wide line
+/// may extend over a polygon that the line itself only touches, such as one of two walls that meet at the
+/// line. That polygon may be painted over the line's border.
 ///
 /// | | time |
 /// |---|---|
-/// | [`replace_with`](Self::replace_with) | O(p · depth) for p pieces, plus the build of small trees where pieces meet |
+/// | [`replace_with`](Self::replace_with) | O(p · d) for p pieces and a tree of depth d, plus the build of small trees where pieces meet |
 /// | [`order`](Self::order), written or read | the time of the tree's order, plus a copy of its list |
 /// | [`hits`](Self::hits), [`is_occluded`](Self::is_occluded) | the time of the tree's query, plus the time for the overlay's boxes that the ray crosses; the first call computes all boxes in O(n) for n fragments and pieces |
-/// | [`welded_mesh`](Self::welded_mesh) | O(n) for n corners of the tree, and O(m log m) for m vertices of pieces |
+/// | [`welded_mesh`](Self::welded_mesh) | O(n + m log m) for n corners of the tree's polygons and m vertices of the overlay's pieces |
 ///
 /// A body of many polygons passes down the tree in little time: if its bounding box lies on one side of a
 /// plane, all polygons move to that side at once. Each `replace` builds the small tree of the body again,
@@ -170,7 +171,7 @@ use crate::viewpoint::Ray;
 /// [`BuildOptions::with_bounds`](crate::BuildOptions::with_bounds).
 ///
 /// An overlay keeps a copy of the tree's polygons: 24 bytes per corner and 12 per polygon. The first
-/// `replace` makes this copy, in O(n).
+/// `replace` makes this copy, in O(n) for n corners.
 pub struct Overlay {
     /// The faces of the tree, then the faces of the overlay: planes of both are numbered together.
     faces: Faces,
