@@ -149,8 +149,8 @@ pub enum Hidden {
     /// [`EdgeRun::layers`](super::EdgeRun::layers). Hidden runs are cut where this number changes.
     ///
     /// A polygon counts once, even if it is hidden itself. Polygons that are seen edge-on do not count, and
-    /// polygons that have the edge do not count. Exception: a polygon that is not planar is triangulated, and
-    /// another of its triangles may be in front of the edge; such a polygon counts.
+    /// polygons that have the edge do not count. Exception: if a polygon is not planar, another part of the
+    /// polygon may be in front of its own edge. Then the polygon counts.
     ///
     /// The number for a hidden run is at least 1, even if the run only touches the polygon that hides the
     /// run. (Example: the edge of a shelf touches the wall that hides the edge.) Time and memory are

@@ -16,8 +16,8 @@ const CHOICES: usize = 8;
 pub struct Polyline {
     /// The points, from one end to the other. The last point of a closed line is its first.
     pub points: Vec<[f64; 2]>,
-    /// The indices, in the input, of the segments of the line, in drawing order. The line has one segment
-    /// less than points.
+    /// The indices, in the input, of the segments of the line, in drawing order. A line of n points has n − 1
+    /// segments.
     pub segments: Vec<usize>,
 }
 

@@ -26,10 +26,10 @@ impl Drawing {
     /// Files are shorter if consecutive paths share a colour, and a plotter changes its pen less often.
     /// [`VectorPicture::add_drawing`](super::VectorPicture::add_drawing) does this automatically.
     ///
-    /// The order is a greedy topological order. The next path is, among all paths that may come next, a path
-    /// with the key of the previous path. If there is no such path, the next path has the most frequent key
-    /// among all paths that may come next. Takes O(n log n + k) for n paths and k pairs of overlapping paths.
-    /// If more than about 400 n pairs of bounding boxes overlap, nothing moves.
+    /// The order is a greedy topological order. Several paths may be possible as the next path. If one of
+    /// them has the key of the previous path, it is the next path. Otherwise, the next path has the most
+    /// frequent key among the possible paths. Takes O(n log n + k) for n paths and k pairs of overlapping
+    /// paths. If more than about 400 n pairs of bounding boxes overlap, nothing moves.
     #[must_use]
     pub fn batched<K: Ord>(&self, key: impl Fn(usize) -> K) -> Self {
         let paths: Vec<Path<'_>> = self.paths().collect();

@@ -139,10 +139,10 @@ use crate::viewpoint::Ray;
 /// z coordinate with a corner or point. (If a grid of markers is seen exactly along a plane of the grid, the
 /// nearest marker may be painted first. Move the eye a little, or pass the markers in another order.)
 ///
-/// A point at a corner of a line is painted after the two segments that meet at the corner, under two
-/// conditions: no polygon's plane passes through the corner, and no other point lies at the line's previous
-/// or next corner. Closed lines and repeated corners follow the same rule. If more than two segments meet at
-/// a point, some segments may be painted after the point.
+/// A point at a corner of a line is painted after the two pieces of the line that meet at the corner, under
+/// two conditions: no polygon's plane passes through the corner, and no other point lies at the line's
+/// previous or next corner. Closed lines and repeated corners follow the same rule. If more than two segments
+/// meet at a point, some segments may be painted after the point.
 ///
 /// The tree's [tolerance](BspTree#exactness) also applies to lines and points:
 ///
@@ -289,8 +289,8 @@ impl Overlay {
         Ok(self.targets(tree)?.hits(ray))
     }
 
-    /// Returns whether a polygon of the tree or of the overlay lies between the two ends of a ray, by the
-    /// rules of [`BspTree::is_occluded`]. [`Ray::between`] makes a ray that ends at a point.
+    /// Returns whether a polygon of the tree or of the overlay blocks a line of sight, by the rules of
+    /// [`BspTree::is_occluded`]. [`Ray::between`] makes the line of sight between two points.
     ///
     /// # Errors
     ///
